@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_base_core_clock_h
+#define undine_base_core_clock_h
+
+#include <limits>
+
+namespace undine
+{
+  /// Simulated time [s] and the number of accepted steps. Steps are shortened so that they land on
+  /// the end and on multiples of `landing_interval`.
+  struct Clock
+  {
+    double       time             = 0;                                        ///< [s]
+    double       end_time         = 0;                                        ///< [s]
+    unsigned int step             = 0;                                        ///< accepted so far
+    unsigned int maximum_steps    = std::numeric_limits<unsigned int>::max(); ///< stop after these
+    double       landing_interval = 0; ///< [s]; 0: only the end is landed on
+
+    bool
+    ended() const;
+
+    /// Add an accepted step of length dt [s] and snap to a landing time closer than rounding.
+    void
+    advance(double dt);
+
+    /// The largest step not above `dt` [s] that reaches the next landing time in equal parts.
+    double
+    land(double dt) const;
+
+    /// The next landing time after now [s].
+    double
+    next_landing() const;
+  };
+} // namespace undine
+
+#endif

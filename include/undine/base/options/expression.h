@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_base_options_expression_h
+#define undine_base_options_expression_h
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <memory>
+#include <string>
+
+namespace undine
+{
+  /// A function of place x, y(, z) [m] and time t [s], written in muParser's language by the user.
+  /// `n_components` expressions are separated by ';' (or by ',' where they are plain numbers).
+  template <int dim, int n_components = 1>
+  class Expression
+  {
+  public:
+    /// Zero everywhere.
+    Expression();
+
+    /// Throws InputError, saying why, if the text cannot be evaluated.
+    explicit Expression(const std::string &text);
+
+    /// One component at `point` and `time`.
+    double
+    value(const dealii::Point<dim> &point, double time, unsigned int component = 0) const;
+
+    /// All components at once, as a vector in space.
+    dealii::Tensor<1, n_components>
+    vector(const dealii::Point<dim> &point, double time) const;
+
+    const std::string &
+    text() const;
+
+    /// True if the text is the number zero (or a list of them): nothing to evaluate.
+    bool
+    is_zero() const;
+
+  private:
+    std::string                                  expression;
+    bool                                         zero;
+    std::shared_ptr<dealii::FunctionParser<dim>> function; ///< shared: copies read the same text
+  };
+} // namespace undine
+
+#endif

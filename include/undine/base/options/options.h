@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_base_options_options_h
+#define undine_base_options_options_h
+
+#include <undine/base/core/errors.h>
+#include <undine/base/core/registry.h>
+#include <undine/base/options/parameter_file.h>
+#include <undine/base/options/values.h>
+
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// One section of the parameter file. A part declares, reads, checks and documents a parameter
+  /// in one statement:
+  ///
+  ///     options.add("Density", density, "kg/m^3", Allowed::positive(), "Mass per volume at rest.");
+  ///
+  /// which leaves the scene's value in `density`, or its initial value if the scene has none. The
+  /// same statements list every parameter for `--reference` and `parameters.prm`. An Options is a
+  /// light handle: copies refer to the same file.
+  class Options
+  {
+  public:
+    /// What one statement said, with the value in use.
+    struct Entry
+    {
+      std::string section; ///< "Bodies/beam/" or ""
+      std::string key;
+      std::string value;
+      std::string default_value;
+      std::string type;
+      std::string unit;
+      std::string allowed;
+      std::string help;
+      std::string condition; ///< "Model = neo-Hookean": known only then; empty: always
+    };
+
+    /// Read from a file.
+    explicit Options(ParameterFile file);
+
+    /// For documentation: add() changes nothing, choose() visits every registered part, and
+    /// named_sections() returns one example name.
+    static Options
+    for_reference();
+
+    bool
+    is_reference() const;
+
+    /// The subsection `name` of this section.
+    Options
+    section(const std::string &name) const;
+
+    /// Declare and read one parameter. Throws InputError naming file, line, section, key and
+    /// allowed values if the scene's value is not allowed.
+    template <class Value>
+    void
+    add(const std::string &key,
+        Value             &variable,
+        const std::string &unit,
+        const Allowed     &allowed,
+        const std::string &help) const
+    {
+      const std::string before = write_value(variable);
+      if (const auto *text = assigned_text(key))
+        try
+          {
+            read_value(*text, allowed, variable);
+          }
+        catch (const InputError &reason)
+          {
+            throw error(key,
+                        "the value '" + *text + "' " + reason.what(),
+                        "Allowed: " + type_name(variable) +
+                          (allowed.description.empty() ? "" : ", " + allowed.description) +
+                          (unit.empty() ? "" : " [" + unit + "]"));
+          }
+      record({"",
+              key,
+              write_value(variable),
+              before,
+              type_name(variable),
+              unit,
+              allowed.description,
+              help,
+              ""});
+    }
+
+    /// A parameter without a sensible default: the scene must give it.
+    template <class Value>
+    void
+    require(const std::string &key,
+            Value             &variable,
+            const std::string &unit,
+            const Allowed     &allowed,
+            const std::string &help) const
+    {
+      if (!is_reference() && !given(key))
+        throw error(key,
+                    "must be given",
+                    "Allowed: " + type_name(variable) +
+                      (allowed.description.empty() ? "" : ", " + allowed.description) +
+                      (unit.empty() ? "" : " [" + unit + "]") + ". " + help);
+      add(key, variable, unit, allowed, help);
+    }
+
+    /// Choose a registered part by name and let it add its own options to this section.
+    template <class Part>
+    std::unique_ptr<Part>
+    choose(const std::string &key, const std::string &default_name, const std::string &help) const
+    {
+      const auto &registry = Registry<Part>::instance();
+      std::string name     = default_name;
+      add(key, name, "", Allowed::one_of(registry.names()), help);
+      if (is_reference())
+        for (const auto &other : registry.names())
+          registry.make(other)->add_options(under_condition(key + " = " + other));
+      auto part = registry.make(name);
+      if (!is_reference())
+        part->add_options(*this);
+      return part;
+    }
+
+    /// True if the scene assigns this key, or anything in this section if `key` is empty.
+    bool
+    given(const std::string &key = "") const;
+
+    /// Names of subsections that the scene's author chose (bodies, probes, ...).
+    std::vector<std::string>
+    named_sections(const std::string &example_name) const;
+
+    /// An error about `key` of this section; `what` continues "section 'S', key 'K': ...", `hint`
+    /// says what is allowed or what to try.
+    InputError
+    error(const std::string &key, const std::string &what, const std::string &hint) const;
+
+    /// Throws InputError for the first assignment of the scene that no part has read: its place,
+    /// and the keys that exist there, the most similar one first.
+    void
+    assert_all_used() const;
+
+    const std::vector<Entry> &
+    entries() const;
+
+    const ParameterFile &
+    file() const;
+
+    /// Everything used, as a parameter file that gives the same run.
+    void
+    write_prm(std::ostream &out) const;
+
+    /// The same as JSON.
+    void
+    write_json(std::ostream &out) const;
+
+    /// All entries with unit, range, default and help, as Markdown.
+    void
+    write_reference(std::ostream &out) const;
+
+  private:
+    struct Store
+    {
+      ParameterFile      file;
+      bool               reference = false;
+      std::vector<Entry> entries;
+    };
+
+    Options() = default;
+
+    const std::string *
+    assigned_text(const std::string &key) const;
+
+    void
+    record(Entry entry) const;
+
+    Options
+    under_condition(const std::string &condition) const;
+
+    std::shared_ptr<Store> store;
+    std::string            path; ///< "Bodies/beam/" or ""
+    std::string            condition;
+  };
+} // namespace undine
+
+#endif

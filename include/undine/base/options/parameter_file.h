@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_base_options_parameter_file_h
+#define undine_base_options_parameter_file_h
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// The assignments of a scene, before anything is known about their meaning. The syntax is that
+  /// of deal.II's ParameterHandler (`subsection NAME`, `set KEY = VALUE`, `end`, `include FILE`,
+  /// `#` comments, `\` at a line's end continues it), but, since named bodies and chosen parts
+  /// decide which keys exist, the text is read before any key is declared.
+  class ParameterFile
+  {
+  public:
+    struct Assignment
+    {
+      std::string value;
+      std::string file;         ///< as given by the user; "command line" for --set
+      std::string place;        ///< "scene.prm:12"
+      bool        used = false; ///< some part has read it
+    };
+
+    /// An empty scene: every parameter has its default.
+    ParameterFile() = default;
+
+    /// Read a file. Throws FileError if it cannot be opened, InputError if a line makes no sense.
+    explicit ParameterFile(const std::string &file_name);
+
+    /// Apply `Section/Subsection/Key=value`. Throws InputError if it has another form.
+    void
+    set(const std::string &assignment);
+
+    /// The assignment of `path` ("Section/Key"), or nullptr if the scene has none.
+    Assignment *
+    find(const std::string &path);
+
+    /// The names of the subsections of `path` that the scene mentions, in order of appearance.
+    std::vector<std::string>
+    subsections(const std::string &path) const;
+
+    /// Paths of all assignments, in order of appearance.
+    const std::vector<std::string> &
+    paths() const;
+
+    const Assignment &
+    at(const std::string &path) const;
+
+    /// The name of the file read, "defaults" without one.
+    const std::string &
+    name() const;
+
+    /// The text read, included files in place.
+    const std::string &
+    text() const;
+
+  private:
+    void
+    read(const std::string &file_name, std::vector<std::string> sections);
+
+    void
+    assign(const std::string &path, const Assignment &assignment);
+
+    std::string                       file_name = "defaults";
+    std::string                       all_text;
+    std::map<std::string, Assignment> assignments;
+    std::vector<std::string>          order;
+    std::vector<std::string>          section_order;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/base/options/expression.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  namespace
+  {
+    template <int dim>
+    std::string
+    variables()
+    {
+      return dealii::FunctionParser<dim>::default_variable_names() + ",t";
+    }
+
+
+    /// "1, 0" -> "1;0" if the text has no ';' and as many commas as needed, else the text.
+    std::string
+    semicolons(const std::string &text, const unsigned int n_components)
+    {
+      const bool plain_list = text.find(';') == std::string::npos &&
+                              text.find('(') == std::string::npos &&
+                              std::count(text.begin(), text.end(), ',') == int(n_components) - 1;
+      std::string result = text;
+      if (plain_list)
+        std::replace(result.begin(), result.end(), ',', ';');
+      return result;
+    }
+
+
+    bool
+    only_zeros(const std::string &text)
+    {
+      return text.find_first_not_of("0.;, ") == std::string::npos;
+    }
+  } // namespace
+
+
+  template <int dim, int n_components>
+  Expression<dim, n_components>::Expression()
+    : Expression(n_components == 1 ? "0" : (n_components == 2 ? "0; 0" : "0; 0; 0"))
+  {}
+
+
+  template <int dim, int n_components>
+  Expression<dim, n_components>::Expression(const std::string &text)
+    : expression(text)
+    , zero(only_zeros(text))
+    , function(std::make_shared<dealii::FunctionParser<dim>>(n_components))
+  {
+    const std::string list = semicolons(text, n_components);
+    const auto parts       = dealii::Utilities::split_string_list(list, ';');
+    if (parts.size() != n_components)
+      throw InputError("needs " + std::to_string(n_components) +
+                       " expression(s), separated by ';', but has " + std::to_string(parts.size()));
+    try
+      {
+        function->initialize(variables<dim>(), list, {{"pi", dealii::numbers::PI}}, true);
+        dealii::Point<dim> somewhere;
+        for (unsigned int c = 0; c < n_components; ++c)
+          function->value(somewhere, c);
+      }
+    catch (const std::exception &failure)
+      {
+        std::string       reason = failure.what();
+        const std::string mark   = "Message:";
+        if (const auto at = reason.find(mark); at != std::string::npos)
+          reason = dealii::Utilities::trim(
+            reason.substr(at + mark.size(), reason.find('\n', at) - at - mark.size()));
+        throw InputError("is not an expression in " + variables<dim>() + " (" + reason + ")");
+      }
+  }
+
+
+  template <int dim, int n_components>
+  double
+  Expression<dim, n_components>::value(const dealii::Point<dim> &point,
+                                       const double              time,
+                                       const unsigned int        component) const
+  {
+    if (zero)
+      return 0;
+    function->set_time(time);
+    return function->value(point, component);
+  }
+
+
+  template <int dim, int n_components>
+  dealii::Tensor<1, n_components>
+  Expression<dim, n_components>::vector(const dealii::Point<dim> &point, const double time) const
+  {
+    dealii::Tensor<1, n_components> result;
+    for (unsigned int c = 0; c < n_components; ++c)
+      result[c] = value(point, time, c);
+    return result;
+  }
+
+
+  template <int dim, int n_components>
+  const std::string &
+  Expression<dim, n_components>::text() const
+  {
+    return expression;
+  }
+
+
+  template <int dim, int n_components>
+  bool
+  Expression<dim, n_components>::is_zero() const
+  {
+    return zero;
+  }
+
+
+  template class Expression<1, 1>;
+  template class Expression<2, 1>;
+  template class Expression<3, 1>;
+  template class Expression<2, 2>;
+  template class Expression<3, 3>;
+} // namespace undine

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/options/options.h>
+
+#include <boost/property_tree/json_parser.hpp>
+#include <boost/property_tree/ptree.hpp>
+
+#include <algorithm>
+#include <ostream>
+#include <set>
+
+namespace undine
+{
+  namespace
+  {
+    struct SectionTree
+    {
+      std::vector<const Options::Entry *>               entries;
+      std::vector<std::pair<std::string, SectionTree>> sections;
+    };
+
+
+    SectionTree
+    sort_by_section(const std::vector<Options::Entry> &entries)
+    {
+      SectionTree root;
+      for (const auto &entry : entries)
+        {
+          SectionTree *place = &root;
+          for (std::size_t begin = 0; begin < entry.section.size();)
+            {
+              const auto        end  = entry.section.find('/', begin);
+              const std::string name = entry.section.substr(begin, end - begin);
+              auto              at   = std::find_if(place->sections.begin(),
+                                     place->sections.end(),
+                                     [&](const auto &section) { return section.first == name; });
+              if (at == place->sections.end())
+                at = place->sections.insert(at, {name, SectionTree()});
+              place = &at->second;
+              begin = end + 1;
+            }
+          place->entries.push_back(&entry);
+        }
+      return root;
+    }
+
+
+    void
+    write_prm_section(std::ostream &out, const SectionTree &tree, const std::string &indent)
+    {
+      for (const auto *entry : tree.entries)
+        out << indent << "set " << entry->key << " = " << entry->value
+            << (entry->unit.empty() ? "" : "  # [" + entry->unit + "]") << '\n';
+      for (const auto &[name, section] : tree.sections)
+        {
+          out << '\n' << indent << "subsection " << name << '\n';
+          write_prm_section(out, section, indent + "  ");
+          out << indent << "end\n";
+        }
+    }
+
+
+    boost::property_tree::ptree
+    json_section(const SectionTree &tree)
+    {
+      // push_back, not put: keys may contain dots.
+      boost::property_tree::ptree json;
+      for (const auto *entry : tree.entries)
+        json.push_back({entry->key, boost::property_tree::ptree(entry->value)});
+      for (const auto &[name, section] : tree.sections)
+        json.push_back({name, json_section(section)});
+      return json;
+    }
+
+
+    std::string
+    escaped(std::string text)
+    {
+      for (std::size_t at = 0; (at = text.find_first_of("|<>", at)) != std::string::npos; at += 2)
+        text.insert(at, "\\");
+      return text;
+    }
+
+
+    void
+    write_reference_section(std::ostream &     out,
+                            const SectionTree &tree,
+                            const std::string &path,
+                            const unsigned int depth)
+    {
+      if (!tree.entries.empty())
+        {
+          out << '\n' << std::string(depth, '#') << ' '
+              << (path.empty() ? "Top level" : escaped(path)) << "\n\n"
+              << "| key | default | allowed | unit | meaning |\n|---|---|---|---|---|\n";
+          for (const auto *entry : tree.entries)
+            out << "| " << escaped(entry->key) << " | " << escaped(entry->default_value) << " | "
+                << escaped(entry->type == entry->allowed || entry->allowed.empty() ?
+                             entry->type :
+                             (entry->type == "text" ? entry->allowed :
+                                                      entry->type + ", " + entry->allowed))
+                << " | " << entry->unit << " | "
+                << (entry->condition.empty() ? "" : "*" + escaped(entry->condition) + ":* ")
+                << escaped(entry->help) << " |\n";
+        }
+      for (const auto &[name, section] : tree.sections)
+        write_reference_section(out, section, path.empty() ? name : path + " / " + name, depth);
+    }
+  } // namespace
+
+
+  void
+  Options::write_prm(std::ostream &out) const
+  {
+    write_prm_section(out, sort_by_section(entries()), "");
+  }
+
+
+  void
+  Options::write_json(std::ostream &out) const
+  {
+    boost::property_tree::write_json(out, json_section(sort_by_section(entries())));
+  }
+
+
+  void
+  Options::write_reference(std::ostream &out) const
+  {
+    write_reference_section(out, sort_by_section(entries()), "", 2);
+  }
+} // namespace undine

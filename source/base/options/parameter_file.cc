@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/base/options/parameter_file.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace undine
+{
+  namespace
+  {
+    std::string
+    join(const std::vector<std::string> &sections)
+    {
+      std::string path;
+      for (const auto &section : sections)
+        path += section + "/";
+      return path;
+    }
+
+
+    std::string
+    without_comment(const std::string &line)
+    {
+      return dealii::Utilities::trim(line.substr(0, line.find('#')));
+    }
+
+
+    /// The rest of `line` after `word` and blanks; empty if the line does not begin with the word.
+    std::string
+    rest_after(const std::string &line, const std::string &word)
+    {
+      if (line.compare(0, word.size(), word) != 0 || line.size() == word.size() ||
+          !std::isspace(static_cast<unsigned char>(line[word.size()])))
+        return "";
+      return dealii::Utilities::trim(line.substr(word.size()));
+    }
+  } // namespace
+
+
+  ParameterFile::ParameterFile(const std::string &file_name)
+    : file_name(file_name)
+  {
+    read(file_name, {});
+  }
+
+
+  void
+  ParameterFile::read(const std::string &name, std::vector<std::string> sections)
+  {
+    std::ifstream in(name);
+    if (!in || std::filesystem::is_directory(name))
+      throw FileError("cannot read the parameter file '" + name +
+                      "'. Check the path; the scenes that come with the program are in prm/.");
+
+    const std::size_t depth_at_start = sections.size();
+    unsigned int      number         = 0;
+    for (std::string raw; std::getline(in, raw);)
+      {
+        ++number;
+        all_text += raw + "\n";
+        std::string line = without_comment(raw);
+        while (!line.empty() && line.back() == '\\' && std::getline(in, raw))
+          {
+            ++number;
+            all_text += raw + "\n";
+            line.back() = ' ';
+            line += without_comment(raw);
+          }
+        if (line.empty())
+          continue;
+
+        const std::string place = name + ":" + std::to_string(number);
+        if (line == "end")
+          {
+            if (sections.size() == depth_at_start)
+              throw InputError(place + ": 'end' without an open subsection.");
+            sections.pop_back();
+          }
+        else if (const std::string section = rest_after(line, "subsection"); !section.empty())
+          {
+            if (section.find('/') != std::string::npos)
+              throw InputError(place + ": the name of subsection '" + section +
+                               "' must not contain '/'.");
+            sections.push_back(section);
+            if (std::find(section_order.begin(), section_order.end(), join(sections)) ==
+                section_order.end())
+              section_order.push_back(join(sections));
+          }
+        else if (const std::string included = rest_after(line, "include"); !included.empty())
+          {
+            if (std::filesystem::path(included) == std::filesystem::path(name).filename())
+              throw InputError(place + ": the file includes itself.");
+            read((std::filesystem::path(name).parent_path() / included).string(), sections);
+          }
+        else if (const std::string setting = rest_after(line, "set");
+                 setting.find('=') != std::string::npos && setting.front() != '=')
+          {
+            const auto        equals = setting.find('=');
+            const std::string key    = dealii::Utilities::trim(setting.substr(0, equals));
+            assign(join(sections) + key,
+                   {dealii::Utilities::trim(setting.substr(equals + 1)), name, place});
+          }
+        else
+          throw InputError(place + ": cannot understand the line '" + line +
+                           "'.\n  Allowed: 'subsection NAME', 'set KEY = VALUE', 'end', "
+                           "'include FILE' and comments that begin with '#'.");
+      }
+    if (sections.size() != depth_at_start)
+      throw InputError(name + ": section '" + sections.back() +
+                       "' is still open at the end of the file; an 'end' is missing.");
+  }
+
+
+  void
+  ParameterFile::set(const std::string &text)
+  {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError("command line: '--set " + text +
+                       "' must have the form \"Section/Key=value\".");
+    const std::string path = dealii::Utilities::trim(text.substr(0, equals));
+    for (auto slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
+      {
+        const std::string section = path.substr(0, slash + 1);
+        if (std::find(section_order.begin(), section_order.end(), section) == section_order.end())
+          section_order.push_back(section);
+      }
+    assign(path, {dealii::Utilities::trim(text.substr(equals + 1)), "command line", "command line"});
+  }
+
+
+  void
+  ParameterFile::assign(const std::string &path, const Assignment &assignment)
+  {
+    const auto found = assignments.find(path);
+    if (found == assignments.end())
+      order.push_back(path);
+    else if (found->second.file == assignment.file && assignment.file != "command line")
+      throw InputError(assignment.place + ": '" + path + "' is set twice; the first time at " +
+                       found->second.place + ".");
+    assignments[path] = assignment;
+  }
+
+
+  ParameterFile::Assignment *
+  ParameterFile::find(const std::string &path)
+  {
+    const auto found = assignments.find(path);
+    return found == assignments.end() ? nullptr : &found->second;
+  }
+
+
+  std::vector<std::string>
+  ParameterFile::subsections(const std::string &path) const
+  {
+    std::vector<std::string> names;
+    for (const auto &section : section_order)
+      if (section.size() > path.size() && section.compare(0, path.size(), path) == 0)
+        {
+          const std::string rest = section.substr(path.size());
+          if (rest.find('/') == rest.size() - 1)
+            names.push_back(rest.substr(0, rest.size() - 1));
+        }
+    return names;
+  }
+
+
+  const std::vector<std::string> &
+  ParameterFile::paths() const
+  {
+    return order;
+  }
+
+
+  const ParameterFile::Assignment &
+  ParameterFile::at(const std::string &path) const
+  {
+    return assignments.at(path);
+  }
+
+
+  const std::string &
+  ParameterFile::name() const
+  {
+    return file_name;
+  }
+
+
+  const std::string &
+  ParameterFile::text() const
+  {
+    return all_text;
+  }
+} // namespace undine

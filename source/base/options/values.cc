@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/base/options/values.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace undine
+{
+  namespace
+  {
+    /// Shortest of the two usual spellings that gives back the same bits.
+    std::string
+    shortest(const double value)
+    {
+      for (const int digits : {6, 15, 17})
+        {
+          std::ostringstream text;
+          text << std::setprecision(digits) << value;
+          if (std::stod(text.str()) == value)
+            return text.str();
+        }
+      return std::to_string(value);
+    }
+
+
+    template <class Value>
+    std::string
+    join(const Value &values)
+    {
+      std::string text;
+      for (const auto &value : values)
+        text += (text.empty() ? "" : ", ") + write_value(value);
+      return text;
+    }
+
+
+    std::vector<std::string>
+    split(const std::string &text, const std::size_t expected)
+    {
+      const auto parts = dealii::Utilities::split_string_list(text, ',');
+      if (parts.size() != expected)
+        throw InputError("has " + std::to_string(parts.size()) + " entries instead of " +
+                         std::to_string(expected) + " (separated by ',')");
+      return parts;
+    }
+  } // namespace
+
+
+  Allowed
+  Allowed::anything()
+  {
+    return {};
+  }
+
+
+  Allowed
+  Allowed::positive()
+  {
+    return {"> 0", [](const double v) { return v > 0; }, {}};
+  }
+
+
+  Allowed
+  Allowed::not_negative()
+  {
+    return {">= 0", [](const double v) { return v >= 0; }, {}};
+  }
+
+
+  Allowed
+  Allowed::between(const double lower, const double upper)
+  {
+    return {"from " + shortest(lower) + " to " + shortest(upper),
+            [=](const double v) { return v >= lower && v <= upper; },
+            {}};
+  }
+
+
+  Allowed
+  Allowed::below(const double lower, const double upper)
+  {
+    return {"from " + shortest(lower) + " to below " + shortest(upper),
+            [=](const double v) { return v >= lower && v < upper; },
+            {}};
+  }
+
+
+  Allowed
+  Allowed::one_of(const std::vector<std::string> &words)
+  {
+    std::string description;
+    for (const auto &word : words)
+      description += (description.empty() ? "" : " | ") + word;
+    return {description, {}, words};
+  }
+
+
+  void
+  read_value(const std::string &text, const Allowed &allowed, double &value)
+  {
+    std::size_t end = 0;
+    try
+      {
+        value = std::stod(text, &end);
+      }
+    catch (const std::exception &)
+      {
+        end = 0;
+      }
+    if (end == 0 || end != text.size())
+      {
+        try
+          {
+            dealii::FunctionParser<1> parser(1);
+            parser.initialize("x", text, {{"pi", dealii::numbers::PI}});
+            value = parser.value(dealii::Point<1>(std::numeric_limits<double>::quiet_NaN()));
+          }
+        catch (const std::exception &)
+          {
+            throw InputError("is not a number");
+          }
+      }
+    if (!std::isfinite(value))
+      throw InputError("is not a finite number");
+    if (allowed.number && !allowed.number(value))
+      throw InputError("is out of range");
+  }
+
+
+  void
+  read_value(const std::string &text, const Allowed &allowed, unsigned int &value)
+  {
+    double number = 0;
+    read_value(text, allowed, number);
+    if (number != std::floor(number) || number < 0 ||
+        number > std::numeric_limits<unsigned int>::max())
+      throw InputError("is not a whole number that is zero or more");
+    value = static_cast<unsigned int>(number);
+  }
+
+
+  void
+  read_value(const std::string &text, const Allowed &, bool &value)
+  {
+    if (text != "true" && text != "false")
+      throw InputError("is neither 'true' nor 'false'");
+    value = text == "true";
+  }
+
+
+  void
+  read_value(const std::string &text, const Allowed &allowed, std::string &value)
+  {
+    if (!allowed.words.empty() &&
+        std::find(allowed.words.begin(), allowed.words.end(), text) == allowed.words.end())
+      throw InputError("is not among the allowed words");
+    value = text;
+  }
+
+
+  void
+  read_value(const std::string &text, const Allowed &allowed, std::vector<double> &value)
+  {
+    value.clear();
+    for (const auto &part : dealii::Utilities::split_string_list(text, ','))
+      {
+        value.push_back(0);
+        read_value(part, allowed, value.back());
+      }
+  }
+
+
+  void
+  read_value(const std::string &text, const Allowed &allowed, std::vector<std::string> &value)
+  {
+    value.clear();
+    for (const auto &part : dealii::Utilities::split_string_list(text, ','))
+      {
+        value.emplace_back();
+        read_value(part, allowed, value.back());
+      }
+  }
+
+
+  template <int dim>
+  void
+  read_value(const std::string &text, const Allowed &allowed, dealii::Tensor<1, dim> &value)
+  {
+    const auto parts = split(text, dim);
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      read_value(parts[axis], allowed, value[axis]);
+  }
+
+
+  template <int dim>
+  void
+  read_value(const std::string &text, const Allowed &allowed, dealii::Point<dim> &value)
+  {
+    read_value(text, allowed, static_cast<dealii::Tensor<1, dim> &>(value));
+  }
+
+
+  template <std::size_t n>
+  void
+  read_value(const std::string &text, const Allowed &allowed, std::array<unsigned int, n> &value)
+  {
+    const auto parts = split(text, n);
+    for (std::size_t i = 0; i < n; ++i)
+      read_value(parts[i], allowed, value[i]);
+  }
+
+
+  std::string
+  write_value(const double value)
+  {
+    return shortest(value);
+  }
+
+
+  std::string
+  write_value(const unsigned int value)
+  {
+    return std::to_string(value);
+  }
+
+
+  std::string
+  write_value(const bool value)
+  {
+    return value ? "true" : "false";
+  }
+
+
+  std::string
+  write_value(const std::string &value)
+  {
+    return value;
+  }
+
+
+  std::string
+  write_value(const std::vector<double> &value)
+  {
+    return join(value);
+  }
+
+
+  std::string
+  write_value(const std::vector<std::string> &value)
+  {
+    return join(value);
+  }
+
+
+  template <int dim>
+  std::string
+  write_value(const dealii::Tensor<1, dim> &value)
+  {
+    std::array<double, dim> numbers;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      numbers[axis] = value[axis];
+    return join(numbers);
+  }
+
+
+  template <std::size_t n>
+  std::string
+  write_value(const std::array<unsigned int, n> &value)
+  {
+    return join(value);
+  }
+
+
+  template void
+  read_value(const std::string &, const Allowed &, dealii::Tensor<1, 2> &);
+  template void
+  read_value(const std::string &, const Allowed &, dealii::Tensor<1, 3> &);
+  template void
+  read_value(const std::string &, const Allowed &, dealii::Point<2> &);
+  template void
+  read_value(const std::string &, const Allowed &, dealii::Point<3> &);
+  template void
+  read_value(const std::string &, const Allowed &, std::array<unsigned int, 2> &);
+  template void
+  read_value(const std::string &, const Allowed &, std::array<unsigned int, 3> &);
+  template std::string
+  write_value(const dealii::Tensor<1, 2> &);
+  template std::string
+  write_value(const dealii::Tensor<1, 3> &);
+  template std::string
+  write_value(const std::array<unsigned int, 2> &);
+  template std::string
+  write_value(const std::array<unsigned int, 3> &);
+} // namespace undine
