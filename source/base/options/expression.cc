@@ -6,7 +6,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cmath>
+#include <iostream>
+#include <sstream>
 
 namespace undine
 {
@@ -31,6 +32,19 @@ namespace undine
       if (plain_list)
         std::replace(result.begin(), result.end(), ',', ';');
       return result;
+    }
+
+
+    /// What follows "Message:" in muParser's report.
+    std::string
+    first_message(const std::string &report)
+    {
+      const std::string mark  = "Message:";
+      const auto        begin = report.find(mark);
+      if (begin == std::string::npos)
+        return "muParser cannot read it";
+      const auto from = begin + mark.size();
+      return dealii::Utilities::trim(report.substr(from, report.find('\n', from) - from));
     }
 
 
@@ -59,21 +73,22 @@ namespace undine
     if (parts.size() != n_components)
       throw InputError("needs " + std::to_string(n_components) +
                        " expression(s), separated by ';', but has " + std::to_string(parts.size()));
+    // deal.II prints muParser's complaint before it throws: keep it for the message.
+    std::ostringstream complaint;
+    auto *const        screen = std::cerr.rdbuf(complaint.rdbuf());
     try
       {
         function->initialize(variables<dim>(), list, {{"pi", dealii::numbers::PI}}, true);
         dealii::Point<dim> somewhere;
         for (unsigned int c = 0; c < n_components; ++c)
           function->value(somewhere, c);
+        std::cerr.rdbuf(screen);
       }
-    catch (const std::exception &failure)
+    catch (const std::exception &)
       {
-        std::string       reason = failure.what();
-        const std::string mark   = "Message:";
-        if (const auto at = reason.find(mark); at != std::string::npos)
-          reason = dealii::Utilities::trim(
-            reason.substr(at + mark.size(), reason.find('\n', at) - at - mark.size()));
-        throw InputError("is not an expression in " + variables<dim>() + " (" + reason + ")");
+        std::cerr.rdbuf(screen);
+        throw InputError("is not an expression in " + variables<dim>() + ": " +
+                         first_message(complaint.str()));
       }
   }
 

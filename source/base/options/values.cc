@@ -117,9 +117,9 @@ namespace undine
       {
         try
           {
-            dealii::FunctionParser<1> parser(1);
-            parser.initialize("x", text, {{"pi", dealii::numbers::PI}});
-            value = parser.value(dealii::Point<1>(std::numeric_limits<double>::quiet_NaN()));
+            // An expression that needs a variable is not a number: it gives no finite value.
+            const double nothing = std::numeric_limits<double>::quiet_NaN();
+            value                = Expression<1>(text).value(dealii::Point<1>(nothing), nothing);
           }
         catch (const std::exception &)
           {

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_effects_effect_h
+#define undine_effects_effect_h
+
+#include <undine/base/core/column.h>
+#include <undine/base/options/options.h>
+#include <undine/fluid/fluid_step.h>
+#include <undine/solid/solid_environment.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// One physical effect. A scene calls for it by a subsection of its name in `Effects`; nothing
+  /// else switches it on, and an effect that is off does not exist during the run. A new effect is
+  /// one new .cc file that overrides what it needs and registers itself.
+  template <int dim>
+  class Effect
+  {
+  public:
+    /// What the effect may ask about the rest of the scene.
+    struct Surroundings
+    {
+      bool                     has_fluid;
+      bool                     has_solid;
+      std::vector<std::string> effects; ///< names of those that the scene calls for
+      std::vector<std::string> scalars; ///< names of the scalar fields that are carried
+    };
+
+    virtual ~Effect() = default;
+
+    /// The keys by which a scene calls for the effect. Throws InputError on impossible values.
+    virtual void
+    add_options(const Options &options) = 0;
+
+    /// Throws InputError, with a hint, if the effect contradicts the rest of the scene.
+    virtual void
+    check(const Options &options, const Surroundings &surroundings) const;
+
+    /// What it will do, with its values, in a few words: "(0, -9.81) m/s^2 as reduced pressure".
+    virtual std::string
+    summary() const = 0;
+
+    /// Scalar fields that the effect adds to the fluid's state.
+    virtual std::vector<std::string>
+    scalars() const;
+
+    /// Set up the fields named by scalars(): initial values.
+    virtual void
+    initialize(const FluidModel<dim> &model, FluidState<dim> &state) const;
+
+    /// The fluid step runs these three phases for every effect, in this order. @{
+
+    /// Carry velocity and scalars with the flow.
+    virtual void
+    transport(FluidStep<dim> &step) const;
+
+    /// Add explicit forces: v += h f / rho on the faces.
+    virtual void
+    accelerate(FluidStep<dim> &step) const;
+
+    /// Implicit terms.
+    virtual void
+    diffuse(FluidStep<dim> &step) const;
+    /// @}
+
+    /// Say what the effect does to the bodies.
+    virtual void
+    affect(SolidEnvironment<dim> &environment) const;
+
+    /// What the effect adds to the file `statistics`.
+    virtual Columns
+    columns(const FluidModel<dim> &model, const FluidState<dim> &state) const;
+  };
+
+  /// The effects that the scene calls for, in alphabetical order of their names.
+  template <int dim>
+  using Effects = std::vector<std::unique_ptr<Effect<dim>>>;
+} // namespace undine
+
+#endif
