@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_models_h
+#define undine_coupled_models_h
+
+#include <undine/effects/effect.h>
+#include <undine/fluid/fluid_model.h>
+#include <undine/solid/solid_model.h>
+
+#include <memory>
+
+namespace undine
+{
+  /// What a scene is made of; constant during a run.
+  template <int dim>
+  struct Models
+  {
+    std::unique_ptr<const SolidModel<dim>> solid; ///< nullptr: no bodies
+    std::unique_ptr<const FluidModel<dim>> fluid; ///< nullptr: no fluid
+    Effects<dim>                           effects;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_report_h
+#define undine_coupled_report_h
+
+namespace undine
+{
+  /// How an accepted step went.
+  struct Report
+  {
+    double       dt                = 0; ///< the step that was accepted [s]
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0; ///< of all linear solves of the step
+    unsigned int cuts              = 0; ///< how often the asked step was cut and redone
+  };
+} // namespace undine
+
+#endif

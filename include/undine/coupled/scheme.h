@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_scheme_h
+#define undine_coupled_scheme_h
+
+#include <undine/base/core/timing.h>
+#include <undine/base/options/options.h>
+#include <undine/coupled/models.h>
+#include <undine/coupled/report.h>
+#include <undine/coupled/state.h>
+
+namespace undine
+{
+  /// A way to take fluid and bodies from one time to the next. The only writer of State.
+  template <int dim>
+  class Scheme
+  {
+  public:
+    virtual ~Scheme() = default;
+
+    virtual void
+    add_options(const Options &options) = 0;
+
+    /// Bring an empty state to t = 0. The references must outlive the scheme.
+    virtual void
+    initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) = 0;
+
+    /// The step to try next [s]; lands on the clock's landing times.
+    virtual double
+    choose_dt(const State<dim> &state) const = 0;
+
+    /// Advance fluid and bodies (not the clock) by at most `dt` [s]. Throws SolveError if no step can
+    /// be accepted; the state is then the one before the step.
+    virtual Report
+    step(State<dim> &state, double dt) = 0;
+  };
+} // namespace undine
+
+#endif

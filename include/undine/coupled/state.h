@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_state_h
+#define undine_coupled_state_h
+
+#include <undine/base/core/clock.h>
+#include <undine/fluid/fluid_state.h>
+#include <undine/solid/solid_state.h>
+
+namespace undine
+{
+  /// Everything that changes during a run, as plain data: a saved copy is a complete restart.
+  /// Only a Scheme writes to it. Parts that a scene does not have stay empty.
+  template <int dim>
+  struct State
+  {
+    Clock           clock;
+    SolidState      solid;
+    FluidState<dim> fluid;
+  };
+} // namespace undine
+
+#endif

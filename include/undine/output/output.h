@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_output_output_h
+#define undine_output_output_h
+
+#include <undine/base/core/timing.h>
+#include <undine/base/options/options.h>
+#include <undine/coupled/models.h>
+#include <undine/coupled/report.h>
+#include <undine/coupled/state.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace undine
+{
+  template <int dim>
+  class Probe;
+
+  /// What an output may use besides the state. The references outlive the outputs.
+  template <int dim>
+  struct OutputContext
+  {
+    MPI_Comm                                        communicator;
+    std::filesystem::path                           directory; ///< exists and is writable
+    const Models<dim>                              &models;
+    const std::vector<std::unique_ptr<Probe<dim>>> &probes;
+    TimingTree                                     &timing;
+  };
+
+  /// Something that is written during a run. A new output is one new .cc file that registers itself;
+  /// a scene asks for it by its name in `Output / Parts`.
+  template <int dim>
+  class Output
+  {
+  public:
+    virtual ~Output() = default;
+
+    /// Reads the part's own subsection of `Output`.
+    virtual void
+    add_options(const Options &options) = 0;
+
+    /// Called once before the first write. `state` is the initial one, or that of a checkpoint when
+    /// the run is resumed: records later than its clock must be dropped, earlier ones kept.
+    virtual void
+    start(const OutputContext<dim> &context, const State<dim> &state) = 0;
+
+    /// Called for the initial state and after every step.
+    virtual bool
+    due(const Clock &clock) const = 0;
+
+    /// Collective. Files are written under a temporary name and renamed, or appended to by whole
+    /// lines, so that what exists is valid at any moment. Throws FileError.
+    virtual void
+    write(const State<dim> &state, const Report &report) = 0;
+  };
+} // namespace undine
+
+#endif

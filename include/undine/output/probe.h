@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_output_probe_h
+#define undine_output_probe_h
+
+#include <undine/base/core/column.h>
+#include <undine/base/options/options.h>
+#include <undine/coupled/models.h>
+#include <undine/coupled/state.h>
+
+#include <string>
+
+namespace undine
+{
+  /// A named measurement whose numbers become columns of `statistics`: a subsection of `Probes`
+  /// with its kind. A new kind is one new .cc file that registers itself.
+  template <int dim>
+  class Probe
+  {
+  public:
+    virtual ~Probe() = default;
+
+    virtual void
+    add_options(const Options &options) = 0;
+
+    /// Throws InputError if what the probe looks at does not exist. Collective.
+    virtual void
+    start(const Options &options, const Models<dim> &models) = 0;
+
+    /// Collective; the same on all ranks. `name` is that of the probe's subsection.
+    virtual Columns
+    columns(const std::string &name, const Models<dim> &models, const State<dim> &state) const = 0;
+  };
+} // namespace undine
+
+#endif
