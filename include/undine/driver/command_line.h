@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_driver_command_line_h
+#define undine_driver_command_line_h
+
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// What the user asks of the program.
+  struct Request
+  {
+    enum class Action
+    {
+      run,       ///< run `scene_file`
+      resume,    ///< continue the run in `directory`
+      validate,  ///< read and check `scene_file`, run nothing
+      reference, ///< print all parameters
+      nothing    ///< help or version was printed
+    };
+
+    Action                   action = Action::nothing;
+    std::string              scene_file;
+    std::string              directory;   ///< --output, or the folder of the run to resume
+    std::vector<std::string> assignments; ///< of --set
+    int                      exit_code = 0;
+  };
+
+  /// Reads the program's arguments. `first_rank` is true where help and errors are to be printed.
+  Request
+  read_command_line(int argc, char **argv, const bool first_rank);
+} // namespace undine
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_driver_progress_h
+#define undine_driver_progress_h
+
+#include <undine/base/core/clock.h>
+#include <undine/coupled/report.h>
+#include <undine/driver/log.h>
+
+#include <chrono>
+
+namespace undine
+{
+  /// One line per step at most every half second (and for the first and the last step): step, time,
+  /// step length, iterations, share done, wall time left.
+  class Progress
+  {
+  public:
+    Progress(Log &log, const Clock &start);
+
+    void
+    report(const Clock &clock, const Report &report);
+
+  private:
+    using Moment = std::chrono::steady_clock::time_point;
+
+    double
+    share_done(const Clock &clock) const;
+
+    Log   &log;
+    Clock  start;
+    Moment begin;
+    Moment last_line;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_scene_scene_h
+#define undine_scene_scene_h
+
+#include <undine/base/options/options.h>
+#include <undine/coupled/models.h>
+#include <undine/coupled/scheme.h>
+#include <undine/output/output.h>
+#include <undine/output/probe.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// All that a parameter file describes, ready to run.
+  template <int dim>
+  struct Scene
+  {
+    std::string                               title;
+    std::filesystem::path                     directory; ///< where results go
+    Clock                                     clock;
+    Models<dim>                               models;
+    std::vector<std::string>                  effect_names; ///< of models.effects, same order
+    std::unique_ptr<Scheme<dim>>              scheme;
+    std::vector<std::unique_ptr<Output<dim>>> outputs;
+    std::vector<std::unique_ptr<Probe<dim>>>  probes;
+  };
+
+  /// The dimension that the scene asks for. Throws InputError unless it is 2 or 3.
+  unsigned int
+  read_dimension(const Options &options);
+
+  /// Read and check the whole parameter file and build the models. Collective. Throws InputError.
+  template <int dim>
+  Scene<dim>
+  read_scene(const Options &options, MPI_Comm communicator);
+
+  /// Declare every parameter of every part, for --reference (`options` is Options::for_reference()).
+  template <int dim>
+  void
+  declare_scene(const Options &options);
+} // namespace undine
+
+#endif

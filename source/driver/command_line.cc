@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/version.h>
+#include <undine/driver/command_line.h>
+
+#include <deal.II/base/config.h>
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <sstream>
+
+namespace undine
+{
+  Request
+  read_command_line(const int argc, char **argv, const bool first_rank)
+  {
+    Request  request;
+    CLI::App app("Undine: two-way coupling of incompressible fluids and deformable bodies.\n"
+                 "Results go to the folder named by Output/Directory in the scene, or by --output.\n"
+                 "In parallel: mpirun -n 4 undine SCENE.prm",
+                 "undine");
+    app.set_version_flag("--version",
+                         std::string("undine " UNDINE_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION
+                                     ", " UNDINE_BUILD_TYPE ")"));
+    bool validate = false, reference = false;
+    app.add_option("scene", request.scene_file, "the parameter file to run")->type_name("SCENE.prm");
+    app.add_option("--output", request.directory, "folder for the results")->type_name("DIR");
+    app
+      .add_option("--set",
+                  request.assignments,
+                  "change a parameter: --set \"Time/End=2\" (may be given several times)")
+      ->type_name("Section/Key=value")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_flag("--validate", validate, "check the scene, run nothing");
+    app.add_flag("--reference", reference, "print every parameter with unit, range and default");
+
+    CLI::App *resume = app.add_subcommand("resume", "continue a run from its last checkpoint");
+    resume->add_option("directory", request.directory, "folder of the run")->required()->type_name("DIR");
+    resume
+      ->add_option("--set", request.assignments, "change a parameter, for example Time/End")
+      ->type_name("Section/Key=value")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+
+    std::ostringstream out, err;
+    try
+      {
+        app.parse(argc, argv);
+        if (!resume->parsed() && !reference && request.scene_file.empty())
+          throw CLI::ValidationError(
+            "no scene", "name a parameter file, for example prm/cantilever.prm; see --help");
+      }
+    catch (const CLI::ParseError &stop)
+      {
+        request.exit_code = app.exit(stop, out, err) == 0 ? 0 : 2;
+        if (first_rank)
+          {
+            std::cout << out.str();
+            std::cerr << err.str();
+          }
+        return request;
+      }
+
+    request.action = resume->parsed() ? Request::Action::resume :
+                     reference        ? Request::Action::reference :
+                     validate         ? Request::Action::validate :
+                                        Request::Action::run;
+    return request;
+  }
+} // namespace undine

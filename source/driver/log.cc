@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/driver/log.h>
+
+#include <iostream>
+
+namespace undine
+{
+  Log::Log(const MPI_Comm communicator)
+    : communicator(communicator)
+    , speaks(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+  {}
+
+
+  void
+  Log::open(const std::filesystem::path &directory, const std::ios::openmode mode)
+  {
+    if (speaks)
+      file.open(directory / "log.txt", std::ios::out | mode);
+    const bool opened = !speaks || file.good();
+    if (dealii::Utilities::MPI::min(opened ? 1 : 0, communicator) == 0)
+      throw FileError("cannot write '" + (directory / "log.txt").string() +
+                      "'. Check the permissions of the folder, or choose another with --output.");
+  }
+
+
+  void
+  Log::write(const std::string &text)
+  {
+    std::cout << text << std::flush;
+    if (file.is_open())
+      file << text << std::flush;
+  }
+} // namespace undine

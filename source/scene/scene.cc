@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/scene/scene.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  namespace
+  {
+    void
+    read_title(const Options &options, std::string &title)
+    {
+      title = std::filesystem::path(options.file().name()).stem().string();
+      options.add("Title", title, "", Allowed::anything(), "What the scene shows.");
+    }
+
+
+    Clock
+    read_clock(const Options &options)
+    {
+      Clock      clock;
+      const auto time = options.section("Time");
+      time.require("End", clock.end_time, "s", Allowed::positive(), "Simulated time at the end.");
+      time.add("Maximum steps",
+               clock.maximum_steps,
+               "",
+               Allowed::positive(),
+               "Stop after this many steps even if the end is not reached.");
+      return clock;
+    }
+
+
+    /// The subsections of `Effects` that the scene has, or every effect for the reference.
+    template <int dim>
+    std::vector<std::string>
+    called_effects(const Options &effects)
+    {
+      const auto &registry = Registry<Effect<dim>>::instance();
+      if (effects.is_reference())
+        return registry.names();
+      auto names = effects.named_sections("effect");
+      std::sort(names.begin(), names.end());
+      for (const auto &name : names)
+        if (!registry.contains(name))
+          throw effects.error(name, "there is no such effect", "Allowed: " + registry.joined_names());
+      return names;
+    }
+
+
+    template <int dim>
+    void
+    read_effects(Scene<dim> &scene, const Options &options)
+    {
+      const auto section = options.section("Effects");
+      scene.effect_names = called_effects<dim>(section);
+      for (const auto &name : scene.effect_names)
+        {
+          scene.models.effects.push_back(Registry<Effect<dim>>::instance().make(name));
+          scene.models.effects.back()->add_options(section.section(name));
+        }
+    }
+
+
+    /// Every effect is asked whether the rest of the scene lets it act.
+    template <int dim>
+    void
+    check_effects(const Scene<dim> &scene, const Options &options)
+    {
+      typename Effect<dim>::Surroundings surroundings{
+        scene.models.fluid != nullptr, scene.models.solid != nullptr, scene.effect_names, {}};
+      for (const auto &effect : scene.models.effects)
+        for (const auto &scalar : effect->scalars())
+          surroundings.scalars.push_back(scalar);
+      for (unsigned int e = 0; e < scene.models.effects.size(); ++e)
+        scene.models.effects[e]->check(options.section("Effects").section(scene.effect_names[e]),
+                                       surroundings);
+    }
+
+
+    template <int dim>
+    void
+    read_outputs(Scene<dim> &scene, const Options &options)
+    {
+      const auto  section  = options.section("Output");
+      const auto &registry = Registry<Output<dim>>::instance();
+
+      std::string directory = "output/" + std::filesystem::path(options.file().name()).stem().string();
+      section.add("Directory", directory, "", Allowed::anything(), "Folder for the results.");
+      scene.directory = directory;
+      section.add("Interval",
+                  scene.clock.landing_interval,
+                  "s",
+                  Allowed::not_negative(),
+                  "Simulated time between pictures; steps are shortened to land on its multiples. "
+                  "0: only the first and the last time.");
+      std::vector<std::string> parts{"vtu", "checkpoint"};
+      section.add("Parts",
+                  parts,
+                  "",
+                  Allowed::one_of(registry.names()),
+                  "What is written besides the file 'statistics', which always is.");
+      if (options.is_reference())
+        parts = registry.names();
+      if (std::find(parts.begin(), parts.end(), "statistics") == parts.end())
+        parts.insert(parts.begin(), "statistics");
+      for (const auto &name : parts)
+        {
+          scene.outputs.push_back(registry.make(name));
+          scene.outputs.back()->add_options(section);
+        }
+    }
+
+
+    template <int dim>
+    void
+    read_probes(Scene<dim> &scene, const Options &options)
+    {
+      const auto section = options.section("Probes");
+      for (const auto &name : section.named_sections("probe"))
+        {
+          const auto probe = section.section(name);
+          if (!options.is_reference() && !probe.given("Kind"))
+            throw probe.error("Kind",
+                              "must be given",
+                              "Allowed: " + Registry<Probe<dim>>::instance().joined_names());
+          scene.probes.push_back(
+            probe.template choose<Probe<dim>>("Kind",
+                                              Registry<Probe<dim>>::instance().names().front(),
+                                              "What is measured."));
+        }
+    }
+
+
+    /// Everything but the models, which cost time and memory.
+    template <int dim>
+    Scene<dim>
+    read_without_models(const Options &options)
+    {
+      Scene<dim>   scene;
+      unsigned int dimension = dim;
+      read_title(options, scene.title);
+      options.add("Dimension", dimension, "", Allowed::between(2, 3), "Of space.");
+      scene.clock  = read_clock(options);
+      scene.scheme = options.choose<Scheme<dim>>("Scheme", "simultaneous", "How time advances.");
+      read_effects(scene, options);
+      read_outputs(scene, options);
+      read_probes(scene, options);
+      return scene;
+    }
+  } // namespace
+
+
+  unsigned int
+  read_dimension(const Options &options)
+  {
+    unsigned int dimension = 2;
+    options.require("Dimension", dimension, "", Allowed::between(2, 3), "Of space.");
+    return dimension;
+  }
+
+
+  template <int dim>
+  Scene<dim>
+  read_scene(const Options &options, const MPI_Comm communicator)
+  {
+    auto scene = read_without_models<dim>(options);
+    if (options.section("Bodies").given())
+      scene.models.solid = std::make_unique<const SolidModel<dim>>(options, communicator);
+    if (options.section("Fluid").given())
+      scene.models.fluid = std::make_unique<const FluidModel<dim>>(options, communicator);
+    if (!scene.models.solid && !scene.models.fluid)
+      throw options.error("",
+                          "the scene has neither a fluid nor a body",
+                          "Try: add a subsection 'Fluid' or a subsection 'Bodies'.");
+    options.assert_all_used();
+    check_effects(scene, options);
+    for (unsigned int p = 0; p < scene.probes.size(); ++p)
+      scene.probes[p]->start(
+        options.section("Probes").section(options.section("Probes").named_sections("probe")[p]),
+        scene.models);
+    return scene;
+  }
+
+
+  template <int dim>
+  void
+  declare_scene(const Options &options)
+  {
+    read_without_models<dim>(options);
+    SolidModel<dim>::declare(options);
+    FluidModel<dim>::declare(options);
+  }
+
+
+  template Scene<2>
+  read_scene(const Options &, MPI_Comm);
+  template Scene<3>
+  read_scene(const Options &, MPI_Comm);
+  template void
+  declare_scene<2>(const Options &);
+  template void
+  declare_scene<3>(const Options &);
+} // namespace undine
