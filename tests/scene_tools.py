@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the checks of whole runs share: starting the program and comparing `statistics`."""
+import os
+import re
+import subprocess
+
+SLACK = 2  # iterations
+
+
+def environment():
+    """MPI allowed for root and on few cores; one thread a rank."""
+    return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                OMPI_MCA_rmaps_base_oversubscribe="1", OMP_NUM_THREADS="1")
+
+
+def command(program, arguments, ranks):
+    return (["mpirun", "-np", str(ranks)] if ranks > 1 else []) + [program] + arguments
+
+
+def run(program, arguments, ranks=1):
+    """Run to the end; raises RuntimeError with all that was printed if the exit code is not 0."""
+    result = subprocess.run(command(program, arguments, ranks), env=environment(),
+                            capture_output=True, text=True)
+    if result.returncode != 0:
+        raise RuntimeError(f"exit code {result.returncode} of {' '.join(arguments)}\n"
+                           f"{result.stdout}\n{result.stderr}")
+    return result
+
+
+def statistics(folder):
+    with open(os.path.join(folder, "statistics")) as file:
+        return file.read()
+
+
+def parse(text):
+    """Column names, their units, and the rows of numbers."""
+    names, units, rows = [], [], []
+    for line in text.splitlines():
+        header = re.match(r"# *\d+: (.*) \[(.*)\]$", line)
+        if header:
+            names.append(header[1])
+            units.append(header[2])
+        elif line.strip() and not line.startswith("#"):
+            rows.append([float(word) for word in line.split()])
+    return names, units, rows
+
+
+def differences(text, record, tolerance, compare_iterations):
+    """A list of differences, one line each. Two numbers are the same if they differ by no more than
+    `tolerance` of the largest number of the same unit in the record: rounding noise in a component
+    that should be zero is measured by its neighbours."""
+    names, units, rows = parse(text)
+    expected_names, expected_units, expected_rows = parse(record)
+    if (names, units) != (expected_names, expected_units):
+        return [f"columns differ: {names} {units}\nexpected {expected_names} {expected_units}"]
+    if len(rows) != len(expected_rows) or not rows:
+        return [f"{len(rows)} rows instead of {len(expected_rows)}"]
+    scale = {}
+    for row in expected_rows:
+        for unit, value in zip(units, row):
+            scale[unit] = max(scale.get(unit, 0.0), abs(value))
+    result = []
+    for number, (row, expected) in enumerate(zip(rows, expected_rows)):
+        for name, unit, value, wanted in zip(names, units, row, expected):
+            counted = "iterations" in name.lower()
+            if counted and not compare_iterations:
+                continue
+            allowed = SLACK if counted else tolerance * scale[unit]
+            if not abs(value - wanted) <= allowed:
+                result.append(f"row {number}, {name}: {value!r} instead of {wanted!r} "
+                              f"(allowed difference {allowed:.3g} {unit})")
+    return result
