@@ -49,7 +49,7 @@ namespace undine
           for (unsigned int k = 0; k < 3; ++k)
           {
             for (unsigned int l = 0; l < 3; ++l)
-              result[i][j][k][l] = lambda * F[i][j] * F[k][l] + mu * F[i][l] * F[k][j];
+              result[i][j][k][l] += lambda * F[i][j] * F[k][l] + mu * F[i][l] * F[k][j];
             result[i][j][k][j] += mu * left[i][k];
             result[i][j][i][k] += S[j][k];
           }
