@@ -15,15 +15,17 @@ namespace undine
   read_command_line(const int argc, char **argv, const bool first_rank)
   {
     Request  request;
-    CLI::App app("Undine: two-way coupling of incompressible fluids and deformable bodies.\n"
-                 "Results go to the folder named by Output/Directory in the scene, or by --output.\n"
-                 "In parallel: mpirun -n 4 undine SCENE.prm",
-                 "undine");
+    CLI::App app(
+      "Undine: two-way coupling of incompressible fluids and deformable bodies.\n"
+      "Results go to the folder named by Output/Directory in the scene, or by --output.\n"
+      "In parallel: mpirun -n 4 undine SCENE.prm",
+      "undine");
     app.set_version_flag("--version",
                          std::string("undine " UNDINE_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION
                                      ", " UNDINE_BUILD_TYPE ")"));
     bool validate = false, reference = false;
-    app.add_option("scene", request.scene_file, "the parameter file to run")->type_name("SCENE.prm");
+    app.add_option("scene", request.scene_file, "the parameter file to run")
+      ->type_name("SCENE.prm");
     app.add_option("--output", request.directory, "folder for the results")->type_name("DIR");
     app
       .add_option("--set",
@@ -36,9 +38,10 @@ namespace undine
     app.add_flag("--reference", reference, "print every parameter with unit, range and default");
 
     CLI::App *resume = app.add_subcommand("resume", "continue a run from its last checkpoint");
-    resume->add_option("directory", request.directory, "folder of the run")->required()->type_name("DIR");
-    resume
-      ->add_option("--set", request.assignments, "change a parameter, for example Time/End")
+    resume->add_option("directory", request.directory, "folder of the run")
+      ->required()
+      ->type_name("DIR");
+    resume->add_option("--set", request.assignments, "change a parameter, for example Time/End")
       ->type_name("Section/Key=value")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -62,10 +65,10 @@ namespace undine
         return request;
       }
 
-    request.action = resume->parsed() ? Request::Action::resume :
-                     reference        ? Request::Action::reference :
-                     validate         ? Request::Action::validate :
-                                        Request::Action::run;
+    request.action = resume->parsed() ? Request::Action::resume
+                     : reference      ? Request::Action::reference
+                     : validate       ? Request::Action::validate
+                                      : Request::Action::run;
     return request;
   }
 } // namespace undine

@@ -9,7 +9,8 @@ namespace undine
   Log::Log(const MPI_Comm communicator)
     : communicator(communicator)
     , speaks(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-  {}
+  {
+  }
 
 
   void

@@ -34,7 +34,8 @@ namespace undine
     }
 
 
-    /// A failed run keeps its last good state: it can be looked at, and resumed with other settings.
+    /// A failed run keeps its last good state: it can be looked at, and resumed with other
+    /// settings.
     template <int dim>
     void
     run_keeping_last_state(State<dim> &state, Scene<dim> &scene, Log &log, TimingTree &timing)
@@ -49,7 +50,8 @@ namespace undine
           throw SolveError("step " + std::to_string(state.clock.step + 1) + ", which begins at " +
                            fmt::format("{:.6g}", state.clock.time) + " s: " + error.what() +
                            "\nThe state before it is kept; 'undine resume " +
-                           scene.directory.string() + " --set \"Section/Key=value\"' continues it.");
+                           scene.directory.string() +
+                           " --set \"Section/Key=value\"' continues it.");
         }
     }
 

@@ -71,9 +71,8 @@ namespace undine
       std::error_code problem;
       fs::create_directories(directory, problem);
       if (problem)
-        throw FileError("cannot create the folder '" + directory.string() +
-                        "' for the results: " + problem.message() +
-                        ". Choose another with --output or Output/Directory.");
+        throw FileError("cannot create the folder '" + directory.string() + "' for the results: " +
+                        problem.message() + ". Choose another with --output or Output/Directory.");
       if (!resumed)
         {
           // A checkpoint of an earlier run in the same folder must not be taken for one of this.
@@ -94,8 +93,7 @@ namespace undine
       log.print("\n{:<20} {:<4} why", "effect", "");
       for (const auto &name : Registry<Effect<dim>>::instance().names())
         {
-          const auto found =
-            std::find(scene.effect_names.begin(), scene.effect_names.end(), name);
+          const auto found = std::find(scene.effect_names.begin(), scene.effect_names.end(), name);
           if (found == scene.effect_names.end())
             log.print("{:<20} off  no subsection 'Effects / {}'", name, name);
           else

@@ -42,7 +42,8 @@ namespace undine
       std::sort(names.begin(), names.end());
       for (const auto &name : names)
         if (!registry.contains(name))
-          throw effects.error(name, "there is no such effect", "Allowed: " + registry.joined_names());
+          throw effects.error(
+            name, "there is no such effect", "Allowed: " + registry.joined_names());
       return names;
     }
 
@@ -84,7 +85,8 @@ namespace undine
       const auto  section  = options.section("Output");
       const auto &registry = Registry<Output<dim>>::instance();
 
-      std::string directory = "output/" + std::filesystem::path(options.file().name()).stem().string();
+      std::string directory =
+        "output/" + std::filesystem::path(options.file().name()).stem().string();
       section.add("Directory", directory, "", Allowed::anything(), "Folder for the results.");
       scene.directory = directory;
       section.add("Interval",
@@ -123,10 +125,8 @@ namespace undine
             throw probe.error("Kind",
                               "must be given",
                               "Allowed: " + Registry<Probe<dim>>::instance().joined_names());
-          scene.probes.push_back(
-            probe.template choose<Probe<dim>>("Kind",
-                                              Registry<Probe<dim>>::instance().names().front(),
-                                              "What is measured."));
+          scene.probes.push_back(probe.template choose<Probe<dim>>(
+            "Kind", Registry<Probe<dim>>::instance().names().front(), "What is measured."));
         }
     }
 

@@ -17,22 +17,24 @@ namespace undine
   {
     /// I + H, where the directions that H does not know have F_33 = `thickness_stretch`.
     template <int dim>
-    Tensor<2, 3> embed(const Tensor<2, dim> &H, const double thickness_stretch)
+    Tensor<2, 3>
+    embed(const Tensor<2, dim> &H, const double thickness_stretch)
     {
       Tensor<2, 3> F;
       F[2][2] = thickness_stretch;
       for (unsigned int i = 0; i < dim; ++i)
-      {
-        for (unsigned int j = 0; j < dim; ++j)
-          F[i][j] = H[i][j];
-        F[i][i] = 1 + H[i][i];
-      }
+        {
+          for (unsigned int j = 0; j < dim; ++j)
+            F[i][j] = H[i][j];
+          F[i][i] = 1 + H[i][i];
+        }
       return F;
     }
 
 
     template <int dim>
-    Tensor<2, dim> restrict_to_space(const Tensor<2, 3> &P)
+    Tensor<2, dim>
+    restrict_to_space(const Tensor<2, 3> &P)
     {
       Tensor<2, dim> result;
       for (unsigned int i = 0; i < dim; ++i)
@@ -43,7 +45,8 @@ namespace undine
 
 
     template <int dim>
-    Tensor<4, dim> restrict_to_space(const Tensor<4, 3> &A)
+    Tensor<4, dim>
+    restrict_to_space(const Tensor<4, 3> &A)
     {
       Tensor<4, dim> result;
       for (unsigned int i = 0; i < dim; ++i)
@@ -54,7 +57,8 @@ namespace undine
 
 
     /// det F, positive if the law needs that.
-    double valid_jacobian(const Material &material, const Tensor<2, 3> &F)
+    double
+    valid_jacobian(const Material &material, const Tensor<2, 3> &F)
     {
       const double J = determinant(F);
       if (!material.tolerates_inversion())
@@ -64,17 +68,19 @@ namespace undine
 
 
     /// W with the law's U(det F).
-    double whole_energy(const Material &material, const Tensor<2, 3> &F)
+    double
+    whole_energy(const Material &material, const Tensor<2, 3> &F)
     {
       const double W = material.energy(F);
       return material.has_separate_volumetric_part()
-                 ? W + material.volumetric_energy(determinant(F))
-                 : W;
+               ? W + material.volumetric_energy(determinant(F))
+               : W;
     }
 
 
     /// P with U'(J) J F^-T.
-    Tensor<2, 3> whole_stress(const Material &material, const Tensor<2, 3> &F)
+    Tensor<2, 3>
+    whole_stress(const Material &material, const Tensor<2, 3> &F)
     {
       const auto P = material.stress(F);
       if (!material.has_separate_volumetric_part())
@@ -85,13 +91,14 @@ namespace undine
 
 
     /// A with (U'' J^2 + U' J) B_ij B_kl - U' J B_il B_kj, B = F^-T.
-    Tensor<4, 3> whole_tangent(const Material &material, const Tensor<2, 3> &F)
+    Tensor<4, 3>
+    whole_tangent(const Material &material, const Tensor<2, 3> &F)
     {
       auto A = material.tangent(F);
       if (!material.has_separate_volumetric_part())
         return A;
       const double J         = determinant(F);
-      const auto B           = transpose(invert(F));
+      const auto   B         = transpose(invert(F));
       const double pressure  = material.volumetric_stress(J) * J;
       const double stiffness = material.volumetric_tangent(J) * J * J + pressure;
       for (unsigned int i = 0; i < 3; ++i)
@@ -105,7 +112,8 @@ namespace undine
 
     /// One Newton step for P_33 = 0, which is a minimum of W over F_33. Laws that need det F > 0
     /// move by a factor between 1/2 and 2, downhill where W is not convex.
-    double next_stretch(const Material &material, const Tensor<2, 3> &F)
+    double
+    next_stretch(const Material &material, const Tensor<2, 3> &F)
     {
       const double stretch = F[2][2];
       const double P33     = whole_stress(material, F)[2][2];
@@ -120,20 +128,21 @@ namespace undine
 
 
     /// F with the F_33 at which P_33 = 0.
-    Tensor<2, 3> free_thickness(const Material &material, const Tensor<2, 2> &H)
+    Tensor<2, 3>
+    free_thickness(const Material &material, const Tensor<2, 2> &H)
     {
       const unsigned int max_steps = 60;
-      const double tolerance       = 1e-10; // of a quadratic method: the next step is rounding
+      const double       tolerance = 1e-10; // of a quadratic method: the next step is rounding
 
       auto F = embed<2>(H, 1);
       valid_jacobian(material, F);
       for (unsigned int step = 0; step < max_steps; ++step)
-      {
-        const double stretch = F[2][2];
-        F[2][2]              = next_stretch(material, F);
-        if (std::abs(F[2][2] - stretch) <= tolerance * std::abs(stretch))
-          return F;
-      }
+        {
+          const double stretch = F[2][2];
+          F[2][2]              = next_stretch(material, F);
+          if (std::abs(F[2][2] - stretch) <= tolerance * std::abs(stretch))
+            return F;
+        }
       throw SolveError(fmt::format("plane stress: no thickness makes the stress across the sheet "
                                    "vanish (last F_33 = {:g}), the sheet is stretched beyond what "
                                    "its material law allows. Try smaller steps or loads, or the "
@@ -144,8 +153,10 @@ namespace undine
 
 
   template <int dim>
-  void Kinematics<dim>::add_options(const Options &)
-  {}
+  void
+  Kinematics<dim>::add_options(const Options &)
+  {
+  }
 
 
   /// F has fixed entries in the directions that H does not know: 3D and plane strain.
@@ -153,14 +164,16 @@ namespace undine
   class FixedThickness : public Kinematics<dim>
   {
   public:
-    bool separates_volumetric_part(const Material &material) const override
+    bool
+    separates_volumetric_part(const Material &material) const override
     {
       return material.has_separate_volumetric_part();
     }
 
-    PointResponse<dim> respond(const Material &material, const Tensor<2, dim> &H) const override
+    PointResponse<dim>
+    respond(const Material &material, const Tensor<2, dim> &H) const override
     {
-      const auto F = embed<dim>(H, 1);
+      const auto         F = embed<dim>(H, 1);
       PointResponse<dim> point;
       point.jacobian          = valid_jacobian(material, F);
       point.thickness_stretch = 1;
@@ -169,14 +182,16 @@ namespace undine
       return point;
     }
 
-    PointStress<dim> stress(const Material &material, const Tensor<2, dim> &H) const override
+    PointStress<dim>
+    stress(const Material &material, const Tensor<2, dim> &H) const override
     {
-      const auto F   = embed<dim>(H, 1);
+      const auto   F = embed<dim>(H, 1);
       const double J = valid_jacobian(material, F);
       return {restrict_to_space<dim>(material.stress(F)), J, 1.};
     }
 
-    double energy(const Material &material, const Tensor<2, dim> &H) const override
+    double
+    energy(const Material &material, const Tensor<2, dim> &H) const override
     {
       const auto F = embed<dim>(H, 1);
       valid_jacobian(material, F);
@@ -189,23 +204,28 @@ namespace undine
   class PlaneStress : public Kinematics<2>
   {
   public:
-    bool separates_volumetric_part(const Material &) const override
+    bool
+    separates_volumetric_part(const Material &) const override
     {
       return false;
     }
 
-    PointResponse<2> respond(const Material &material, const Gradient &H) const override;
+    PointResponse<2>
+    respond(const Material &material, const Gradient &H) const override;
 
-    PointStress<2> stress(const Material &material, const Gradient &H) const override;
+    PointStress<2>
+    stress(const Material &material, const Gradient &H) const override;
 
-    double energy(const Material &material, const Gradient &H) const override;
+    double
+    energy(const Material &material, const Gradient &H) const override;
   };
 
 
-  PointResponse<2> PlaneStress::respond(const Material &material, const Gradient &H) const
+  PointResponse<2>
+  PlaneStress::respond(const Material &material, const Gradient &H) const
   {
-    const auto F = free_thickness(material, H);
-    const auto A = whole_tangent(material, F);
+    const auto       F = free_thickness(material, H);
+    const auto       A = whole_tangent(material, F);
     PointResponse<2> point;
     point.jacobian          = determinant(F);
     point.thickness_stretch = F[2][2];
@@ -215,40 +235,44 @@ namespace undine
         for (unsigned int k = 0; k < 2; ++k)
           for (unsigned int l = 0; l < 2; ++l)
             point.tangent[i][j][k][l] =
-                A[i][j][k][l] - A[i][j][2][2] * A[2][2][k][l] / A[2][2][2][2];
+              A[i][j][k][l] - A[i][j][2][2] * A[2][2][k][l] / A[2][2][2][2];
     return point;
   }
 
 
-  PointStress<2> PlaneStress::stress(const Material &material, const Gradient &H) const
+  PointStress<2>
+  PlaneStress::stress(const Material &material, const Gradient &H) const
   {
     const auto F = free_thickness(material, H);
     return {restrict_to_space<2>(whole_stress(material, F)), determinant(F), F[2][2]};
   }
 
 
-  double PlaneStress::energy(const Material &material, const Gradient &H) const
+  double
+  PlaneStress::energy(const Material &material, const Gradient &H) const
   {
     return whole_energy(material, free_thickness(material, H));
   }
 
 
   static const Register<Kinematics<2>, FixedThickness<2>>
-      plane_strain("plane strain", "A slice of a long body: no strain across the plane.");
+    plane_strain("plane strain", "A slice of a long body: no strain across the plane.");
   static const Register<Kinematics<2>, PlaneStress>
-      plane_stress("plane stress", "A thin sheet: no stress across the plane.");
+    plane_stress("plane stress", "A thin sheet: no stress across the plane.");
 
 
   template <>
-  std::unique_ptr<Kinematics<2>> choose_kinematics<2>(const Options &options)
+  std::unique_ptr<Kinematics<2>>
+  choose_kinematics<2>(const Options &options)
   {
-    return options.choose<Kinematics<2>>("Plane state", "plane strain",
-                                         "What is zero across the plane: strain or stress.");
+    return options.choose<Kinematics<2>>(
+      "Plane state", "plane strain", "What is zero across the plane: strain or stress.");
   }
 
 
   template <>
-  std::unique_ptr<Kinematics<3>> choose_kinematics<3>(const Options &)
+  std::unique_ptr<Kinematics<3>>
+  choose_kinematics<3>(const Options &)
   {
     return std::make_unique<FixedThickness<3>>();
   }

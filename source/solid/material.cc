@@ -3,37 +3,43 @@
 
 namespace undine
 {
-  bool Material::has_separate_volumetric_part() const
+  bool
+  Material::has_separate_volumetric_part() const
   {
     return false;
   }
 
 
-  double Material::volumetric_energy(const double) const
+  double
+  Material::volumetric_energy(const double) const
   {
     return 0;
   }
 
 
-  double Material::volumetric_stress(const double) const
+  double
+  Material::volumetric_stress(const double) const
   {
     return 0;
   }
 
 
-  double Material::volumetric_tangent(const double) const
+  double
+  Material::volumetric_tangent(const double) const
   {
     return 0;
   }
 
 
-  bool Material::tolerates_inversion() const
+  bool
+  Material::tolerates_inversion() const
   {
     return false;
   }
 
 
-  bool Material::is_objective() const
+  bool
+  Material::is_objective() const
   {
     return true;
   }

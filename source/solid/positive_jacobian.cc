@@ -8,7 +8,8 @@
 
 namespace undine
 {
-  void assert_positive_jacobian(const double J)
+  void
+  assert_positive_jacobian(const double J)
   {
     // Not-a-number fails every comparison, so it is caught here too.
     if (!(J > 0 && std::isfinite(J)))
@@ -19,7 +20,8 @@ namespace undine
   }
 
 
-  double positive_jacobian(const dealii::Tensor<2, 3> &F)
+  double
+  positive_jacobian(const dealii::Tensor<2, 3> &F)
   {
     const double J = dealii::determinant(F);
     assert_positive_jacobian(J);

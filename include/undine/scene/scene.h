@@ -40,7 +40,8 @@ namespace undine
   Scene<dim>
   read_scene(const Options &options, MPI_Comm communicator);
 
-  /// Declare every parameter of every part, for --reference (`options` is Options::for_reference()).
+  /// Declare every parameter of every part, for --reference (`options` is
+  /// Options::for_reference()).
   template <int dim>
   void
   declare_scene(const Options &options);

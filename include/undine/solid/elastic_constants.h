@@ -13,19 +13,24 @@ namespace undine
     double poissons_ratio = 0.3; ///< nu [1]
 
     /// `Young's modulus` > 0 and -1 < `Poisson's ratio` < 0.5, both without default.
-    void add_options(const Options &options);
+    void
+    add_options(const Options &options);
 
     /// mu = E / (2 (1 + nu)) [Pa]
-    double shear_modulus() const;
+    double
+    shear_modulus() const;
 
     /// lambda = E nu / ((1 + nu) (1 - 2 nu)) [Pa], Lame's first constant.
-    double lame_modulus() const;
+    double
+    lame_modulus() const;
 
     /// K = lambda + 2/3 mu [Pa]
-    double bulk_modulus() const;
+    double
+    bulk_modulus() const;
 
     /// lambda + 2 mu [Pa]
-    double p_wave_modulus() const;
+    double
+    p_wave_modulus() const;
   };
 } // namespace undine
 

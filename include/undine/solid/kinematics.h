@@ -15,9 +15,9 @@ namespace undine
   template <int dim>
   struct PointStress
   {
-    dealii::Tensor<2, dim> stress; ///< first Piola-Kirchhoff stress P [Pa]
-    double jacobian;               ///< det F in three dimensions [1]
-    double thickness_stretch;      ///< F_33 of a plane body, 1 in 3D [1]
+    dealii::Tensor<2, dim> stress;            ///< first Piola-Kirchhoff stress P [Pa]
+    double                 jacobian;          ///< det F in three dimensions [1]
+    double                 thickness_stretch; ///< F_33 of a plane body, 1 in 3D [1]
   };
 
   /// The same with the tangent A_ijkl = dP_ij / dF_kl [Pa]; A_ijkl = A_klij.
@@ -50,34 +50,39 @@ namespace undine
 
     virtual ~Kinematics() = default;
 
-    virtual void add_options(const Options &options);
+    virtual void
+    add_options(const Options &options);
 
     /// True if the three functions below leave out the law's U(det F), which the element then adds
     /// at the dilatation averaged over the cell. Never so in plane stress: a plane-stress body is
     /// free to get thinner, does not lock, and takes U at each point.
-    virtual bool separates_volumetric_part(const Material &material) const = 0;
+    virtual bool
+    separates_volumetric_part(const Material &material) const = 0;
 
     /// Stress and tangent.
-    virtual PointResponse<dim> respond(const Material &material,
-                                       const Gradient &displacement_gradient) const = 0;
+    virtual PointResponse<dim>
+    respond(const Material &material, const Gradient &displacement_gradient) const = 0;
 
     /// Stress alone.
-    virtual PointStress<dim> stress(const Material &material,
-                                    const Gradient &displacement_gradient) const = 0;
+    virtual PointStress<dim>
+    stress(const Material &material, const Gradient &displacement_gradient) const = 0;
 
     /// Energy density W [J/m^3].
-    virtual double energy(const Material &material,
-                          const Gradient &displacement_gradient) const = 0;
+    virtual double
+    energy(const Material &material, const Gradient &displacement_gradient) const = 0;
   };
 
   /// In 2D what the key `Plane state` of this section names, in 3D (no key) the only one there is.
   template <int dim>
-  std::unique_ptr<Kinematics<dim>> choose_kinematics(const Options &options);
+  std::unique_ptr<Kinematics<dim>>
+  choose_kinematics(const Options &options);
 
   template <>
-  std::unique_ptr<Kinematics<2>> choose_kinematics<2>(const Options &options);
+  std::unique_ptr<Kinematics<2>>
+  choose_kinematics<2>(const Options &options);
   template <>
-  std::unique_ptr<Kinematics<3>> choose_kinematics<3>(const Options &options);
+  std::unique_ptr<Kinematics<3>>
+  choose_kinematics<3>(const Options &options);
 } // namespace undine
 
 #endif

@@ -19,37 +19,48 @@ namespace undine
 
     virtual ~Material() = default;
 
-    virtual void add_options(const Options &options) = 0;
+    virtual void
+    add_options(const Options &options) = 0;
 
     /// W(F) [J/m^3], zero at rest.
-    virtual double energy(const Gradient &F) const = 0;
+    virtual double
+    energy(const Gradient &F) const = 0;
 
     /// P = dW/dF [Pa].
-    virtual Gradient stress(const Gradient &F) const = 0;
+    virtual Gradient
+    stress(const Gradient &F) const = 0;
 
     /// A = dP/dF [Pa]; A_ijkl = A_klij.
-    virtual Tangent tangent(const Gradient &F) const = 0;
+    virtual Tangent
+    tangent(const Gradient &F) const = 0;
 
     /// True if the law is W = W_distortional(F) + U(det F) with so stiff a U that displacements
     /// alone lock: then the three functions above give the distortional part only, and the element
     /// takes U at the dilatation averaged over the cell (mean_dilatation.h).
-    virtual bool has_separate_volumetric_part() const;
+    virtual bool
+    has_separate_volumetric_part() const;
 
     /// U(J) [J/m^3], U'(J) [Pa] and U''(J) [Pa]; zero for laws without a separate part. @{
-    virtual double volumetric_energy(double J) const;
-    virtual double volumetric_stress(double J) const;
-    virtual double volumetric_tangent(double J) const;
+    virtual double
+    volumetric_energy(double J) const;
+    virtual double
+    volumetric_stress(double J) const;
+    virtual double
+    volumetric_tangent(double J) const;
     /// @}
 
     /// Is the law valid for det F <= 0 (a linear law does not see it)? The others throw SolveError
     /// there, in whichever of their functions needs det F > 0.
-    virtual bool tolerates_inversion() const;
+    virtual bool
+    tolerates_inversion() const;
 
     /// W(Q F) = W(F) for every rotation Q? True for all but laws of small rotations.
-    virtual bool is_objective() const;
+    virtual bool
+    is_objective() const;
 
     /// lambda + 2 mu at rest [Pa]: density times the squared speed of pressure waves.
-    virtual double p_wave_modulus() const = 0;
+    virtual double
+    p_wave_modulus() const = 0;
   };
 } // namespace undine
 

@@ -7,10 +7,12 @@
 namespace undine
 {
   /// Throws SolveError unless J = det F [1] is a positive, finite number.
-  void assert_positive_jacobian(double J);
+  void
+  assert_positive_jacobian(double J);
 
   /// det F [1]; throws SolveError unless it is a positive, finite number.
-  double positive_jacobian(const dealii::Tensor<2, 3> &F);
+  double
+  positive_jacobian(const dealii::Tensor<2, 3> &F);
 } // namespace undine
 
 #endif

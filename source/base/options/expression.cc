@@ -59,7 +59,8 @@ namespace undine
   template <int dim, int n_components>
   Expression<dim, n_components>::Expression()
     : Expression(n_components == 1 ? "0" : (n_components == 2 ? "0; 0" : "0; 0; 0"))
-  {}
+  {
+  }
 
 
   template <int dim, int n_components>
@@ -68,8 +69,8 @@ namespace undine
     , zero(only_zeros(text))
     , function(std::make_shared<dealii::FunctionParser<dim>>(n_components))
   {
-    const std::string list = semicolons(text, n_components);
-    const auto parts       = dealii::Utilities::split_string_list(list, ';');
+    const std::string list  = semicolons(text, n_components);
+    const auto        parts = dealii::Utilities::split_string_list(list, ';');
     if (parts.size() != n_components)
       throw InputError("needs " + std::to_string(n_components) +
                        " expression(s), separated by ';', but has " + std::to_string(parts.size()));

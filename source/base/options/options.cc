@@ -142,7 +142,7 @@ namespace undine
   InputError
   Options::error(const std::string &key, const std::string &what, const std::string &hint) const
   {
-    const auto *      assignment = store->file.find(path + key);
+    const auto       *assignment = store->file.find(path + key);
     const std::string place      = assignment != nullptr ? assignment->place : store->file.name();
     return InputError(place + ": " + section_label(path) +
                       (key.empty() ? "" : ", key '" + key + "'") + ": " + what +
@@ -171,9 +171,9 @@ namespace undine
         bool unknown_section = false;
         while (!place.empty() && !section_exists(place))
           {
-            unknown_section  = true;
+            unknown_section   = true;
             const auto parent = place.rfind('/', place.size() - 2);
-            word  = place.substr(parent == std::string::npos ? 0 : parent + 1);
+            word              = place.substr(parent == std::string::npos ? 0 : parent + 1);
             word.pop_back();
             place = parent == std::string::npos ? "" : place.substr(0, parent + 1);
           }
@@ -183,14 +183,13 @@ namespace undine
           if (entry.section == place)
             names.insert(entry.key);
           else if (entry.section.compare(0, place.size(), place) == 0)
-            names.insert(entry.section.substr(place.size(),
-                                              entry.section.find('/', place.size()) + 1 -
-                                                place.size()));
+            names.insert(entry.section.substr(
+              place.size(), entry.section.find('/', place.size()) + 1 - place.size()));
         throw InputError(
           assignment.place + ": " + section_label(place) + ", " +
           (unknown_section ? "subsection '" : "key '") + word + "': there is no such " +
-          (unknown_section ? "subsection" : "key") + " here.\n  Allowed: " +
-          most_similar_first({names.begin(), names.end()}, word) + ".");
+          (unknown_section ? "subsection" : "key") +
+          " here.\n  Allowed: " + most_similar_first({names.begin(), names.end()}, word) + ".");
       }
   }
 

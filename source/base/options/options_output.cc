@@ -14,7 +14,7 @@ namespace undine
   {
     struct SectionTree
     {
-      std::vector<const Options::Entry *>               entries;
+      std::vector<const Options::Entry *>              entries;
       std::vector<std::pair<std::string, SectionTree>> sections;
     };
 
@@ -82,22 +82,23 @@ namespace undine
 
 
     void
-    write_reference_section(std::ostream &     out,
+    write_reference_section(std::ostream      &out,
                             const SectionTree &tree,
                             const std::string &path,
                             const unsigned int depth)
     {
       if (!tree.entries.empty())
         {
-          out << '\n' << std::string(depth, '#') << ' '
-              << (path.empty() ? "Top level" : escaped(path)) << "\n\n"
+          out << '\n'
+              << std::string(depth, '#') << ' ' << (path.empty() ? "Top level" : escaped(path))
+              << "\n\n"
               << "| key | default | allowed | unit | meaning |\n|---|---|---|---|---|\n";
           for (const auto *entry : tree.entries)
             out << "| " << escaped(entry->key) << " | " << escaped(entry->default_value) << " | "
-                << escaped(entry->type == entry->allowed || entry->allowed.empty() ?
-                             entry->type :
-                             (entry->type == "text" ? entry->allowed :
-                                                      entry->type + ", " + entry->allowed))
+                << escaped(entry->type == entry->allowed || entry->allowed.empty()
+                             ? entry->type
+                             : (entry->type == "text" ? entry->allowed
+                                                      : entry->type + ", " + entry->allowed))
                 << " | " << entry->unit << " | "
                 << (entry->condition.empty() ? "" : "*" + escaped(entry->condition) + ":* ")
                 << escaped(entry->help) << " |\n";

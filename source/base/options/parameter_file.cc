@@ -129,7 +129,8 @@ namespace undine
         if (std::find(section_order.begin(), section_order.end(), section) == section_order.end())
           section_order.push_back(section);
       }
-    assign(path, {dealii::Utilities::trim(text.substr(equals + 1)), "command line", "command line"});
+    assign(path,
+           {dealii::Utilities::trim(text.substr(equals + 1)), "command line", "command line"});
   }
 
 

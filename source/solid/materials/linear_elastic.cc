@@ -14,77 +14,85 @@ namespace undine
   class LinearElastic : public Material
   {
   public:
-    void add_options(const Options &options) override
+    void
+    add_options(const Options &options) override
     {
       constants.add_options(options);
       lambda = constants.lame_modulus();
       mu     = constants.shear_modulus();
     }
 
-    double energy(const Gradient &F) const override
+    double
+    energy(const Gradient &F) const override
     {
-      const Gradient eps      = strain(F);
-      const double dilatation = trace(eps);
+      const Gradient eps        = strain(F);
+      const double   dilatation = trace(eps);
       return 0.5 * lambda * dilatation * dilatation + mu * eps.norm_square();
     }
 
-    Gradient stress(const Gradient &F) const override
+    Gradient
+    stress(const Gradient &F) const override
     {
-      const Gradient eps     = strain(F);
-      Gradient result        = 2 * mu * eps;
-      const double spherical = lambda * trace(eps);
+      const Gradient eps       = strain(F);
+      Gradient       result    = 2 * mu * eps;
+      const double   spherical = lambda * trace(eps);
       for (unsigned int i = 0; i < 3; ++i)
         result[i][i] += spherical;
       return result;
     }
 
-    Tangent tangent(const Gradient &) const override
+    Tangent
+    tangent(const Gradient &) const override
     {
       Tangent result;
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
-        {
-          result[i][i][j][j] += lambda;
-          result[i][j][i][j] += mu;
-          result[i][j][j][i] += mu;
-        }
+          {
+            result[i][i][j][j] += lambda;
+            result[i][j][i][j] += mu;
+            result[i][j][j][i] += mu;
+          }
       return result;
     }
 
-    bool tolerates_inversion() const override
+    bool
+    tolerates_inversion() const override
     {
       return true;
     }
 
-    bool is_objective() const override
+    bool
+    is_objective() const override
     {
       return false;
     }
 
-    double p_wave_modulus() const override
+    double
+    p_wave_modulus() const override
     {
       return constants.p_wave_modulus();
     }
 
   private:
-    static Gradient strain(const Gradient &F)
+    static Gradient
+    strain(const Gradient &F)
     {
       Gradient eps;
       for (unsigned int i = 0; i < 3; ++i)
-      {
-        eps[i][i] = F[i][i] - 1;
-        for (unsigned int j = 0; j < i; ++j)
-          eps[i][j] = eps[j][i] = 0.5 * (F[i][j] + F[j][i]);
-      }
+        {
+          eps[i][i] = F[i][i] - 1;
+          for (unsigned int j = 0; j < i; ++j)
+            eps[i][j] = eps[j][i] = 0.5 * (F[i][j] + F[j][i]);
+        }
       return eps;
     }
 
     ElasticConstants constants;
-    double lambda = 0;
-    double mu     = 0;
+    double           lambda = 0;
+    double           mu     = 0;
   };
 
 
   static const Register<Material, LinearElastic>
-      registered("linear elastic", "Hooke's law; displacements and rotations have to stay small.");
+    registered("linear elastic", "Hooke's law; displacements and rotations have to stay small.");
 } // namespace undine

@@ -21,64 +21,69 @@ namespace undine
   class NeoHookean : public Material
   {
   public:
-    void add_options(const Options &options) override
+    void
+    add_options(const Options &options) override
     {
       constants.add_options(options);
       lambda = constants.lame_modulus();
       mu     = constants.shear_modulus();
     }
 
-    double energy(const Gradient &F) const override
+    double
+    energy(const Gradient &F) const override
     {
       const double J = positive_jacobian(F);
       return 0.5 * mu * (F.norm_square() - 3) + 0.25 * lambda * (J * J - 1) -
              (mu + 0.5 * lambda) * std::log(J);
     }
 
-    Gradient stress(const Gradient &F) const override
+    Gradient
+    stress(const Gradient &F) const override
     {
       const double J = positive_jacobian(F);
       return mu * F + pressure_factor(J) * transpose(invert(F));
     }
 
-    Tangent tangent(const Gradient &F) const override
+    Tangent
+    tangent(const Gradient &F) const override
     {
-      const double J         = positive_jacobian(F);
-      const Gradient B       = transpose(invert(F));
-      const double stiffness = lambda * J * J;
-      const double q         = pressure_factor(J);
+      const double   J         = positive_jacobian(F);
+      const Gradient B         = transpose(invert(F));
+      const double   stiffness = lambda * J * J;
+      const double   q         = pressure_factor(J);
 
       Tangent result;
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
-        {
-          for (unsigned int k = 0; k < 3; ++k)
-            for (unsigned int l = 0; l < 3; ++l)
-              result[i][j][k][l] = stiffness * B[i][j] * B[k][l] - q * B[i][l] * B[k][j];
-          result[i][j][i][j] += mu;
-        }
+          {
+            for (unsigned int k = 0; k < 3; ++k)
+              for (unsigned int l = 0; l < 3; ++l)
+                result[i][j][k][l] = stiffness * B[i][j] * B[k][l] - q * B[i][l] * B[k][j];
+            result[i][j][i][j] += mu;
+          }
       return result;
     }
 
-    double p_wave_modulus() const override
+    double
+    p_wave_modulus() const override
     {
       return constants.p_wave_modulus();
     }
 
   private:
     /// q of the equations above [Pa].
-    double pressure_factor(const double J) const
+    double
+    pressure_factor(const double J) const
     {
       return 0.5 * lambda * (J * J - 1) - mu;
     }
 
     ElasticConstants constants;
-    double lambda = 0;
-    double mu     = 0;
+    double           lambda = 0;
+    double           mu     = 0;
   };
 
 
   static const Register<Material, NeoHookean>
-      registered("neo-Hookean",
-                 "Compressible rubber or tissue: large rotations and large strains.");
+    registered("neo-Hookean", "Compressible rubber or tissue: large rotations and large strains.");
 } // namespace undine

@@ -22,7 +22,8 @@ namespace
 
 
   template <class Check>
-  void for_every_material(const Check &check)
+  void
+  for_every_material(const Check &check)
   {
     REQUIRE(Registry<Material>::instance().names().size() >= 4);
     for (const auto &name : Registry<Material>::instance().names())
@@ -39,17 +40,18 @@ namespace
 TEST_CASE("material: stress is the derivative of energy, tangent that of stress", "[material]")
 {
   for_every_material([](const Material &material, const ElasticConstants &constants) {
-    Generator generator;
+    Generator    generator;
     const double tolerance = 1e-7 * constants.p_wave_modulus();
     for (unsigned int sample = 0; sample < n_samples; ++sample)
-    {
-      const auto F = generator.deformation_gradient();
-      const auto P = gradient_by_differences(F, [&](const auto &G) { return material.energy(G); });
-      CHECK((material.stress(F) - P).norm() < tolerance);
-      const auto A = tangent_by_differences(F, [&](const auto &G) { return material.stress(G); });
-      CHECK((material.tangent(F) - A).norm() < tolerance);
-      CHECK(asymmetry(material.tangent(F)) < 1e-12 * constants.p_wave_modulus());
-    }
+      {
+        const auto F = generator.deformation_gradient();
+        const auto P =
+          gradient_by_differences(F, [&](const auto &G) { return material.energy(G); });
+        CHECK((material.stress(F) - P).norm() < tolerance);
+        const auto A = tangent_by_differences(F, [&](const auto &G) { return material.stress(G); });
+        CHECK((material.tangent(F) - A).norm() < tolerance);
+        CHECK(asymmetry(material.tangent(F)) < 1e-12 * constants.p_wave_modulus());
+      }
   });
 }
 
@@ -60,17 +62,17 @@ TEST_CASE("material: U' and U'' are the derivatives of U", "[material]")
     const double tolerance = 1e-7 * constants.p_wave_modulus();
     const double step      = 1e-5;
     for (const double J : {0.5, 0.8, 1., 1.3, 2.})
-    {
-      const double stress =
+      {
+        const double stress =
           (material.volumetric_energy(J + step) - material.volumetric_energy(J - step)) /
           (2 * step);
-      CHECK(std::abs(material.volumetric_stress(J) - stress) < tolerance);
-      const double tangent =
+        CHECK(std::abs(material.volumetric_stress(J) - stress) < tolerance);
+        const double tangent =
           (material.volumetric_stress(J + step) - material.volumetric_stress(J - step)) /
           (2 * step);
-      CHECK(std::abs(material.volumetric_tangent(J) - tangent) < tolerance);
-      CHECK((material.volumetric_tangent(J) != 0) == material.has_separate_volumetric_part());
-    }
+        CHECK(std::abs(material.volumetric_tangent(J) - tangent) < tolerance);
+        CHECK((material.volumetric_tangent(J) != 0) == material.has_separate_volumetric_part());
+      }
   });
 }
 
@@ -97,18 +99,18 @@ TEST_CASE("material: rest is free of stress and has the isotropic tangent", "[ma
 TEST_CASE("material: a rotation of the body rotates the stress, nothing else", "[material]")
 {
   for_every_material([](const Material &material, const ElasticConstants &constants) {
-    Generator generator;
+    Generator    generator;
     const double tolerance = 1e-12 * constants.p_wave_modulus();
-    double defect          = 0;
+    double       defect    = 0;
     for (unsigned int sample = 0; sample < n_samples; ++sample)
-    {
-      const auto F = generator.deformation_gradient();
-      const auto Q = generator.rotation();
-      REQUIRE((Q * transpose(Q) - identity).norm() < 1e-14);
-      REQUIRE(determinant(Q) > 0);
-      defect = std::max(defect, std::abs(material.energy(Q * F) - material.energy(F)));
-      defect = std::max(defect, (material.stress(Q * F) - Q * material.stress(F)).norm());
-    }
+      {
+        const auto F = generator.deformation_gradient();
+        const auto Q = generator.rotation();
+        REQUIRE((Q * transpose(Q) - identity).norm() < 1e-14);
+        REQUIRE(determinant(Q) > 0);
+        defect = std::max(defect, std::abs(material.energy(Q * F) - material.energy(F)));
+        defect = std::max(defect, (material.stress(Q * F) - Q * material.stress(F)).norm());
+      }
     // A law that says it is not objective must not be: the word would mean nothing.
     CHECK((defect < tolerance) == material.is_objective());
   });
@@ -119,25 +121,25 @@ TEST_CASE("material: no law returns not-a-number for an inverted element", "[mat
 {
   for_every_material([](const Material &material, const ElasticConstants &) {
     for (const double stretch : {-1., 0.})
-    {
-      auto F                     = identity;
-      F[0][0]                    = stretch;
-      const auto finite_or_error = [&](const auto &function) {
-        try
-        {
-          const double value = function();
-          CHECK(std::isfinite(value));
-        }
-        catch (const SolveError &error)
-        {
-          CHECK_FALSE(material.tolerates_inversion());
-          CHECK(std::string(error.what()).find("det F") != std::string::npos);
-        }
-      };
-      finite_or_error([&] { return material.energy(F); });
-      finite_or_error([&] { return material.stress(F).norm(); });
-      finite_or_error([&] { return material.tangent(F).norm(); });
-    }
+      {
+        auto F                     = identity;
+        F[0][0]                    = stretch;
+        const auto finite_or_error = [&](const auto &function) {
+          try
+            {
+              const double value = function();
+              CHECK(std::isfinite(value));
+            }
+          catch (const SolveError &error)
+            {
+              CHECK_FALSE(material.tolerates_inversion());
+              CHECK(std::string(error.what()).find("det F") != std::string::npos);
+            }
+        };
+        finite_or_error([&] { return material.energy(F); });
+        finite_or_error([&] { return material.stress(F).norm(); });
+        finite_or_error([&] { return material.tangent(F).norm(); });
+      }
   });
 }
 
@@ -145,30 +147,31 @@ TEST_CASE("material: no law returns not-a-number for an inverted element", "[mat
 TEST_CASE("material: constants must be given and lie in their range", "[material]")
 {
   for (const auto &name : Registry<Material>::instance().names())
-  {
-    const auto refused = [&](const std::string &youngs_modulus, const std::string &poissons_ratio) {
-      ParameterFile file;
-      if (!youngs_modulus.empty())
-        file.set("Young's modulus=" + youngs_modulus);
-      if (!poissons_ratio.empty())
-        file.set("Poisson's ratio=" + poissons_ratio);
-      try
-      {
-        Registry<Material>::instance().make(name)->add_options(Options(file));
-      }
-      catch (const InputError &error)
-      {
-        return std::string(error.what());
-      }
-      return std::string();
-    };
-    INFO(name);
-    CHECK(refused("1e6", "0.4").empty());
-    CHECK(refused("1e6", "0.4999").empty());
-    CHECK(refused("", "0.4").find("'Young's modulus'") != std::string::npos);
-    CHECK(refused("1e6", "").find("'Poisson's ratio'") != std::string::npos);
-    CHECK(refused("0", "0.4").find("> 0 [Pa]") != std::string::npos);
-    CHECK(refused("1e6", "0.5").find("> -1 and < 0.5") != std::string::npos);
-    CHECK(refused("1e6", "-1").find("> -1 and < 0.5") != std::string::npos);
-  }
+    {
+      const auto refused = [&](const std::string &youngs_modulus,
+                               const std::string &poissons_ratio) {
+        ParameterFile file;
+        if (!youngs_modulus.empty())
+          file.set("Young's modulus=" + youngs_modulus);
+        if (!poissons_ratio.empty())
+          file.set("Poisson's ratio=" + poissons_ratio);
+        try
+          {
+            Registry<Material>::instance().make(name)->add_options(Options(file));
+          }
+        catch (const InputError &error)
+          {
+            return std::string(error.what());
+          }
+        return std::string();
+      };
+      INFO(name);
+      CHECK(refused("1e6", "0.4").empty());
+      CHECK(refused("1e6", "0.4999").empty());
+      CHECK(refused("", "0.4").find("'Young's modulus'") != std::string::npos);
+      CHECK(refused("1e6", "").find("'Poisson's ratio'") != std::string::npos);
+      CHECK(refused("0", "0.4").find("> 0 [Pa]") != std::string::npos);
+      CHECK(refused("1e6", "0.5").find("> -1 and < 0.5") != std::string::npos);
+      CHECK(refused("1e6", "-1").find("> -1 and < 0.5") != std::string::npos);
+    }
 }

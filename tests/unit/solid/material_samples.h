@@ -18,8 +18,9 @@
 
 namespace undine::samples
 {
-  inline Options elastic_options(const ElasticConstants &constants,
-                                 const std::string &plane_state = "plane strain")
+  inline Options
+  elastic_options(const ElasticConstants &constants,
+                  const std::string      &plane_state = "plane strain")
   {
     ParameterFile file;
     file.set(fmt::format("Young's modulus={}", constants.youngs_modulus));
@@ -29,8 +30,8 @@ namespace undine::samples
   }
 
 
-  inline std::unique_ptr<Material> make_material(const std::string &name,
-                                                 const ElasticConstants &constants)
+  inline std::unique_ptr<Material>
+  make_material(const std::string &name, const ElasticConstants &constants)
   {
     auto material = Registry<Material>::instance().make(name);
     material->add_options(elastic_options(constants));
@@ -42,34 +43,38 @@ namespace undine::samples
   class Generator
   {
   public:
-    double between(const double lower, const double upper)
+    double
+    between(const double lower, const double upper)
     {
       return lower + (upper - lower) * (engine() / double(std::mt19937::max()));
     }
 
     /// Displacement gradient with 0.5 < det(I + H) < 2.
     template <int dim>
-    dealii::Tensor<2, dim> displacement_gradient()
+    dealii::Tensor<2, dim>
+    displacement_gradient()
     {
       while (true)
-      {
-        dealii::Tensor<2, dim> H;
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            H[i][j] = between(-0.4, 0.4);
-        const double J = determinant(dealii::unit_symmetric_tensor<dim>() + H);
-        if (J > 0.5 && J < 2)
-          return H;
-      }
+        {
+          dealii::Tensor<2, dim> H;
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              H[i][j] = between(-0.4, 0.4);
+          const double J = determinant(dealii::unit_symmetric_tensor<dim>() + H);
+          if (J > 0.5 && J < 2)
+            return H;
+        }
     }
 
-    dealii::Tensor<2, 3> deformation_gradient()
+    dealii::Tensor<2, 3>
+    deformation_gradient()
     {
       return dealii::unit_symmetric_tensor<3>() + displacement_gradient<3>();
     }
 
     /// Any rotation, from a random unit quaternion.
-    dealii::Tensor<2, 3> rotation()
+    dealii::Tensor<2, 3>
+    rotation()
     {
       dealii::Tensor<1, 4> q;
       do
@@ -92,38 +97,41 @@ namespace undine::samples
 
   /// df/dH by central differences.
   template <int dim, class Function>
-  dealii::Tensor<2, dim> gradient_by_differences(const dealii::Tensor<2, dim> &H, const Function &f)
+  dealii::Tensor<2, dim>
+  gradient_by_differences(const dealii::Tensor<2, dim> &H, const Function &f)
   {
-    const double step = 1e-5;
+    const double           step = 1e-5;
     dealii::Tensor<2, dim> result;
     for (unsigned int k = 0; k < dim; ++k)
       for (unsigned int l = 0; l < dim; ++l)
-      {
-        auto above = H, below = H;
-        above[k][l] += step;
-        below[k][l] -= step;
-        result[k][l] = (f(above) - f(below)) / (2 * step);
-      }
+        {
+          auto above = H, below = H;
+          above[k][l] += step;
+          below[k][l] -= step;
+          result[k][l] = (f(above) - f(below)) / (2 * step);
+        }
     return result;
   }
 
 
   /// dP/dH by central differences: result[i][j][k][l] = dP_ij / dH_kl.
   template <int dim, class Function>
-  dealii::Tensor<4, dim> tangent_by_differences(const dealii::Tensor<2, dim> &H, const Function &P)
+  dealii::Tensor<4, dim>
+  tangent_by_differences(const dealii::Tensor<2, dim> &H, const Function &P)
   {
     dealii::Tensor<4, dim> result;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         result[i][j] =
-            gradient_by_differences(H, [&](const dealii::Tensor<2, dim> &G) { return P(G)[i][j]; });
+          gradient_by_differences(H, [&](const dealii::Tensor<2, dim> &G) { return P(G)[i][j]; });
     return result;
   }
 
 
   /// max |A_ijkl - A_klij|
   template <int dim>
-  double asymmetry(const dealii::Tensor<4, dim> &A)
+  double
+  asymmetry(const dealii::Tensor<4, dim> &A)
   {
     double result = 0;
     for (unsigned int i = 0; i < dim; ++i)
@@ -137,16 +145,17 @@ namespace undine::samples
 
   /// lambda delta_ij delta_kl + mu (delta_ik delta_jl + delta_il delta_jk)
   template <int dim>
-  dealii::Tensor<4, dim> isotropic_tangent(const double lambda, const double mu)
+  dealii::Tensor<4, dim>
+  isotropic_tangent(const double lambda, const double mu)
   {
     dealii::Tensor<4, dim> A;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
-      {
-        A[i][i][j][j] += lambda;
-        A[i][j][i][j] += mu;
-        A[i][j][j][i] += mu;
-      }
+        {
+          A[i][i][j][j] += lambda;
+          A[i][j][i][j] += mu;
+          A[i][j][j][i] += mu;
+        }
     return A;
   }
 } // namespace undine::samples

@@ -46,8 +46,8 @@ namespace undine
     {
       const auto entry = entries.find(name);
       if (entry == entries.end())
-        throw InputError("there is no part named '" + name + "'; the registered ones are: " +
-                         joined_names());
+        throw InputError("there is no part named '" + name +
+                         "'; the registered ones are: " + joined_names());
       return entry->second.factory();
     }
 
@@ -102,7 +102,8 @@ namespace undine
     RegisterForDimensions(const std::string &name, const std::string &help)
       : two(name, help)
       , three(name, help)
-    {}
+    {
+    }
 
     Register<Part<2>, Concrete<2>> two;
     Register<Part<3>, Concrete<3>> three;

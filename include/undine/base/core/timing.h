@@ -19,7 +19,7 @@ namespace undine
       std::string                        name;
       double                             seconds = 0;
       unsigned long                      calls   = 0;
-      Node *                             parent  = nullptr;
+      Node                              *parent  = nullptr;
       std::vector<std::unique_ptr<Node>> children;
     };
 
@@ -34,7 +34,7 @@ namespace undine
       operator=(const Section &) = delete;
 
     private:
-      TimingTree &                          tree;
+      TimingTree                           &tree;
       std::chrono::steady_clock::time_point start;
     };
 

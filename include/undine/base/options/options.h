@@ -17,7 +17,8 @@ namespace undine
   /// One section of the parameter file. A part declares, reads, checks and documents a parameter
   /// in one statement:
   ///
-  ///     options.add("Density", density, "kg/m^3", Allowed::positive(), "Mass per volume at rest.");
+  ///     options.add("Density", density, "kg/m^3", Allowed::positive(), "Mass per volume at
+  ///     rest.");
   ///
   /// which leaves the scene's value in `density`, or its initial value if the scene has none. The
   /// same statements list every parameter for `--reference` and `parameters.prm`. An Options is a

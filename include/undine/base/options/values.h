@@ -146,8 +146,8 @@ namespace undine
   type_name(const Expression<dim, n_components> &)
   {
     const std::string variables = dim == 1 ? "x, t" : (dim == 2 ? "x, y, t" : "x, y, z, t");
-    return (n_components == 1 ? "expression in " :
-                                std::to_string(n_components) + " expressions (';' between) in ") +
+    return (n_components == 1 ? "expression in "
+                              : std::to_string(n_components) + " expressions (';' between) in ") +
            variables;
   }
   /// @}
