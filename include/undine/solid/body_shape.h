@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_body_shape_h
+#define undine_solid_body_shape_h
+
+#include <undine/base/options/options.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <map>
+#include <string>
+
+namespace undine
+{
+  /// The shape of a body at rest, as a mesh of quadrilaterals or hexahedra. One shape is one .cc
+  /// file that registers itself.
+  template <int dim>
+  class BodyShape
+  {
+  public:
+    /// The parts of the boundary that a scene can speak of, by name.
+    using Sides = std::map<std::string, dealii::types::boundary_id>;
+
+    virtual ~BodyShape() = default;
+
+    virtual void
+    add_options(const Options &options) = 0;
+
+    /// Fill an empty mesh; lengths in m. Its manifolds say where refinement puts new vertices.
+    /// Throws InputError if the values given make no mesh, FileError if a file cannot be read.
+    virtual void
+    make_mesh(dealii::Triangulation<dim> &mesh) const = 0;
+
+    /// The sides of a mesh that make_mesh() filled.
+    virtual Sides
+    sides(const dealii::Triangulation<dim> &mesh) const = 0;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_solid_columns_h
+#define undine_solid_solid_columns_h
+
+#include <undine/base/core/column.h>
+#include <undine/solid/solid_environment.h>
+#include <undine/solid/solid_model.h>
+#include <undine/solid/solid_state.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// Integrals over the bodies, all collective. @{
+
+  /// u M u / 2 [J].
+  template <int dim>
+  double
+  kinetic_energy(const SolidModel<dim>                        &model,
+                 const dealii::TrilinosWrappers::SparseMatrix &mass,
+                 const dealii::TrilinosWrappers::MPI::Vector  &velocity);
+
+  /// - d . f of the dead loads at `time` [J]. Follower pressures have no potential and are left
+  /// out.
+  template <int dim>
+  double
+  load_potential(const SolidModel<dim>                       &model,
+                 const SolidEnvironment<dim>                 &environment,
+                 const dealii::TrilinosWrappers::MPI::Vector &displacement,
+                 double                                       time);
+
+  /// int rho u dX of all bodies [kg m/s].
+  template <int dim>
+  dealii::Tensor<1, dim>
+  linear_momentum(const SolidModel<dim>                       &model,
+                  const dealii::TrilinosWrappers::MPI::Vector &velocity);
+
+  /// int rho (X + d) x u dX of all bodies about the origin [kg m^2/s]: one component in 2D, three
+  /// in 3D.
+  template <int dim>
+  dealii::Tensor<1, 3>
+  angular_momentum(const SolidModel<dim>                       &model,
+                   const dealii::TrilinosWrappers::MPI::Vector &displacement,
+                   const dealii::TrilinosWrappers::MPI::Vector &velocity);
+
+  /// What a body measures now.
+  template <int dim>
+  struct BodyMeasure
+  {
+    double             mass   = 0;     ///< [kg]
+    double             volume = 0;     ///< deformed [m^dim]
+    dealii::Point<dim> centre_of_mass; ///< deformed [m]
+  };
+
+  /// One for each body.
+  template <int dim>
+  std::vector<BodyMeasure<dim>>
+  measure_bodies(const SolidModel<dim>                       &model,
+                 const dealii::TrilinosWrappers::MPI::Vector &displacement);
+  /// @}
+
+  /// "solid kinetic energy", "solid elastic energy", "solid load potential", "solid Newton ..." are
+  /// not here: energies, momentum, volume and centre of mass of every body, and the force of every
+  /// support ("reaction beam/root x"), from SolidReport::reactions. Collective.
+  template <int dim>
+  Columns
+  solid_columns(const SolidModel<dim>                        &model,
+                const dealii::TrilinosWrappers::SparseMatrix &mass,
+                const SolidEnvironment<dim>                  &environment,
+                const SolidState                             &state,
+                double                                        time,
+                const dealii::TrilinosWrappers::MPI::Vector  &reactions);
+} // namespace undine
+
+#endif

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_solid_equations_h
+#define undine_solid_solid_equations_h
+
+#include <undine/base/core/timing.h>
+#include <undine/solid/solid_environment.h>
+#include <undine/solid/solid_model.h>
+#include <undine/solid/solid_state.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// The balance of momentum over one step (StepCoefficients) as equations for the end velocity
+  /// u = u^{n+1}: residual, Jacobian and what u makes of the state. Fixed degrees of freedom have a
+  /// zero residual and a diagonal Jacobian; u has to carry the prescribed velocity there, which
+  /// guess() does, and d^{n+1} is the prescribed displacement exactly.
+  template <int dim>
+  class SolidEquations
+  {
+  public:
+    using Vector = typename SolidModel<dim>::Vector;
+    using Matrix = typename SolidModel<dim>::Matrix;
+
+    /// From `old_state` at `time` [s] over `dt` [s]. `mass` is mass_matrix(model). `nodal_forces`
+    /// [N] act during the whole step and enter the momentum once, as J p does; empty: none. The
+    /// references must outlive the equations. Collective. Throws SolveError.
+    SolidEquations(const SolidModel<dim>       &model,
+                   const Matrix                &mass,
+                   const SolidState            &old_state,
+                   const SolidEnvironment<dim> &environment,
+                   double                       time,
+                   double                       dt,
+                   TimingTree                  &timing,
+                   const Vector                &nodal_forces = Vector());
+
+    /// A first u [m/s]: u^n. Prescribed velocities in place.
+    Vector
+    guess() const;
+
+    /// A first u [m/s] that keeps d^{n+1} = d^n: always admissible, and the point at which one
+    /// Newton correction is a linearisation at d^n.
+    Vector
+    guess_at_rest() const;
+
+    /// The left side of the balance for u [N], zero at fixed degrees of freedom. Throws SolveError.
+    Vector
+    residual(const Vector &velocity);
+
+    /// The same with the fixed degrees of freedom, where it is the force of the supports, divided
+    /// by the sum of the stages' weights [N].
+    Vector
+    reactions(const Vector &velocity);
+
+    /// d residual / du [kg/s], with a diagonal of its own size at fixed degrees of freedom.
+    Matrix
+    jacobian(const Vector &velocity) const;
+
+    /// d^{n+1} [m].
+    Vector
+    displacement(const Vector &velocity) const;
+
+    /// d d^{n+1} / du at free degrees of freedom [s].
+    double
+    displacement_factor() const;
+
+    /// The state at the end of the step.
+    SolidState
+    end_state(const Vector &velocity) const;
+
+    /// Size of the terms of the residual evaluated last [N], and the norm that rounding gives their
+    /// sum [N]. @{
+    double
+    scale() const;
+    double
+    rounding() const;
+    /// @}
+
+  private:
+    Vector
+    full_residual(const Vector &velocity);
+    Vector
+    stage_displacement(const Vector &end_displacement, double position) const;
+    Vector
+    known_forces() const;
+    void
+    prescribe(Vector &velocity) const;
+    double
+    prescribed_velocity(const FixedDof &fixed) const;
+
+    const SolidModel<dim>       &model;
+    const Matrix                &mass;
+    const SolidState            &old_state;
+    const SolidEnvironment<dim> &environment;
+    const double                 time;
+    const double                 dt;
+    TimingTree                  &timing;
+    const Vector                &nodal_forces;
+    const StepCoefficients       coefficients;
+    Matrix                       stiffness_at_start; ///< K'(d^n + r h u^n) if it damps
+    Vector                       known;              ///< terms without u
+    double                       largest_term      = 0;
+    double                       rounding_of_terms = 0;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_solid_numerics_h
+#define undine_solid_solid_numerics_h
+
+#include <undine/base/core/newton.h>
+#include <undine/base/options/options.h>
+#include <undine/solid/time_integrator.h>
+
+#include <memory>
+#include <string>
+
+namespace undine
+{
+  /// How the bodies' equations are discretised and solved: the section `Solid numerics`.
+  struct SolidNumerics
+  {
+    /// Read the keys of the section.
+    explicit SolidNumerics(const Options &options);
+
+    unsigned int                    degree = 2; ///< of the finite elements: 1 or 2
+    std::unique_ptr<TimeIntegrator> integrator;
+    NewtonOptions                   newton;
+    std::string                     linear_solver    = "auto"; ///< auto | direct | multigrid
+    double                          linear_tolerance = 1e-10;  ///< of the first residual [1]
+  };
+} // namespace undine
+
+#endif

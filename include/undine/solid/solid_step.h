@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_solid_step_h
+#define undine_solid_solid_step_h
+
+#include <undine/base/core/newton.h>
+#include <undine/base/core/timing.h>
+#include <undine/solid/solid_environment.h>
+#include <undine/solid/solid_model.h>
+#include <undine/solid/solid_state.h>
+
+#include <string>
+
+namespace undine
+{
+  /// How a step of the bodies went.
+  struct SolidReport
+  {
+    NewtonReport newton;
+
+    /// Forces of supports on the bodies [N] at fixed degrees of freedom, at the time level at which
+    /// the integrator balances forces; zero elsewhere.
+    dealii::TrilinosWrappers::MPI::Vector reactions;
+
+    /// What was unusual: "the tangent is indefinite: solved directly". Empty if nothing was.
+    std::string note;
+  };
+
+  /// Advances the bodies without a fluid.
+  template <int dim>
+  class SolidStep
+  {
+  public:
+    using Vector = typename SolidModel<dim>::Vector;
+    using Matrix = typename SolidModel<dim>::Matrix;
+
+    /// `model` must outlive it. Collective.
+    explicit SolidStep(const SolidModel<dim> &model);
+
+    /// The state at `time` [s]: displacements and velocities from the scene's expressions, and for
+    /// the integrators that use it the acceleration that the loads give. Collective.
+    SolidState
+    initialize(const SolidEnvironment<dim> &environment, double time) const;
+
+    /// From `time` to `time + dt` [s]. Collective. Throws SolveError; the state is then unchanged.
+    ///
+    ///  1. guess u^{n+1} = u^n (d^{n+1} = d^n if that inverts a cell)
+    ///  2. Newton: assemble residual and tangent, solve, line search
+    ///  3. d^{n+1}, u^{n+1}, a^{n+1} from u^{n+1}
+    SolidReport
+    step(SolidState                  &state,
+         const SolidEnvironment<dim> &environment,
+         double                       time,
+         double                       dt,
+         TimingTree                  &timing) const;
+
+    /// M [kg].
+    const Matrix &
+    mass() const;
+
+  private:
+    const SolidModel<dim> &model;
+    const Matrix           mass_matrix;
+  };
+} // namespace undine
+
+#endif
