@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Seconds per step by phase, for three sizes of the solid alone and of the fluid alone, on 1 and 2
+ranks, as Markdown tables (doc/costs.md holds those of one machine).
+
+usage: benchmarks/cost_table.py [PROGRAM]
+"""
+import os
+import platform
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(ROOT, "tests"))
+import scene_tools  # noqa: E402
+
+STEPS = 5
+CASES = [
+    ("Solid alone: 3D cantilever, Q2 elements, theta integrator", "prm/cantilever.prm",
+     "Bodies/beam/Subdivisions", ["20, 2, 4", "32, 4, 6", "48, 6, 10"]),
+    ("Fluid alone: 3D plume, two scalars", "prm/plume.prm",
+     "Domain/Cells", ["32, 64, 32", "50, 100, 50", "80, 156, 80"]),
+]
+
+
+def phases(folder):
+    """{phase path: seconds} from the file `timing`, nested phases joined by ' / '."""
+    result, above = {}, []
+    with open(os.path.join(folder, "timing")) as file:
+        for line in file:
+            row = re.match(r"( *)(\S.*?) +(\d+) +([\d.]+) +([\d.]+)$", line.rstrip())
+            if row:
+                above = above[:len(row[1]) // 2] + [row[2]]
+                result[" / ".join(above)] = float(row[4])
+    return result
+
+
+def measure(program, scene, assignment, ranks):
+    with tempfile.TemporaryDirectory() as folder:
+        result = scene_tools.run(program, [os.path.join(ROOT, scene), "--output", folder,
+                                           "--set", assignment, "--set", "Output/Interval=0",
+                                           "--set", "Output/Parts=statistics",
+                                           "--set", f"Time/Maximum steps={STEPS}"], ranks)
+        size = re.findall(r"(?:fluid|bodies): (.*)", result.stdout)
+        return size[0], phases(folder)
+
+
+def table(program, title, scene, key, values):
+    columns, sizes = [], []
+    for value in values:
+        for ranks in (1, 2):
+            size, seconds = measure(program, scene, f"{key}={value}", ranks)
+            columns.append((ranks, seconds))
+            sizes.append(size)
+    print(f"\n## {title}\n\n{STEPS} steps of `{scene}`; seconds per step, `initialise` once.\n")
+    print("| phase | " + " | ".join(f"{size}, {ranks} rank{'s' if ranks > 1 else ''}"
+                                   for size, (ranks, _) in zip(sizes, columns)) + " |")
+    print("|---" * (len(columns) + 1) + "|")
+    names = list(dict.fromkeys(name for _, seconds in columns for name in seconds))
+    for name in names:
+        once = name.startswith("initialise")
+        cells = [seconds.get(name, 0) / (1 if once else STEPS) for _, seconds in columns]
+        if max(cells) >= 0.001:
+            label = "&nbsp;&nbsp;" * name.count(" / ") + name.split(" / ")[-1]
+            print(f"| {label} | " + " | ".join(f"{cell:.3f}" for cell in cells) + " |")
+    sys.stdout.flush()
+
+
+def main():
+    program = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "build", "undine")
+    version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout.strip()
+    print(f"# What a step costs\n\nWritten by `benchmarks/cost_table.py`: {version}, "
+          f"{os.cpu_count()} cores ({platform.machine()}).")
+    for case in CASES:
+        table(program, *case)
+
+
+main()
