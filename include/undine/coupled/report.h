@@ -2,6 +2,8 @@
 #ifndef undine_coupled_report_h
 #define undine_coupled_report_h
 
+#include <undine/base/core/column.h>
+
 namespace undine
 {
   /// How an accepted step went.
@@ -11,6 +13,7 @@ namespace undine
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0; ///< of all linear solves of the step
     unsigned int cuts              = 0; ///< how often the asked step was cut and redone
+    Columns      columns;               ///< energies, forces, fluxes, ... of the new state
   };
 } // namespace undine
 

@@ -20,8 +20,9 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
-    /// Bring an empty state to t = 0. The references must outlive the scheme.
-    virtual void
+    /// Bring an empty state to t = 0; the report holds the columns of that state. The references
+    /// must outlive the scheme.
+    virtual Report
     initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) = 0;
 
     /// The step to try next [s]; lands on the clock's landing times.

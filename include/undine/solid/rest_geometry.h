@@ -58,11 +58,8 @@ namespace undine
     double
     shape(unsigned int node, unsigned int point) const;
 
-    /// Gradient of a node's shape function with respect to rest positions [1/m].
-    dealii::Tensor<1, dim>
-    gradient(unsigned int cell, unsigned int node, unsigned int point) const;
-
-    /// The gradients of all nodes at one point, into an array that is kept from call to call.
+    /// Gradients of all nodes' shape functions with respect to rest positions [1/m] at one point,
+    /// into an array that is kept from call to call.
     void
     gradients(std::vector<dealii::Tensor<1, dim>> &result,
               unsigned int                         cell,

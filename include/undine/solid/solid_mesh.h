@@ -12,9 +12,9 @@ namespace undine
 {
   /// Put the meshes of all bodies, mapped and refined, side by side into an empty mesh. Bodies that
   /// touch stay separate. material_id is the index of the body, boundary_id that of the shape's
-  /// side. Throws InputError if a mesh is not valid.
+  /// side. Returns the sides of each body. Throws InputError if a mesh is not valid.
   template <int dim>
-  void
+  std::vector<typename BodyShape<dim>::Sides>
   make_solid_mesh(dealii::parallel::shared::Triangulation<dim> &mesh,
                   const std::vector<Body<dim>>                 &bodies);
 
@@ -33,7 +33,9 @@ namespace undine
   /// a side that the shape does not have.
   template <int dim>
   std::vector<LoadedFace<dim>>
-  select_faces(const dealii::Triangulation<dim> &mesh, const std::vector<Body<dim>> &bodies);
+  select_faces(const dealii::Triangulation<dim>                  &mesh,
+               const std::vector<Body<dim>>                      &bodies,
+               const std::vector<typename BodyShape<dim>::Sides> &sides);
 } // namespace undine
 
 #endif
