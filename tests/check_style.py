@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What CONTRIBUTING.md asks for and a program can see.
+
+usage: check_style.py ROOT      prints FILE:LINE: REASON for every violation
+"""
+import ast
+import pathlib
+import re
+import sys
+
+LICENCE = "SPDX-License-Identifier: LGPL-2.1-or-later"
+FILE_LINES = 400
+FUNCTION_LINES = 60
+CPP = {".h", ".cc", ".cu", ".cuh"}
+
+# (file, rule): why it may break it
+EXCEPTIONS = {
+    ("include/undine/base/options/precompiled.h", "guard"): "a list of headers, included by no file",
+}
+
+UNWANTED = {
+    r"\b(TODO|FIXME|XXX)\b": "unfinished work does not go into the repository",
+    r"^\s*#\s*if\s+0\b": "switched-off code does not go into the repository",
+    r"\bdim\s*[=!]=\s*[123]\b": "loop over axis < dim instead of telling dimensions apart",
+    r"^\s*using\s+namespace\s+std\b": "name what is used of std",
+}
+
+
+def tracked(root):
+    """All files that the rules are about."""
+    for tree in ("include", "source", "cuda", "tests", "benchmarks", "contrib", ".ci"):
+        for file in sorted((root / tree).rglob("*")):
+            if file.is_file() and "__pycache__" not in file.parts:
+                yield file
+    yield from (file for file in (root / "CMakeLists.txt", root / "undine") if file.exists())
+
+
+def is_code(file):
+    if file.suffix in CPP | {".py", ".sh", ".cmake"} or file.name == "CMakeLists.txt":
+        return True
+    return file.suffix == "" and file.read_bytes()[:2] == b"#!"
+
+
+def guard_of(root, file):
+    """undine_solid_body_h for include/undine/solid/body.h; the file's own name elsewhere."""
+    include = root / "include"
+    if include in file.parents:
+        return re.sub(r"[/.]", "_", file.relative_to(include).as_posix())
+    return None
+
+
+def blank_comments_and_strings(text):
+    """The same text with the same line breaks, but without comments, strings and directives."""
+    pattern = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*"'
+                         r"|'(?:\\.|[^'\\\n])'|^[ \t]*#(?:\\\n|[^\n])*", re.S | re.M)
+    return pattern.sub(lambda match: "\n" * match[0].count("\n"), text)
+
+
+def cpp_functions(text):
+    """(first line, number of lines) of every outermost function body with its signature."""
+    text = blank_comments_and_strings(text)
+    container = re.compile(r"(?:^|\s)(namespace|class|struct|union|enum|extern)\b[^()]*$")
+    label = re.compile(r"^\s*(public|private|protected)\s*:")
+    scopes, begin = [], 0  # scopes: True for a function; begin: where the current statement starts
+    for match in re.finditer(r"[{};]", text):
+        at, sign = match.start(), match[0]
+        inside_function = any(scope[0] for scope in scopes)
+        if sign == "{":
+            head = label.sub("", text[begin:at])
+            function = not inside_function and not container.search(head) and "(" in head
+            first = text.count("\n", 0, begin + len(text[begin:at]) - len(head.lstrip())) + 1
+            scopes.append((function, first))
+        elif sign == "}" and scopes:
+            function, first = scopes.pop()
+            if function:
+                yield first, text.count("\n", 0, at) + 1 - first + 1
+        if not inside_function or sign == "}":
+            begin = at + 1
+
+
+def python_functions(text):
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef):
+            yield node.lineno, node.end_lineno - node.lineno + 1
+
+
+def check_file(root, file):
+    """Triples (line, rule, reason)."""
+    text = file.read_text()
+    lines = text.splitlines()
+    head = lines[1:2] if lines and lines[0].startswith("#!") else lines[:1]
+    if not any(LICENCE in line for line in head):
+        yield 1, "licence", f"the first line must say '{LICENCE}'"
+    if len(lines) > FILE_LINES:
+        yield len(lines), "file", f"{len(lines)} lines; at most {FILE_LINES}: split it by concept"
+    for number, line in enumerate(lines, 1):
+        for pattern, why in UNWANTED.items():
+            if re.search(pattern, line) and file.name != pathlib.Path(__file__).name:
+                yield number, "unwanted", why
+    if file.suffix == ".h":
+        expected = guard_of(root, file) or r"\w+_h"
+        guard = re.search(r"^#ifndef (\w+)\n#define (\w+)$", text, re.M)
+        if not guard or guard[1] != guard[2] or not re.fullmatch(expected, guard[1]):
+            yield 2, "guard", f"the include guard must be {expected}"
+    functions = ()
+    if file.suffix in CPP:
+        functions = cpp_functions(text)
+    elif file.suffix == ".py":
+        functions = python_functions(text)
+    for number, length in functions:
+        if length > FUNCTION_LINES:
+            yield number, "function", f"a function of {length} lines; at most {FUNCTION_LINES}"
+
+
+def problems(root):
+    for file in tracked(root):
+        if is_code(file):
+            name = file.relative_to(root).as_posix()
+            for number, rule, why in check_file(root, file):
+                if (name, rule) not in EXCEPTIONS:
+                    yield f"{name}:{number}: {why}"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    found = list(problems(root))
+    count = sum(1 for file in tracked(root) if is_code(file))
+    if count == 0:
+        found.append(f"{root}: no files found")
+    if found:
+        sys.exit("\n".join(found))
+    print(f"{count} files follow the rules")
+
+
+if __name__ == "__main__":
+    main()
