@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_flow_h
+#define undine_fluid_flow_h
+
+#include <undine/fluid/boundary_condition.h>
+#include <undine/fluid/fluid_model.h>
+
+namespace undine
+{
+  /// The velocity at one time, frozen, as that which carries fields during a step: knows where the
+  /// fluid that arrives at a place has come from.
+  template <int dim>
+  class Flow
+  {
+  public:
+    /// Where a particle is at the other end of its path.
+    struct Trace
+    {
+      dealii::Point<dim> foot;
+      bool               left_domain; ///< it met an opening or an inflow there before its time was up
+    };
+
+    /// `velocity` at `time` [s], for steps of length dt [s]. Collective. Throws SolveError if the
+    /// velocity is not finite.
+    Flow(const FluidModel<dim> &model,
+         const Velocity<dim> &  velocity,
+         const double           time,
+         const double           dt);
+
+    const FluidModel<dim> &
+    model() const;
+
+    /// [s]
+    double
+    time() const;
+
+    /// [s]
+    double
+    dt() const;
+
+    /// With ghost layers and boundary points.
+    const Velocity<dim> &
+    velocity() const;
+
+    /// [m/s]
+    dealii::Tensor<1, dim>
+    velocity_at(const dealii::Point<dim> &place) const;
+
+    /// Ghost layers that a field needs to be known at every foot.
+    const GridIndex<dim> &
+    width() const;
+
+    /// Follow the particle at `place` for a time (negative: back to where it came from), by the
+    /// midpoint rule: x' = x + dt v(x + dt v(x) / 2). The path ends at inflows and openings; at
+    /// walls it goes on along the wall; periodic sides are passed.
+    Trace
+    trace(const dealii::Point<dim> &place, const double dt) const;
+
+  private:
+    /// The end of a straight way from a place in the domain, kept in the domain.
+    Trace
+    walk(const dealii::Point<dim> &place, dealii::Tensor<1, dim> way) const;
+
+    const FluidModel<dim> &fluid_model;
+    Velocity<dim>          frozen_velocity;
+    double                 start_time;
+    double                 step;
+    GridIndex<dim>         ghost_width;
+  };
+} // namespace undine
+
+#endif

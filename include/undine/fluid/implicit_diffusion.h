@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_implicit_diffusion_h
+#define undine_fluid_implicit_diffusion_h
+
+#include <undine/fluid/boundary_condition.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <memory>
+
+namespace undine
+{
+  /// One implicit Euler step of ds/dt = nu Laplace(s) for a field on a lattice:
+  ///
+  ///     (V + h nu K) s^{n+1} = V s* + h nu k_b s_b
+  ///
+  /// V: volumes around the points; K: areas over distances between neighbours; held boundaries at
+  /// half a cell. Faces whose velocity is held keep the value they have. Symmetric and positive
+  /// definite; conjugate gradients with symmetric Gauss-Seidel. The matrix is kept until h changes.
+  template <int dim>
+  class ImplicitDiffusion
+  {
+  public:
+    /// `diffusivity` nu in [m^2/s]. Model and condition must outlive this.
+    ImplicitDiffusion(const FluidModel<dim> &             model,
+                      std::shared_ptr<const Lattice<dim>> lattice,
+                      const BoundaryCondition<dim> &      condition,
+                      const double                        diffusivity);
+
+    /// s* in `field` becomes s^{n+1} at `time` = t^{n+1}. Returns the number of iterations. Throws
+    /// SolveError. Collective.
+    unsigned int
+    step(Field<dim> &field, const double time, const double dt);
+
+  private:
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    void
+    assemble(const double dt);
+
+    Vector
+    right_side(const Field<dim> &field, const double time) const;
+
+    const FluidModel<dim> &                                     model;
+    std::shared_ptr<const Lattice<dim>>                         lattice;
+    const BoundaryCondition<dim> &                              condition;
+    double                                                      diffusivity;
+    double                                                      assembled_dt = 0; ///< [s]
+    dealii::TrilinosWrappers::SparseMatrix                      matrix;
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionSSOR> preconditioner;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_projection_h
+#define undine_fluid_projection_h
+
+#include <undine/fluid/fluid_model.h>
+#include <undine/fluid/fluid_quantities.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <memory>
+#include <vector>
+
+namespace undine
+{
+  /// Makes a velocity divergence-free:
+  ///
+  ///     v^{n+1} = v* + h (rho V)^-1 D^T p,    D v^{n+1} = 0,    i.e.  h L p = -D v*
+  ///
+  /// with L = D (rho V)^-1 D^T (see pressure_matrix()). p acts as one impulse h p; the unknown is
+  /// h p, so that matrix and multigrid hierarchy serve all step sizes. Conjugate gradients with
+  /// smoothed-aggregation multigrid (Trilinos ML), started from the last pressure; repeated on the
+  /// remaining divergence until that is below the tolerance in every single cell.
+  template <int dim>
+  class Projection
+  {
+  public:
+    struct Report
+    {
+      unsigned int iterations = 0;
+      double       divergence = 0; ///< max |div v| dx / max |v| afterwards [1]
+    };
+
+    /// The model must outlive the projection. Nothing is assembled before the first use.
+    explicit Projection(const FluidModel<dim> &model);
+
+    /// v* in `state` becomes v^{n+1} at `time` = t^{n+1}, its pressure p. Sets the velocity on
+    /// walls and inflows first. Throws InputError if a domain without opening has a net inflow,
+    /// SolveError if the solver does not converge. Collective.
+    Report
+    project(FluidState<dim> &state, const double time, const double dt);
+
+    /// The divergence-free velocity nearest to the one given, for a start at `time`; the state's
+    /// pressure becomes zero.
+    Report
+    make_divergence_free(FluidState<dim> &state, const double time);
+
+  private:
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    /// Matrix and multigrid hierarchy.
+    void
+    set_up();
+
+    /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm.
+    unsigned int
+    solve(Vector &impulse, const Vector &right_side, const double tolerance) const;
+
+    /// Add impulses h p to the velocity until its divergence vanishes; returns the sum h p in
+    /// `impulse`.
+    Report
+    remove_divergence(Velocity<dim> &velocity, Field<dim> &impulse, const double time, double dt);
+
+    const FluidModel<dim> &                                    model;
+    std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    matrix;
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid;
+  };
+} // namespace undine
+
+#endif

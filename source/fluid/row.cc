@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/row.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace undine
+{
+  Row::Row(std::vector<double> points_, const int first_, const int n_, const double length_)
+    : points(std::move(points_))
+    , first(first_)
+    , n(n_)
+    , length(length_)
+  {
+    const auto begin   = points.begin() - first;
+    const auto spacing = n > 1 ? (begin[n - 1] - begin[0]) / (n - 1) : 0.;
+    bool       uniform = n > 1;
+    for (int i = 0; i + 1 < n; ++i)
+      uniform = uniform && std::abs(begin[i + 1] - begin[i] - spacing) < 1e-6 * spacing;
+    inverse_spacing = uniform ? 1 / spacing : 0;
+  }
+
+
+  Row
+  Row::of_planes(const std::vector<double> &planes, const bool periodic)
+  {
+    const int n_cells = planes.size() - 1;
+    return periodic ? Row(planes, 0, n_cells, planes.back() - planes.front()) :
+                      Row(planes, 0, n_cells + 1, 0);
+  }
+
+
+  Row
+  Row::of_centres(const std::vector<double> &planes, const bool periodic)
+  {
+    const int           n_cells = planes.size() - 1;
+    const double        length  = planes.back() - planes.front();
+    std::vector<double> centres;
+    if (!periodic)
+      centres.push_back(planes.front());
+    for (int i = 0; i < n_cells; ++i)
+      centres.push_back((planes[i] + planes[i + 1]) / 2);
+    centres.push_back(periodic ? centres.front() + length : planes.back());
+    return Row(std::move(centres), periodic ? 0 : -1, n_cells, periodic ? length : 0.);
+  }
+
+
+  double
+  Row::position(const int index) const
+  {
+    if (length == 0)
+      return points[index - first];
+    const int point = wrapped(index);
+    return points[point] + (index - point) / n * length;
+  }
+
+
+  int
+  Row::find(const double place) const
+  {
+    const int last = points.size() - 2;
+    if (inverse_spacing == 0)
+      {
+        const auto above = std::upper_bound(points.begin(), points.end(), place);
+        return std::clamp(int(above - points.begin()) - 1, 0, last);
+      }
+    int guess = std::clamp(int((place - points[0]) * inverse_spacing), 0, last);
+    while (guess > 0 && place < points[guess])
+      --guess;
+    while (guess < last && place >= points[guess + 1])
+      ++guess;
+    return guess;
+  }
+
+
+  Row::Bracket
+  Row::locate(double place) const
+  {
+    int images = 0;
+    if (length > 0)
+      {
+        images = std::floor((place - points[0]) / length);
+        place -= images * length;
+      }
+    const int    i      = find(place);
+    const double weight = (place - points[i]) / (points[i + 1] - points[i]);
+    return {i + first + images * n, std::clamp(weight, 0., 1.)};
+  }
+} // namespace undine
