@@ -174,10 +174,10 @@ namespace undine
                           "Try: add a subsection 'Fluid' or a subsection 'Bodies'.");
     options.assert_all_used();
     check_effects(scene, options);
+    const auto probes = options.section("Probes");
+    const auto names  = probes.named_sections("probe");
     for (unsigned int p = 0; p < scene.probes.size(); ++p)
-      scene.probes[p]->start(
-        options.section("Probes").section(options.section("Probes").named_sections("probe")[p]),
-        scene.models);
+      scene.probes[p]->start(names[p], probes.section(names[p]), scene.models);
     return scene;
   }
 

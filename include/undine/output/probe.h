@@ -22,13 +22,14 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
-    /// Throws InputError if what the probe looks at does not exist. Collective.
+    /// `name` and `options` are those of the probe's subsection. Throws InputError if what the probe
+    /// looks at does not exist. Collective.
     virtual void
-    start(const Options &options, const Models<dim> &models) = 0;
+    start(const std::string &name, const Options &options, const Models<dim> &models) = 0;
 
-    /// Collective; the same on all ranks. `name` is that of the probe's subsection.
+    /// Collective; the same on all ranks. The names of the columns begin with that of the probe.
     virtual Columns
-    columns(const std::string &name, const Models<dim> &models, const State<dim> &state) const = 0;
+    columns(const Models<dim> &models, const State<dim> &state) const = 0;
   };
 } // namespace undine
 
