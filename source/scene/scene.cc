@@ -176,8 +176,10 @@ namespace undine
     check_effects(scene, options);
     const auto probes = options.section("Probes");
     const auto names  = probes.named_sections("probe");
+    const auto probes      = options.section("Probes");
+    const auto probe_names = probes.named_sections("probe");
     for (unsigned int p = 0; p < scene.probes.size(); ++p)
-      scene.probes[p]->start(names[p], probes.section(names[p]), scene.models);
+      scene.probes[p]->start(probe_names[p], probes.section(probe_names[p]), scene.models);
     return scene;
   }
 

@@ -29,8 +29,8 @@ namespace undine
     virtual double
     choose_dt(const State<dim> &state) const = 0;
 
-    /// Advance fluid and bodies (not the clock) by at most `dt` [s]. Throws SolveError if no step can
-    /// be accepted; the state is then the one before the step.
+    /// Advance fluid and bodies (not the clock) by at most `dt` [s]. Throws SolveError if no step
+    /// can be accepted; the state is then the one before the step.
     virtual Report
     step(State<dim> &state, double dt) = 0;
   };

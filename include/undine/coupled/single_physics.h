@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_single_physics_h
+#define undine_coupled_single_physics_h
+
+#include <undine/base/core/timing.h>
+#include <undine/coupled/models.h>
+#include <undine/coupled/report.h>
+#include <undine/coupled/state.h>
+#include <undine/fluid/projection.h>
+#include <undine/solid/solid_step.h>
+
+namespace undine
+{
+  /// Bodies without a fluid. Each function advances one physics and adds to the report.
+  template <int dim>
+  class SolidAlone
+  {
+  public:
+    /// The references must outlive it. Collective.
+    SolidAlone(const Models<dim> &models, TimingTree &timing);
+
+    void
+    initialize(State<dim> &state, Report &report) const;
+
+    /// A step of report.dt [s]. Throws SolveError; the state may then be half advanced.
+    void
+    step(State<dim> &state, Report &report) const;
+
+  private:
+    const SolidModel<dim> &model;
+    TimingTree            &timing;
+    SolidEnvironment<dim>  environment;
+    SolidStep<dim>         solid_step;
+  };
+
+  /// A fluid without bodies.
+  template <int dim>
+  class FluidAlone
+  {
+  public:
+    /// The references must outlive it. Collective.
+    FluidAlone(const Models<dim> &models, TimingTree &timing);
+
+    void
+    initialize(State<dim> &state, Report &report);
+
+    /// A step of report.dt [s]. Throws SolveError; the state may then be half advanced.
+    void
+    step(State<dim> &state, Report &report);
+
+  private:
+    void
+    add_columns(Report &report, const FluidState<dim> &state) const;
+
+    const Models<dim>     &models;
+    const FluidModel<dim> &model;
+    TimingTree            &timing;
+    Projection<dim>        projection;
+  };
+} // namespace undine
+
+#endif

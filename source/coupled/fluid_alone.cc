@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/single_physics.h>
+#include <undine/fluid/fluid_quantities.h>
+
+namespace undine
+{
+  template <int dim>
+  FluidAlone<dim>::FluidAlone(const Models<dim> &models, TimingTree &timing)
+    : models(models)
+    , model(*models.fluid)
+    , timing(timing)
+    , projection(model)
+  {
+  }
+
+
+  template <int dim>
+  void
+  FluidAlone<dim>::initialize(State<dim> &state, Report &report)
+  {
+    state.fluid = model.initial_state();
+    for (const auto &effect : models.effects)
+      effect->initialize(model, state.fluid);
+    report.linear_iterations +=
+      projection.make_divergence_free(state.fluid, state.clock.time).iterations;
+    add_columns(report, state.fluid);
+  }
+
+
+  template <int dim>
+  void
+  FluidAlone<dim>::step(State<dim> &state, Report &report)
+  {
+    const auto     timed = timing.section("fluid");
+    FluidStep<dim> fluid{model, state.fluid, state.clock.time, report.dt, timing};
+    {
+      const auto phase = timing.section("transport");
+      for (const auto &effect : models.effects)
+        effect->transport(fluid);
+    }
+    {
+      const auto phase = timing.section("accelerate");
+      for (const auto &effect : models.effects)
+        effect->accelerate(fluid);
+    }
+    {
+      const auto phase = timing.section("diffuse");
+      for (const auto &effect : models.effects)
+        effect->diffuse(fluid);
+    }
+    {
+      const auto phase = timing.section("project");
+      fluid.linear_iterations +=
+        projection.project(state.fluid, fluid.time + fluid.dt, fluid.dt).iterations;
+    }
+    report.linear_iterations += fluid.linear_iterations;
+    const auto phase = timing.section("measure");
+    add_columns(report, state.fluid);
+  }
+
+
+  template <int dim>
+  void
+  FluidAlone<dim>::add_columns(Report &report, const FluidState<dim> &state) const
+  {
+    const auto append = [&](const Columns &more) {
+      report.columns.insert(report.columns.end(), more.begin(), more.end());
+    };
+    append(fluid_columns(model, state));
+    for (const auto &effect : models.effects)
+      append(effect->columns(model, state));
+  }
+
+
+  template class FluidAlone<2>;
+  template class FluidAlone<3>;
+} // namespace undine

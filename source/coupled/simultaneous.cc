@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/scheme.h>
+#include <undine/coupled/single_physics.h>
+
+#include <fmt/format.h>
+
+namespace undine
+{
+  /// The main scheme. A step of length h from t^n:
+  ///
+  ///  1. fluid: transport, forces, implicit terms of every effect that is on; v^n becomes v*
+  ///  2. bodies: Newton's method for u^{n+1}
+  ///  3. fluid: projection; v* becomes v^{n+1}, p
+  ///
+  /// A step that fails is redone from the saved state with half its length, a stated number of
+  /// times.
+  template <int dim>
+  class Simultaneous : public Scheme<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override
+    {
+      const auto time = options.section("Time");
+      time.require("Step", asked_step, "s", Allowed::positive(), "Length of a time step.");
+      time.add("Maximum cuts",
+               maximum_cuts,
+               "",
+               Allowed::between(0, 20),
+               "How often a step that fails is halved and redone before the run stops.");
+    }
+
+    Report
+    initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) override
+    {
+      if (models.solid && models.fluid)
+        throw InputError(
+          "the scene has a fluid and bodies, but their interface is not part of this "
+          "version.\n  Try: remove the subsection 'Fluid' or 'Bodies'.");
+      if (models.solid)
+        solid = std::make_unique<SolidAlone<dim>>(models, timing);
+      if (models.fluid)
+        fluid = std::make_unique<FluidAlone<dim>>(models, timing);
+
+      Report report;
+      if (solid)
+        solid->initialize(state, report);
+      if (fluid)
+        fluid->initialize(state, report);
+      return report;
+    }
+
+    double
+    choose_dt(const State<dim> &state) const override
+    {
+      return state.clock.land(asked_step);
+    }
+
+    Report
+    step(State<dim> &state, const double asked) override
+    {
+      const State<dim> saved = state;
+      for (Report report;; ++report.cuts)
+        try
+          {
+            report.dt = asked / (1u << report.cuts);
+            if (solid)
+              solid->step(state, report);
+            if (fluid)
+              fluid->step(state, report);
+            return report;
+          }
+        catch (const SolveError &error)
+          {
+            state                    = saved;
+            report.newton_iterations = report.linear_iterations = 0;
+            report.columns.clear();
+            if (report.cuts == maximum_cuts)
+              throw SolveError(fmt::format("the step of {:.4g} s failed, and so did {} shorter "
+                                           "one(s), down to {:.4g} s: {}",
+                                           asked,
+                                           maximum_cuts,
+                                           report.dt,
+                                           error.what()));
+          }
+    }
+
+  private:
+    double                           asked_step   = 0.01; // [s]
+    unsigned int                     maximum_cuts = 3;
+    std::unique_ptr<SolidAlone<dim>> solid;
+    std::unique_ptr<FluidAlone<dim>> fluid;
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Scheme, Simultaneous>
+      simultaneous("simultaneous", "fluid pressures and velocities of bodies are solved together");
+  }
+} // namespace undine

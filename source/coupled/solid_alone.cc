@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/single_physics.h>
+#include <undine/solid/solid_columns.h>
+
+namespace undine
+{
+  namespace
+  {
+    template <int dim>
+    SolidEnvironment<dim>
+    environment_of(const Effects<dim> &effects)
+    {
+      SolidEnvironment<dim> environment;
+      for (const auto &effect : effects)
+        effect->affect(environment);
+      return environment;
+    }
+
+
+    void
+    append(Columns &columns, const Columns &more)
+    {
+      columns.insert(columns.end(), more.begin(), more.end());
+    }
+  } // namespace
+
+
+  template <int dim>
+  SolidAlone<dim>::SolidAlone(const Models<dim> &models, TimingTree &timing)
+    : model(*models.solid)
+    , timing(timing)
+    , environment(environment_of(models.effects))
+    , solid_step(model)
+  {
+  }
+
+
+  template <int dim>
+  void
+  SolidAlone<dim>::initialize(State<dim> &state, Report &report) const
+  {
+    state.solid = solid_step.initialize(environment, state.clock.time);
+    append(report.columns,
+           solid_columns(
+             model, solid_step.mass(), environment, state.solid, state.clock.time, model.vector()));
+  }
+
+
+  template <int dim>
+  void
+  SolidAlone<dim>::step(State<dim> &state, Report &report) const
+  {
+    const auto   timed = timing.section("solid");
+    const double time  = state.clock.time;
+    const auto   solid = solid_step.step(state.solid, environment, time, report.dt, timing);
+    report.newton_iterations += solid.newton.iterations;
+    report.linear_iterations += solid.newton.linear_iterations;
+    const auto measured = timing.section("measure");
+    append(
+      report.columns,
+      solid_columns(
+        model, solid_step.mass(), environment, state.solid, time + report.dt, solid.reactions));
+  }
+
+
+  template class SolidAlone<2>;
+  template class SolidAlone<3>;
+} // namespace undine
