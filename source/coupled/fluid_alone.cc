@@ -32,7 +32,8 @@ namespace undine
   FluidAlone<dim>::step(State<dim> &state, Report &report)
   {
     const auto     timed = timing.section("fluid");
-    FluidStep<dim> fluid{model, state.fluid, state.clock.time, report.dt, timing};
+    FluidStep<dim> fluid(
+      model, state.fluid, models.environment().gravity, state.clock.time, report.dt, timing);
     {
       const auto phase = timing.section("transport");
       for (const auto &effect : models.effects)

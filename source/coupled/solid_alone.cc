@@ -6,17 +6,6 @@ namespace undine
 {
   namespace
   {
-    template <int dim>
-    SolidEnvironment<dim>
-    environment_of(const Effects<dim> &effects)
-    {
-      SolidEnvironment<dim> environment;
-      for (const auto &effect : effects)
-        effect->affect(environment);
-      return environment;
-    }
-
-
     void
     append(Columns &columns, const Columns &more)
     {
@@ -29,7 +18,7 @@ namespace undine
   SolidAlone<dim>::SolidAlone(const Models<dim> &models, TimingTree &timing)
     : model(*models.solid)
     , timing(timing)
-    , environment(environment_of(models.effects))
+    , environment(models.environment())
     , solid_step(model)
   {
   }

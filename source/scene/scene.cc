@@ -174,8 +174,6 @@ namespace undine
                           "Try: add a subsection 'Fluid' or a subsection 'Bodies'.");
     options.assert_all_used();
     check_effects(scene, options);
-    const auto probes = options.section("Probes");
-    const auto names  = probes.named_sections("probe");
     const auto probes      = options.section("Probes");
     const auto probe_names = probes.named_sections("probe");
     for (unsigned int p = 0; p < scene.probes.size(); ++p)

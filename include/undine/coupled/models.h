@@ -17,6 +17,16 @@ namespace undine
     std::unique_ptr<const SolidModel<dim>> solid; ///< nullptr: no bodies
     std::unique_ptr<const FluidModel<dim>> fluid; ///< nullptr: no fluid
     Effects<dim>                           effects;
+
+    /// What the effects do to the bodies.
+    SolidEnvironment<dim>
+    environment() const
+    {
+      SolidEnvironment<dim> result;
+      for (const auto &effect : effects)
+        effect->affect(result);
+      return result;
+    }
   };
 } // namespace undine
 
