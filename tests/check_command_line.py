@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The program's options do what the README says.
+
+usage: check_command_line.py PROGRAM SCENE.prm
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+import scene_tools
+
+
+def call(program, *arguments, folder=None):
+    return subprocess.run([program, *arguments], env=scene_tools.environment(), cwd=folder,
+                          capture_output=True, text=True)
+
+
+def expect(what, holds, result):
+    if not holds:
+        sys.exit(f"{what}\nexit code {result.returncode}\n{result.stdout}\n{result.stderr}")
+
+
+def check_questions(program, scene):
+    for option, word in (("--help", "--validate"), ("--version", "undine"),
+                         ("--reference", "| key |")):
+        result = call(program, option)
+        expect(f"{option} must print '{word}'", result.returncode == 0 and word in result.stdout,
+               result)
+    with tempfile.TemporaryDirectory() as folder:
+        result = call(program, scene, "--validate", folder=folder)
+        expect("--validate must write nothing", result.returncode == 0 and not os.listdir(folder),
+               result)
+    for arguments in ([], ["--no-such-option"], [scene, "--set", "Time"], ["no_such_file.prm"],
+                      [scene, "--set", "Time/Stepp=1"], ["resume", "no_such_folder"]):
+        result = call(program, *arguments)
+        expect(f"{arguments} must be refused with a message",
+               result.returncode > 0 and result.stderr.strip(), result)
+
+
+def check_output(program, scene):
+    with tempfile.TemporaryDirectory() as folder:
+        results = os.path.join(folder, "new", "results")
+        result = call(program, scene, "--output", results, "--set", "Time/Maximum steps=1",
+                      "--set", "Title=A new title")
+        with open(os.path.join(results, "parameters.prm")) as file:
+            used = file.read()
+        expect("--set and --output must be obeyed", result.returncode == 0 and
+               "set Title = A new title" in used and "set Maximum steps = 1" in used, result)
+        with open(os.path.join(results, "original.prm")) as file, open(scene) as original:
+            expect("original.prm must be the scene", file.read() == original.read(), result)
+
+        again = os.path.join(folder, "again")
+        result = call(program, os.path.join(results, "parameters.prm"), "--output", again)
+        expect("parameters.prm must give the same run", result.returncode == 0 and
+               scene_tools.statistics(results) == scene_tools.statistics(again), result)
+
+        blocked = os.path.join(folder, "file")
+        open(blocked, "w").close()
+        result = call(program, scene, "--output", os.path.join(blocked, "results"))
+        expect("an impossible folder must be refused with its name",
+               result.returncode == 4 and blocked in result.stderr, result)
+
+
+def main():
+    program, scene = sys.argv[1:3]
+    check_questions(program, scene)
+    check_output(program, scene)
+    print("the command line does what the README says")
+
+
+main()
