@@ -59,9 +59,9 @@ namespace undine
                  const dealii::TrilinosWrappers::MPI::Vector &displacement);
   /// @}
 
-  /// "solid kinetic energy", "solid elastic energy", "solid load potential", "solid Newton ..." are
-  /// not here: energies, momentum, volume and centre of mass of every body, and the force of every
-  /// support ("reaction beam/root x"), from SolidReport::reactions. Collective.
+  /// Energies, momenta, volume and centre of mass of every body, and the force of every support
+  /// ("reaction beam/root x") from SolidReport::reactions. In 2D energies and forces are those of
+  /// 1 m of depth. Collective.
   template <int dim>
   Columns
   solid_columns(const SolidModel<dim>                        &model,

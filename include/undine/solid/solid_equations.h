@@ -24,7 +24,7 @@ namespace undine
 
     /// From `old_state` at `time` [s] over `dt` [s]. `mass` is mass_matrix(model). `nodal_forces`
     /// [N] act during the whole step and enter the momentum once, as J p does; empty: none. The
-    /// references must outlive the equations. Collective. Throws SolveError.
+    /// other references must outlive the equations. Collective. Throws SolveError.
     SolidEquations(const SolidModel<dim>       &model,
                    const Matrix                &mass,
                    const SolidState            &old_state,
@@ -32,9 +32,9 @@ namespace undine
                    double                       time,
                    double                       dt,
                    TimingTree                  &timing,
-                   const Vector                &nodal_forces = Vector());
+                   const Vector                &nodal_forces = {});
 
-    /// A first u [m/s]: u^n. Prescribed velocities in place.
+    /// A first u [m/s]: u^n with prescribed velocities in place.
     Vector
     guess() const;
 
@@ -81,12 +81,16 @@ namespace undine
     full_residual(const Vector &velocity);
     Vector
     stage_displacement(const Vector &end_displacement, double position) const;
-    Vector
-    known_forces() const;
     void
-    prescribe(Vector &velocity) const;
-    double
-    prescribed_velocity(const FixedDof &fixed) const;
+    add_damping(Vector &forces, const Vector &velocity, double factor) const;
+    void
+    add_stage(Vector &forces, const StepCoefficients::Stage &stage, const Vector &displacement);
+    void
+    find_known_forces();
+    void
+    find_damping_stiffness();
+    void
+    note_size(const Vector &term, double factor);
 
     const SolidModel<dim>       &model;
     const Matrix                &mass;
@@ -95,12 +99,13 @@ namespace undine
     const double                 time;
     const double                 dt;
     TimingTree                  &timing;
-    const Vector                &nodal_forces;
+    const Vector                 nodal_forces;
     const StepCoefficients       coefficients;
-    Matrix                       stiffness_at_start; ///< K'(d^n + r h u^n) if it damps
-    Vector                       known;              ///< terms without u
-    double                       largest_term      = 0;
-    double                       rounding_of_terms = 0;
+    const bool                   has_pressure;
+    Matrix                       damping_stiffness; ///< K'(d^n + r h u^n); empty without damping
+    double                       largest_term = 0;  ///< [N]
+    double                       own_rounding;      ///< [N]
+    Vector                       known;             ///< terms of the residual without u [N]
   };
 } // namespace undine
 

@@ -21,7 +21,7 @@ namespace undine
     /// A nodal field (displacement, velocity, ...) at this point. Collective; the same on all
     /// ranks, and for any number of them.
     dealii::Tensor<1, dim>
-    value(const dealii::TrilinosWrappers::MPI::Vector &field) const;
+    value(const dealii::TrilinosWrappers::MPI::Vector &field);
 
   private:
     MPI_Comm                                     communicator;
@@ -29,6 +29,7 @@ namespace undine
     std::vector<dealii::types::global_dof_index> dofs;  ///< of the cell that this rank owns
     std::vector<double>                          shapes;
     std::vector<unsigned int>                    axes;
+    dealii::TrilinosWrappers::MPI::Vector        readable; ///< at the relevant degrees of freedom
   };
 } // namespace undine
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_sparse_h
+#define undine_solid_sparse_h
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+namespace undine
+{
+  /// A += factor B for matrices with one sparsity pattern (SolidModel::matrix()).
+  void
+  add_matrix(dealii::TrilinosWrappers::SparseMatrix       &A,
+             double                                        factor,
+             const dealii::TrilinosWrappers::SparseMatrix &B);
+
+  /// Replace rows and columns of the `fixed` degrees of freedom, given for all ranks, by those of
+  /// the identity times the mean size of A's diagonal. Collective.
+  void
+  fix_rows_and_columns(dealii::TrilinosWrappers::SparseMatrix &A, const dealii::IndexSet &fixed);
+} // namespace undine
+
+#endif

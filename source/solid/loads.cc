@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/solid/cofactor.h>
+#include <undine/solid/loads.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+  namespace
+  {
+    template <int dim>
+    void
+    add_volume_loads(Vector                      &forces,
+                     const SolidModel<dim>       &model,
+                     const SolidEnvironment<dim> &environment,
+                     const double                 time)
+    {
+      const auto &geometry = model.geometry();
+      for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
+        {
+          const auto         &body   = model.bodies()[geometry.body(cell)];
+          const auto          weight = body.density * environment.gravity;
+          std::vector<double> local(geometry.dofs(cell).size(), 0.);
+          for (unsigned int q = 0; q < geometry.n_points(); ++q)
+            {
+              const auto load = (weight + body.load.vector(geometry.position(cell, q), time)) *
+                                geometry.JxW(cell, q);
+              for (unsigned int dof = 0; dof < local.size(); ++dof)
+                local[dof] += load[dof % dim] * geometry.shape(dof / dim, q);
+            }
+          forces.add(geometry.dofs(cell), local);
+        }
+    }
+
+
+    /// action(boundary, face values, degrees of freedom of the cell) at the locally owned faces
+    /// with a load of this kind.
+    template <int dim, class Action>
+    void
+    for_all_faces(const SolidModel<dim>                 &model,
+                  const typename BodyBoundary<dim>::Kind kind,
+                  const Action                          &action)
+    {
+      const auto                                  &element = model.dof_handler().get_fe();
+      dealii::FEFaceValues<dim>                    values(model.mapping(),
+                                       element,
+                                       dealii::QGauss<dim - 1>(element.degree + 1),
+                                       dealii::update_values | dealii::update_gradients |
+                                         dealii::update_quadrature_points |
+                                         dealii::update_normal_vectors | dealii::update_JxW_values);
+      std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
+      for (const auto &face : model.faces())
+        {
+          const auto &boundary = model.bodies()[face.body].boundaries[face.boundary];
+          if (boundary.kind != kind || !face.cell->is_locally_owned())
+            continue;
+          const typename dealii::DoFHandler<dim>::active_cell_iterator cell(
+            &model.triangulation(), face.cell->level(), face.cell->index(), &model.dof_handler());
+          values.reinit(cell, face.face);
+          cell->get_dof_indices(dofs);
+          action(boundary, values, dofs);
+        }
+    }
+
+
+    template <int dim>
+    void
+    add_tractions(Vector &forces, const SolidModel<dim> &model, const double time)
+    {
+      const auto         &element = model.dof_handler().get_fe();
+      std::vector<double> local(element.n_dofs_per_cell());
+      for_all_faces(model,
+                    BodyBoundary<dim>::Kind::traction,
+                    [&](const auto &boundary, const auto &values, const auto &dofs) {
+                      std::fill(local.begin(), local.end(), 0.);
+                      for (const unsigned int q : values.quadrature_point_indices())
+                        {
+                          const auto load =
+                            boundary.traction.vector(values.quadrature_point(q), time) *
+                            values.JxW(q);
+                          for (unsigned int i = 0; i < local.size(); ++i)
+                            local[i] += load[element.system_to_component_index(i).first] *
+                                        values.shape_value(i, q);
+                        }
+                      forces.add(dofs, local);
+                    });
+    }
+
+
+    /// F at the points of a face, from a ghosted displacement.
+    template <int dim>
+    std::vector<dealii::Tensor<2, dim>>
+    deformation_gradients(const dealii::FEFaceValues<dim> &values, const Vector &displacement)
+    {
+      std::vector<dealii::Tensor<2, dim>> result(values.n_quadrature_points);
+      values[dealii::FEValuesExtractors::Vector(0)].get_function_gradients(displacement, result);
+      for (auto &F : result)
+        F += dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+      return result;
+    }
+
+
+    /// factor N_i [d(cof F)_ak/dF_bl] n_k dN_j/dx_l dA.
+    template <int dim>
+    void
+    add_pressure_point(dealii::FullMatrix<double>       &local,
+                       const dealii::FEFaceValues<dim>  &values,
+                       const dealii::FiniteElement<dim> &element,
+                       const unsigned int                q,
+                       const dealii::Tensor<2, dim>     &F,
+                       const double                      factor)
+    {
+      const auto             derivative = cofactor_derivative(F);
+      const auto            &normal     = values.normal_vector(q);
+      dealii::Tensor<3, dim> of_normal; // d(cof F n)_a / dF_bl
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int k = 0; k < dim; ++k)
+          of_normal[a] += normal[k] * derivative[a][k];
+      for (unsigned int i = 0; i < local.m(); ++i)
+        for (unsigned int j = 0; j < local.n(); ++j)
+          {
+            const unsigned int a = element.system_to_component_index(i).first;
+            const unsigned int b = element.system_to_component_index(j).first;
+            local(i, j) +=
+              factor * values.shape_value(i, q) * (of_normal[a][b] * values.shape_grad(j, q));
+          }
+    }
+  } // namespace
+
+
+  template <int dim>
+  Vector
+  dead_loads(const SolidModel<dim>       &model,
+             const SolidEnvironment<dim> &environment,
+             const double                 time)
+  {
+    Vector forces = model.vector();
+    add_volume_loads(forces, model, environment, time);
+    add_tractions(forces, model, time);
+    forces.compress(dealii::VectorOperation::add);
+    return forces;
+  }
+
+
+  template <int dim>
+  bool
+  has_pressure_loads(const SolidModel<dim> &model)
+  {
+    return std::any_of(model.faces().begin(), model.faces().end(), [&](const auto &face) {
+      return model.bodies()[face.body].boundaries[face.boundary].kind ==
+             BodyBoundary<dim>::Kind::pressure;
+    });
+  }
+
+
+  template <int dim>
+  Vector
+  pressure_loads(const SolidModel<dim> &model, const Vector &displacement, const double time)
+  {
+    const auto         &element = model.dof_handler().get_fe();
+    const Vector        ghosted = model.ghosted(displacement);
+    std::vector<double> local(element.n_dofs_per_cell());
+    Vector              forces = model.vector();
+    for_all_faces(model,
+                  BodyBoundary<dim>::Kind::pressure,
+                  [&](const auto &boundary, const auto &values, const auto &dofs) {
+                    const auto F = deformation_gradients(values, ghosted);
+                    std::fill(local.begin(), local.end(), 0.);
+                    for (const unsigned int q : values.quadrature_point_indices())
+                      {
+                        const double p = boundary.pressure.value(values.quadrature_point(q), time);
+                        const auto   load =
+                          cofactor(F[q]) * values.normal_vector(q) * (-p * values.JxW(q));
+                        for (unsigned int i = 0; i < local.size(); ++i)
+                          local[i] += load[element.system_to_component_index(i).first] *
+                                      values.shape_value(i, q);
+                      }
+                    forces.add(dofs, local);
+                  });
+    forces.compress(dealii::VectorOperation::add);
+    return forces;
+  }
+
+
+  template <int dim>
+  Matrix
+  pressure_stiffness(const SolidModel<dim> &model, const Vector &displacement, const double time)
+  {
+    const auto                &element = model.dof_handler().get_fe();
+    const Vector               ghosted = model.ghosted(displacement);
+    dealii::FullMatrix<double> local(element.n_dofs_per_cell());
+    Matrix                     result = model.matrix();
+    for_all_faces(model,
+                  BodyBoundary<dim>::Kind::pressure,
+                  [&](const auto &boundary, const auto &values, const auto &dofs) {
+                    const auto F = deformation_gradients(values, ghosted);
+                    local        = 0;
+                    for (const unsigned int q : values.quadrature_point_indices())
+                      {
+                        const double p = boundary.pressure.value(values.quadrature_point(q), time);
+                        add_pressure_point(local, values, element, q, F[q], -p * values.JxW(q));
+                      }
+                    result.add(dofs, local);
+                  });
+    result.compress(dealii::VectorOperation::add);
+    return result;
+  }
+
+
+#define UNDINE_INSTANTIATE(dim)                                                               \
+  template Vector dead_loads(const SolidModel<dim> &, const SolidEnvironment<dim> &, double); \
+  template bool   has_pressure_loads(const SolidModel<dim> &);                                \
+  template Vector pressure_loads(const SolidModel<dim> &, const Vector &, double);            \
+  template Matrix pressure_stiffness(const SolidModel<dim> &, const Vector &, double);
+
+  UNDINE_INSTANTIATE(2)
+  UNDINE_INSTANTIATE(3)
+#undef UNDINE_INSTANTIATE
+} // namespace undine

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/solid/internal_forces.h>
+#include <undine/solid/loads.h>
+#include <undine/solid/mass_solve.h>
+#include <undine/solid/prescribed_motion.h>
+#include <undine/solid/solid_equations.h>
+#include <undine/solid/sparse.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace undine
+{
+  template <int dim>
+  SolidEquations<dim>::SolidEquations(const SolidModel<dim>       &model,
+                                      const Matrix                &mass,
+                                      const SolidState            &old_state,
+                                      const SolidEnvironment<dim> &environment,
+                                      const double                 time,
+                                      const double                 dt,
+                                      TimingTree                  &timing,
+                                      const Vector                &nodal_forces)
+    : model(model)
+    , mass(mass)
+    , old_state(old_state)
+    , environment(environment)
+    , time(time)
+    , dt(dt)
+    , timing(timing)
+    , nodal_forces(nodal_forces)
+    , coefficients(model.numerics().integrator->coefficients(dt))
+    , has_pressure(has_pressure_loads(model))
+    , own_rounding(rounding_of_forces(model, old_state.displacement))
+    , known(model.vector())
+  {
+    const auto timed = timing.section("assemble forces");
+    if (environment.stiffness_damping > 0 && coefficients.damping != 0)
+      find_damping_stiffness();
+    find_known_forces();
+  }
+
+
+  template <int dim>
+  void
+  SolidEquations<dim>::find_damping_stiffness()
+  {
+    Vector displacement = old_state.displacement;
+    displacement.add(coefficients.damping_position * dt, old_state.velocity);
+    try
+      {
+        damping_stiffness.reinit(model.matrix());
+        add_matrix(damping_stiffness, 1, internal_stiffness(model, displacement));
+      }
+    catch (const SolveError &)
+      {
+        // The extrapolation may invert a cell where d^n does not.
+        add_matrix(damping_stiffness, 1, internal_stiffness(model, old_state.displacement));
+      }
+  }
+
+
+  template <int dim>
+  void
+  SolidEquations<dim>::note_size(const Vector &term, const double factor)
+  {
+    largest_term = std::max(largest_term, std::abs(factor) * term.l2_norm());
+  }
+
+
+  /// forces += factor C velocity.
+  template <int dim>
+  void
+  SolidEquations<dim>::add_damping(Vector       &forces,
+                                   const Vector &velocity,
+                                   const double  factor) const
+  {
+    Vector product = model.vector();
+    if (environment.mass_damping > 0)
+      {
+        mass.vmult(product, velocity);
+        forces.add(factor * environment.mass_damping, product);
+      }
+    if (damping_stiffness.m() > 0)
+      {
+        damping_stiffness.vmult(product, velocity);
+        forces.add(factor * environment.stiffness_damping, product);
+      }
+  }
+
+
+  /// forces += w_e [K(d_e) - P(d_e, t_e)], P being the follower pressures.
+  template <int dim>
+  void
+  SolidEquations<dim>::add_stage(Vector                        &forces,
+                                 const StepCoefficients::Stage &stage,
+                                 const Vector                  &displacement)
+  {
+    const Vector internal = internal_forces(model, displacement);
+    note_size(internal, stage.weight);
+    forces.add(stage.weight, internal);
+    if (has_pressure)
+      {
+        const Vector pressure = pressure_loads(model, displacement, time + stage.position * dt);
+        note_size(pressure, stage.weight);
+        forces.add(-stage.weight, pressure);
+      }
+  }
+
+
+  template <int dim>
+  void
+  SolidEquations<dim>::find_known_forces()
+  {
+    if (coefficients.mass != 0)
+      {
+        Vector velocity = model.vector();
+        velocity.add(coefficients.mass_old_velocity, old_state.velocity);
+        if (coefficients.mass_old_acceleration != 0)
+          velocity.add(coefficients.mass_old_acceleration, old_state.acceleration);
+        mass.vmult(known, velocity);
+        note_size(known, 1);
+        own_rounding += std::numeric_limits<double>::epsilon() * known.l2_norm();
+      }
+    if (coefficients.damping_old_velocity != 0)
+      add_damping(known, old_state.velocity, coefficients.damping_old_velocity);
+    for (const auto &stage : coefficients.stages)
+      {
+        const Vector loads = dead_loads(model, environment, time + stage.position * dt);
+        note_size(loads, stage.weight);
+        known.add(-stage.weight, loads);
+        if (stage.position == 0)
+          add_stage(known, stage, old_state.displacement);
+      }
+    if (nodal_forces.size() > 0)
+      {
+        note_size(nodal_forces, 1);
+        known.add(-1., nodal_forces);
+      }
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::guess() const
+  {
+    Vector velocity = old_state.velocity;
+    prescribe_velocity(velocity, model, time + dt, dt);
+    return velocity;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::guess_at_rest() const
+  {
+    Vector velocity = model.vector();
+    velocity.add(-coefficients.displacement_velocity / coefficients.displacement,
+                 old_state.velocity);
+    if (coefficients.displacement_acceleration != 0)
+      velocity.add(-coefficients.displacement_acceleration / coefficients.displacement,
+                   old_state.acceleration);
+    prescribe_velocity(velocity, model, time + dt, dt);
+    return velocity;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::displacement(const Vector &velocity) const
+  {
+    Vector result = old_state.displacement;
+    result.add(coefficients.displacement, velocity);
+    result.add(coefficients.displacement_velocity, old_state.velocity);
+    if (coefficients.displacement_acceleration != 0)
+      result.add(coefficients.displacement_acceleration, old_state.acceleration);
+    prescribe_displacement(result, model, time + dt);
+    return result;
+  }
+
+
+  template <int dim>
+  double
+  SolidEquations<dim>::displacement_factor() const
+  {
+    return coefficients.displacement;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::stage_displacement(const Vector &end_displacement,
+                                          const double  position) const
+  {
+    Vector result = end_displacement;
+    result.sadd(position, 1 - position, old_state.displacement);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::full_residual(const Vector &velocity)
+  {
+    const auto timed  = timing.section("assemble forces");
+    Vector     result = known;
+    if (coefficients.mass != 0)
+      {
+        Vector inertia = model.vector();
+        mass.vmult(inertia, velocity);
+        note_size(inertia, coefficients.mass);
+        result.add(coefficients.mass, inertia);
+      }
+    if (coefficients.damping != 0)
+      add_damping(result, velocity, coefficients.damping);
+    const Vector end = displacement(velocity);
+    for (const auto &stage : coefficients.stages)
+      if (stage.position > 0)
+        add_stage(result, stage, stage_displacement(end, stage.position));
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::residual(const Vector &velocity)
+  {
+    Vector result = full_residual(velocity);
+    clear_fixed(result, model);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::reactions(const Vector &velocity)
+  {
+    const Vector forces = full_residual(velocity);
+    Vector       result = model.vector();
+    for (const auto &fixed : model.fixed())
+      result(fixed.dof) = forces(fixed.dof) / coefficients.sum_of_weights();
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Matrix
+  SolidEquations<dim>::jacobian(const Vector &velocity) const
+  {
+    const auto   timed  = timing.section("assemble tangent");
+    const Vector end    = displacement(velocity);
+    Matrix       result = model.matrix();
+    for (const auto &stage : coefficients.stages)
+      if (stage.position > 0)
+        {
+          const double factor = stage.weight * stage.position * coefficients.displacement;
+          const Vector d      = stage_displacement(end, stage.position);
+          add_matrix(result, factor, internal_stiffness(model, d));
+          if (has_pressure)
+            add_matrix(result, -factor, pressure_stiffness(model, d, time + stage.position * dt));
+        }
+    const double mass_factor = coefficients.mass + coefficients.damping * environment.mass_damping;
+    if (mass_factor != 0)
+      add_matrix(result, mass_factor, mass);
+    if (damping_stiffness.m() > 0)
+      add_matrix(result, coefficients.damping * environment.stiffness_damping, damping_stiffness);
+    fix_rows_and_columns(result, model.all_fixed());
+    return result;
+  }
+
+
+  template <int dim>
+  SolidState
+  SolidEquations<dim>::end_state(const Vector &velocity) const
+  {
+    SolidState state;
+    state.displacement = displacement(velocity);
+    state.velocity     = velocity;
+    state.acceleration = model.vector();
+    state.acceleration.add(
+      coefficients.acceleration, velocity, coefficients.acceleration_velocity, old_state.velocity);
+    const auto &integrator = *model.numerics().integrator;
+    if (integrator.uses_acceleration())
+      {
+        state.acceleration.add(coefficients.acceleration_acceleration, old_state.acceleration);
+        if (nodal_forces.size() > 0)
+          state.acceleration.add(-coefficients.acceleration * dt,
+                                 solve_mass(model, mass, nodal_forces, model.vector()));
+        prescribe_acceleration(
+          state.acceleration, model, time + (1 + integrator.acceleration_shift()) * dt, dt);
+      }
+    return state;
+  }
+
+
+  template <int dim>
+  double
+  SolidEquations<dim>::scale() const
+  {
+    return largest_term;
+  }
+
+
+  template <int dim>
+  double
+  SolidEquations<dim>::rounding() const
+  {
+    return own_rounding;
+  }
+
+
+  template class SolidEquations<2>;
+  template class SolidEquations<3>;
+} // namespace undine

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/solid/solid_numerics.h>
+
+namespace undine
+{
+  SolidNumerics::SolidNumerics(const Options &options)
+  {
+    options.add("Element degree",
+                degree,
+                "1",
+                Allowed::between(1, 2),
+                "Of the polynomials that interpolate displacements; 2 does not lock when bent.");
+    integrator =
+      options.choose<TimeIntegrator>("Time integrator", "theta", "How the bodies advance in time.");
+    options.add("Newton tolerance",
+                newton.relative_tolerance,
+                "1",
+                Allowed::between(1e-14, 1e-2),
+                "Of the residual of forces, relative to the largest of the forces that it sums.");
+    options.add("Newton maximum iterations",
+                newton.maximum_iterations,
+                "1",
+                Allowed::positive(),
+                "The step fails if these are not enough.");
+    options.add("Newton iterations",
+                newton.fixed_iterations,
+                "1",
+                Allowed::not_negative(),
+                "Do exactly so many, converged or not, from d = d^n; 0: as many as it takes.");
+    options.add("Linear solver",
+                linear_solver,
+                "",
+                Allowed::one_of({"auto", "direct", "multigrid"}),
+                "direct: sparse factorisation; multigrid: conjugate gradients with algebraic "
+                "multigrid; auto: direct for few unknowns and for nearly incompressible bodies.");
+    options.add("Linear tolerance",
+                linear_tolerance,
+                "1",
+                Allowed::between(1e-15, 1e-1),
+                "Of the iterative solver, relative to the norm of the right-hand side.");
+  }
+} // namespace undine

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/solid/internal_forces.h>
+#include <undine/solid/loads.h>
+#include <undine/solid/mass_matrix.h>
+#include <undine/solid/mass_solve.h>
+#include <undine/solid/prescribed_motion.h>
+#include <undine/solid/solid_equations.h>
+#include <undine/solid/solid_step.h>
+#include <undine/solid/tangent_solver.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// The equations of a step as Newton sees them.
+    template <int dim>
+    class StepProblem
+    {
+    public:
+      using Unknown = typename SolidModel<dim>::Vector;
+
+      StepProblem(const SolidModel<dim> &model, SolidEquations<dim> &equations, TimingTree &timing)
+        : equations(equations)
+        , solver(model)
+        , timing(timing)
+      {
+      }
+
+      double
+      evaluate(const Unknown &velocity)
+      {
+        residual = equations.residual(velocity);
+        return residual.l2_norm();
+      }
+
+      Unknown
+      correction(const Unknown &velocity)
+      {
+        const auto jacobian = equations.jacobian(velocity);
+        const auto timed    = timing.section("solve linear system");
+        residual *= -1.;
+        return solver.solve(jacobian, residual, equations.displacement(velocity));
+      }
+
+      double
+      scale() const
+      {
+        return equations.scale();
+      }
+
+      double
+      rounding() const
+      {
+        return equations.rounding();
+      }
+
+      unsigned int
+      linear_iterations() const
+      {
+        return solver.iterations();
+      }
+
+      const std::string &
+      note() const
+      {
+        return solver.note();
+      }
+
+    private:
+      SolidEquations<dim> &equations;
+      TangentSolver<dim>   solver;
+      TimingTree          &timing;
+      Unknown              residual;
+    };
+
+
+    /// Displacement and velocity from the expressions of the bodies.
+    template <int dim>
+    void
+    set_initial(SolidState &state, const SolidModel<dim> &model)
+    {
+      const auto &geometry = model.geometry();
+      for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
+        {
+          const auto &body = model.bodies()[geometry.body(cell)];
+          for (const auto dof : geometry.dofs(cell))
+            if (model.locally_owned().is_element(dof))
+              {
+                const auto        &position = model.rest_position(dof);
+                const unsigned int axis     = model.axis(dof);
+                state.displacement(dof)     = body.displacement.value(position, 0., axis);
+                state.velocity(dof)         = body.velocity.value(position, 0., axis);
+              }
+        }
+      state.displacement.compress(dealii::VectorOperation::insert);
+      state.velocity.compress(dealii::VectorOperation::insert);
+    }
+
+
+    /// f - K(d) - C u [N].
+    template <int dim>
+    typename SolidModel<dim>::Vector
+    unbalanced_forces(const SolidState                       &state,
+                      const SolidModel<dim>                  &model,
+                      const typename SolidModel<dim>::Matrix &mass,
+                      const SolidEnvironment<dim>            &environment,
+                      const double                            time)
+    {
+      auto result  = dead_loads(model, environment, time);
+      auto product = model.vector();
+      result.add(1., pressure_loads(model, state.displacement, time));
+      result.add(-1., internal_forces(model, state.displacement));
+      mass.vmult(product, state.velocity);
+      result.add(-environment.mass_damping, product);
+      if (environment.stiffness_damping > 0)
+        {
+          internal_stiffness(model, state.displacement).vmult(product, state.velocity);
+          result.add(-environment.stiffness_damping, product);
+        }
+      return result;
+    }
+
+
+    /// Newton's method from u^n, and if that fails from the velocity that keeps d^n.
+    template <int dim>
+    NewtonReport
+    solve_step(typename SolidModel<dim>::Vector &velocity,
+               StepProblem<dim>                 &problem,
+               const SolidEquations<dim>        &equations,
+               const NewtonOptions              &options)
+    {
+      if (options.fixed_iterations == 0)
+        try
+          {
+            velocity = equations.guess();
+            return solve_newton(problem, velocity, options);
+          }
+        catch (const SolveError &)
+          {
+          }
+      velocity = equations.guess_at_rest();
+      return solve_newton(problem, velocity, options);
+    }
+  } // namespace
+
+
+  template <int dim>
+  SolidStep<dim>::SolidStep(const SolidModel<dim> &model)
+    : model(model)
+    , mass_matrix(undine::mass_matrix(model))
+  {
+  }
+
+
+  template <int dim>
+  const typename SolidStep<dim>::Matrix &
+  SolidStep<dim>::mass() const
+  {
+    return mass_matrix;
+  }
+
+
+  template <int dim>
+  SolidState
+  SolidStep<dim>::initialize(const SolidEnvironment<dim> &environment, const double time) const
+  {
+    const double instant = 1e-3; // [s], for the derivatives of prescribed motions at the start
+    SolidState   state{model.vector(), model.vector(), model.vector()};
+    set_initial(state, model);
+    prescribe_displacement(state.displacement, model, time);
+    prescribe_velocity(state.velocity, model, time, instant);
+    if (model.numerics().integrator->uses_acceleration())
+      {
+        auto fixed = model.vector();
+        prescribe_acceleration(fixed, model, time, instant);
+        state.acceleration =
+          solve_mass(model,
+                     mass_matrix,
+                     unbalanced_forces(state, model, mass_matrix, environment, time),
+                     fixed);
+      }
+    return state;
+  }
+
+
+  template <int dim>
+  SolidReport
+  SolidStep<dim>::step(SolidState                  &state,
+                       const SolidEnvironment<dim> &environment,
+                       const double                 time,
+                       const double                 dt,
+                       TimingTree                  &timing) const
+  {
+    const auto          timed = timing.section("solid");
+    SolidEquations<dim> equations(model, mass_matrix, state, environment, time, dt, timing);
+    StepProblem<dim>    problem(model, equations, timing);
+    auto                velocity = model.vector();
+
+    SolidReport report;
+    report.newton    = solve_step(velocity, problem, equations, model.numerics().newton);
+    report.reactions = equations.reactions(velocity);
+    report.note      = problem.note();
+    state            = equations.end_state(velocity);
+    return report;
+  }
+
+
+  template class SolidStep<2>;
+  template class SolidStep<3>;
+} // namespace undine

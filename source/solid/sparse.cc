@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/solid/sparse.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Map.h>
+
+#include <cmath>
+
+namespace undine
+{
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+  namespace
+  {
+    /// The locally owned rows as compressed rows; indices are local ones.
+    struct Rows
+    {
+      explicit Rows(const Matrix &matrix)
+        : epetra(matrix.trilinos_matrix())
+      {
+        const int error = epetra.ExtractCrsDataPointers(starts, columns, values);
+        AssertThrow(error == 0, dealii::ExcTrilinosError(error));
+      }
+
+      const Epetra_CrsMatrix &epetra;
+      int                    *starts;
+      int                    *columns;
+      double                 *values;
+    };
+
+
+    double
+    mean_diagonal(const Matrix &matrix)
+    {
+      const Rows rows(matrix);
+      double     sum = 0;
+      for (int row = 0; row < rows.epetra.NumMyRows(); ++row)
+        for (int entry = rows.starts[row]; entry < rows.starts[row + 1]; ++entry)
+          if (rows.epetra.GCID(rows.columns[entry]) == rows.epetra.GRID(row))
+            sum += std::abs(rows.values[entry]);
+      return dealii::Utilities::MPI::sum(sum, matrix.get_mpi_communicator()) / matrix.m();
+    }
+  } // namespace
+
+
+  void
+  add_matrix(Matrix &A, const double factor, const Matrix &B)
+  {
+    const Rows to(A), from(B);
+    AssertThrow(to.epetra.NumMyNonzeros() == from.epetra.NumMyNonzeros(),
+                dealii::ExcMessage("The matrices differ in their sparsity patterns."));
+    for (int entry = 0; entry < to.epetra.NumMyNonzeros(); ++entry)
+      to.values[entry] += factor * from.values[entry];
+  }
+
+
+  void
+  fix_rows_and_columns(Matrix &A, const dealii::IndexSet &fixed)
+  {
+    const double      mean     = mean_diagonal(A);
+    const double      diagonal = mean > 0 ? mean : 1;
+    const Rows        rows(A);
+    std::vector<bool> fixed_column(rows.epetra.NumMyCols());
+    for (int column = 0; column < rows.epetra.NumMyCols(); ++column)
+      fixed_column[column] = fixed.is_element(rows.epetra.GCID(column));
+    for (int row = 0; row < rows.epetra.NumMyRows(); ++row)
+      {
+        const int  index     = rows.epetra.GRID(row);
+        const bool fixed_row = fixed.is_element(index);
+        for (int entry = rows.starts[row]; entry < rows.starts[row + 1]; ++entry)
+          if (fixed_row || fixed_column[rows.columns[entry]])
+            rows.values[entry] =
+              fixed_row && rows.epetra.GCID(rows.columns[entry]) == index ? diagonal : 0;
+      }
+  }
+} // namespace undine

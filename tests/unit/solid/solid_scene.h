@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_tests_solid_scene_h
+#define undine_tests_solid_scene_h
+
+#include <undine/solid/solid_columns.h>
+#include <undine/solid/solid_model.h>
+#include <undine/solid/solid_point.h>
+#include <undine/solid/solid_step.h>
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+namespace undine_tests
+{
+  using namespace undine;
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+  /// The options that a text gives.
+  inline Options
+  read_scene_text(const std::string &text)
+  {
+    const std::string name = fmt::format("solid_scene_{}.prm", getpid());
+    std::ofstream(name) << text;
+    const ParameterFile file(name);
+    std::remove(name.c_str());
+    return Options(file);
+  }
+
+
+  /// A scene with one body 'body', whose section holds `body`, and boundaries `boundaries`.
+  inline std::string
+  one_body(const std::string &body,
+           const std::string &boundaries = "",
+           const std::string &numerics   = "")
+  {
+    return "subsection Bodies\n subsection body\n" + body + "\n subsection Boundaries\n" +
+           boundaries + "\n end\n end\nend\nsubsection Solid numerics\n" + numerics + "\nend\n";
+  }
+
+
+  inline std::string
+  boundary(const std::string &name, const std::string &keys)
+  {
+    return "subsection " + name + "\n" + keys + "\nend\n";
+  }
+
+
+  /// A model with its step and its state at t = 0.
+  template <int dim>
+  struct Solid
+  {
+    explicit Solid(const std::string           &text,
+                   const SolidEnvironment<dim> &environment = SolidEnvironment<dim>())
+      : model(read_scene_text(text), MPI_COMM_WORLD)
+      , stepper(model)
+      , environment(environment)
+      , state(stepper.initialize(environment, 0))
+    {
+    }
+
+    SolidReport
+    advance(const double dt)
+    {
+      report = stepper.step(state, environment, time, dt, timing);
+      time += dt;
+      return report;
+    }
+
+    Columns
+    columns() const
+    {
+      return solid_columns(model, stepper.mass(), environment, state, time, report.reactions);
+    }
+
+    double
+    column(const std::string &name) const
+    {
+      for (const auto &column : columns())
+        if (column.name == name)
+          return column.value;
+      throw std::runtime_error("no column " + name);
+    }
+
+    dealii::Tensor<1, dim>
+    displacement(const dealii::Point<dim> &position) const
+    {
+      return SolidPoint<dim>(model, "body", position).value(state.displacement);
+    }
+
+    dealii::Tensor<1, dim>
+    velocity(const dealii::Point<dim> &position) const
+    {
+      return SolidPoint<dim>(model, "body", position).value(state.velocity);
+    }
+
+    SolidModel<dim>       model;
+    SolidStep<dim>        stepper;
+    SolidEnvironment<dim> environment;
+    SolidState            state;
+    SolidReport           report;
+    TimingTree            timing;
+    double                time = 0;
+  };
+} // namespace undine_tests
+
+#endif
