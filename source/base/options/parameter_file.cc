@@ -70,48 +70,60 @@ namespace undine
             line.back() = ' ';
             line += without_comment(raw);
           }
-        if (line.empty())
-          continue;
-
-        const std::string place = name + ":" + std::to_string(number);
-        if (line == "end")
-          {
-            if (sections.size() == depth_at_start)
-              throw InputError(place + ": 'end' without an open subsection.");
-            sections.pop_back();
-          }
-        else if (const std::string section = rest_after(line, "subsection"); !section.empty())
-          {
-            if (section.find('/') != std::string::npos)
-              throw InputError(place + ": the name of subsection '" + section +
-                               "' must not contain '/'.");
-            sections.push_back(section);
-            if (std::find(section_order.begin(), section_order.end(), join(sections)) ==
-                section_order.end())
-              section_order.push_back(join(sections));
-          }
-        else if (const std::string included = rest_after(line, "include"); !included.empty())
-          {
-            if (std::filesystem::path(included) == std::filesystem::path(name).filename())
-              throw InputError(place + ": the file includes itself.");
-            read((std::filesystem::path(name).parent_path() / included).string(), sections);
-          }
-        else if (const std::string setting = rest_after(line, "set");
-                 setting.find('=') != std::string::npos && setting.front() != '=')
-          {
-            const auto        equals = setting.find('=');
-            const std::string key    = dealii::Utilities::trim(setting.substr(0, equals));
-            assign(join(sections) + key,
-                   {dealii::Utilities::trim(setting.substr(equals + 1)), name, place});
-          }
-        else
-          throw InputError(place + ": cannot understand the line '" + line +
-                           "'.\n  Allowed: 'subsection NAME', 'set KEY = VALUE', 'end', "
-                           "'include FILE' and comments that begin with '#'.");
+        if (line == "end" && sections.size() == depth_at_start)
+          throw InputError(name + ":" + std::to_string(number) +
+                           ": 'end' without an open subsection.");
+        if (!line.empty())
+          understand(line, name, number, sections);
       }
     if (sections.size() != depth_at_start)
       throw InputError(name + ": section '" + sections.back() +
                        "' is still open at the end of the file; an 'end' is missing.");
+  }
+
+
+  void
+  ParameterFile::understand(const std::string        &line,
+                            const std::string        &file,
+                            const unsigned int        number,
+                            std::vector<std::string> &sections)
+  {
+    const std::string place    = file + ":" + std::to_string(number);
+    const std::string section  = rest_after(line, "subsection");
+    const std::string included = rest_after(line, "include");
+    const std::string setting  = rest_after(line, "set");
+    const auto        equals   = setting.find('=');
+    if (line == "end")
+      sections.pop_back();
+    else if (!section.empty())
+      {
+        if (section.find('/') != std::string::npos)
+          throw InputError(place + ": the name of subsection '" + section +
+                           "' must not contain '/'.");
+        sections.push_back(section);
+        mention(join(sections));
+      }
+    else if (!included.empty())
+      {
+        if (std::filesystem::path(included) == std::filesystem::path(file).filename())
+          throw InputError(place + ": the file includes itself.");
+        read((std::filesystem::path(file).parent_path() / included).string(), sections);
+      }
+    else if (equals != std::string::npos && equals > 0)
+      assign(join(sections) + dealii::Utilities::trim(setting.substr(0, equals)),
+             {dealii::Utilities::trim(setting.substr(equals + 1)), file, place});
+    else
+      throw InputError(place + ": cannot understand the line '" + line +
+                       "'.\n  Allowed: 'subsection NAME', 'set KEY = VALUE', 'end', "
+                       "'include FILE' and comments that begin with '#'.");
+  }
+
+
+  void
+  ParameterFile::mention(const std::string &section)
+  {
+    if (std::find(section_order.begin(), section_order.end(), section) == section_order.end())
+      section_order.push_back(section);
   }
 
 
@@ -124,11 +136,7 @@ namespace undine
                        "' must have the form \"Section/Key=value\".");
     const std::string path = dealii::Utilities::trim(text.substr(0, equals));
     for (auto slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
-      {
-        const std::string section = path.substr(0, slash + 1);
-        if (std::find(section_order.begin(), section_order.end(), section) == section_order.end())
-          section_order.push_back(section);
-      }
+      mention(path.substr(0, slash + 1));
     assign(path,
            {dealii::Utilities::trim(text.substr(equals + 1)), "command line", "command line"});
   }

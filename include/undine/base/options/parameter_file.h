@@ -60,6 +60,17 @@ namespace undine
     void
     read(const std::string &file_name, std::vector<std::string> sections);
 
+    /// One line; `sections` are those open before and after it.
+    void
+    understand(const std::string        &line,
+               const std::string        &file,
+               unsigned int              number,
+               std::vector<std::string> &sections);
+
+    /// Note that the scene has a section ("Bodies/beam/").
+    void
+    mention(const std::string &section);
+
     void
     assign(const std::string &path, const Assignment &assignment);
 
