@@ -31,8 +31,8 @@ namespace undine
     /// are contiguous in memory.
     template <int dim>
     void
-    search_cuts(GridIndex<dim> &      best,
-                std::int64_t &        smallest,
+    search_cuts(GridIndex<dim>       &best,
+                std::int64_t         &smallest,
                 GridIndex<dim>        trial,
                 const GridIndex<dim> &n_cells,
                 const unsigned int    n_axes,
@@ -60,7 +60,7 @@ namespace undine
 
   template <int dim>
   Blocks<dim>::Blocks(const MPI_Comm              communicator,
-                      const GridIndex<dim> &      n_cells,
+                      const GridIndex<dim>       &n_cells,
                       const std::array<bool, dim> periodic)
     : mpi_communicator(communicator)
     , my_rank(dealii::Utilities::MPI::this_mpi_process(communicator))

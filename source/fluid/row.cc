@@ -26,8 +26,8 @@ namespace undine
   Row::of_planes(const std::vector<double> &planes, const bool periodic)
   {
     const int n_cells = planes.size() - 1;
-    return periodic ? Row(planes, 0, n_cells, planes.back() - planes.front()) :
-                      Row(planes, 0, n_cells + 1, 0);
+    return periodic ? Row(planes, 0, n_cells, planes.back() - planes.front())
+                    : Row(planes, 0, n_cells + 1, 0);
   }
 
 

@@ -19,8 +19,8 @@ namespace undine
 
     /// The field at t + h from the field at t. Collective.
     virtual Field<dim>
-    advect(const Flow<dim> &             flow,
-           const Field<dim> &            field,
+    advect(const Flow<dim>              &flow,
+           const Field<dim>             &field,
            const BoundaryCondition<dim> &condition) const = 0;
   };
 } // namespace undine

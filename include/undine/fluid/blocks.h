@@ -18,7 +18,7 @@ namespace undine
   public:
     /// Throws InputError if there are more ranks than the grid can be cut into.
     Blocks(const MPI_Comm              communicator,
-           const GridIndex<dim> &      n_cells,
+           const GridIndex<dim>       &n_cells,
            const std::array<bool, dim> periodic);
 
     MPI_Comm

@@ -22,7 +22,7 @@ namespace undine
 
     /// The value at a place on a held boundary that is normal to `normal_axis`.
     virtual double
-    held_value(const Boundary<dim> &     boundary,
+    held_value(const Boundary<dim>      &boundary,
                const unsigned int        normal_axis,
                const dealii::Point<dim> &place,
                const double              time) const = 0;
@@ -43,7 +43,7 @@ namespace undine
     holds(const Boundary<dim> &boundary) const override;
 
     double
-    held_value(const Boundary<dim> &     boundary,
+    held_value(const Boundary<dim>      &boundary,
                const unsigned int        normal_axis,
                const dealii::Point<dim> &place,
                const double              time) const override;
@@ -62,10 +62,10 @@ namespace undine
   template <int dim, class Action>
   void
   for_each_boundary_around(const FluidModel<dim> &model,
-                           const Lattice<dim> &   lattice,
+                           const Lattice<dim>    &lattice,
                            const Side             side,
-                           const GridIndex<dim> & index,
-                           Action &&              action)
+                           const GridIndex<dim>  &index,
+                           Action               &&action)
   {
     const auto     cells = model.grid().cells_along();
     GridIndex<dim> face  = index;
@@ -89,10 +89,10 @@ namespace undine
   /// point inside. The ghost layers of `field` must be up to date.
   template <int dim>
   void
-  fill_boundary_points(Field<dim> &                  field,
-                       const FluidModel<dim> &       model,
+  fill_boundary_points(Field<dim>                   &field,
+                       const FluidModel<dim>        &model,
                        const BoundaryCondition<dim> &condition,
-                       const Velocity<dim> &         velocity,
+                       const Velocity<dim>          &velocity,
                        const double                  time);
 
   /// Set the faces on walls and inflows to their normal velocity at `time`.

@@ -17,9 +17,9 @@ namespace undine
   {
   public:
     /// Throws InputError if a boundary is left without any face.
-    BoundaryMap(const Options &                   boundary_options,
+    BoundaryMap(const Options                    &boundary_options,
                 const std::vector<Boundary<dim>> &boundaries,
-                const MacGrid<dim> &              grid);
+                const MacGrid<dim>               &grid);
 
     /// All boundaries that have faces, periodic ones included.
     const std::vector<Boundary<dim>> &
@@ -49,10 +49,9 @@ namespace undine
     wall_that_needs_viscosity() const;
 
   private:
-    const MacGrid<dim> *                   grid;
+    const MacGrid<dim>                    *grid;
     std::vector<Boundary<dim>>             boundaries;
-    std::vector<std::vector<std::uint8_t>> numbers; ///< by side and face; empty: one for all
-    std::vector<std::uint8_t>              number_of_side;
+    std::vector<std::vector<std::uint8_t>> numbers; ///< by side and face; one entry: for all
   };
 } // namespace undine
 

@@ -17,13 +17,13 @@ namespace undine
     struct Trace
     {
       dealii::Point<dim> foot;
-      bool               left_domain; ///< it met an opening or an inflow there before its time was up
+      bool left_domain; ///< it met an opening or an inflow there before its time was up
     };
 
     /// `velocity` at `time` [s], for steps of length dt [s]. Collective. Throws SolveError if the
     /// velocity is not finite.
     Flow(const FluidModel<dim> &model,
-         const Velocity<dim> &  velocity,
+         const Velocity<dim>   &velocity,
          const double           time,
          const double           dt);
 
@@ -59,7 +59,7 @@ namespace undine
   private:
     /// The end of a straight way from a place in the domain, kept in the domain.
     Trace
-    walk(const dealii::Point<dim> &place, dealii::Tensor<1, dim> way) const;
+    walk(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &way) const;
 
     const FluidModel<dim> &fluid_model;
     Velocity<dim>          frozen_velocity;

@@ -8,14 +8,11 @@
 
 #include <deal.II/base/tensor.h>
 
-#include <array>
+#include <string>
 #include <vector>
 
 namespace undine
 {
-  template <int dim>
-  using Velocity = std::array<Field<dim>, dim>;
-
   /// Numbers that describe a whole flow. All are collective and equal on all ranks. @{
 
   /// sum_f rho V_f v_f^2 / 2 over faces, [J] (per metre in 2D).
@@ -81,8 +78,8 @@ namespace undine
   /// "Force on lid, x" and so on, for walls only.
   template <int dim>
   Columns
-  force_columns(const std::string &                        what,
-                const FluidModel<dim> &                    model,
+  force_columns(const std::string                         &what,
+                const FluidModel<dim>                     &model,
                 const std::vector<dealii::Tensor<1, dim>> &forces);
 } // namespace undine
 

@@ -10,12 +10,31 @@
 
 namespace undine
 {
+  /// The normal velocities on the faces, [m/s]; component `axis` on the faces normal to it.
+  template <int dim>
+  struct Velocity
+  {
+    std::array<Field<dim>, dim> components;
+
+    Field<dim> &
+    operator[](const unsigned int axis)
+    {
+      return components[axis];
+    }
+
+    const Field<dim> &
+    operator[](const unsigned int axis) const
+    {
+      return components[axis];
+    }
+  };
+
   /// The fluid at one time, on the staggered grid: normal velocities on cell faces, the rest in
   /// cell centres. Fields carry ghost layers; owned values are the truth.
   template <int dim>
   struct FluidState
   {
-    std::array<Field<dim>, dim>       velocity; ///< component `axis` on faces normal to it [m/s]
+    Velocity<dim>                     velocity; ///< [m/s]
     Field<dim>                        pressure; ///< reduced pressure p - rho g.x [Pa]
     std::map<std::string, Field<dim>> scalars;  ///< by name, e.g. "smoke", "temperature"
   };

@@ -27,19 +27,19 @@ namespace undine
   struct FluidStep
   {
     /// Freezes v^n. Collective.
-    FluidStep(const FluidModel<dim> &       model,
-              FluidState<dim> &             state,
+    FluidStep(const FluidModel<dim>        &model,
+              FluidState<dim>              &state,
               const dealii::Tensor<1, dim> &gravity,
               const double                  time,
               const double                  dt,
-              TimingTree &                  timing);
+              TimingTree                   &timing);
 
-    const FluidModel<dim> &      model;
-    FluidState<dim> &            state;
+    const FluidModel<dim>       &model;
+    FluidState<dim>             &state;
     const dealii::Tensor<1, dim> gravity; ///< uniform acceleration, in the reduced pressure [m/s^2]
     const double                 time;    ///< t^n [s]
     const double                 dt;      ///< h [s]
-    TimingTree &                 timing;
+    TimingTree                  &timing;
     const Flow<dim>              flow;                  ///< v^n, which carries everything
     unsigned int                 linear_iterations = 0; ///< summed over implicit solves
   };

@@ -6,9 +6,9 @@
 
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_vector.h>
 
 #include <memory>
+#include <vector>
 
 namespace undine
 {
@@ -24,9 +24,9 @@ namespace undine
   {
   public:
     /// `diffusivity` nu in [m^2/s]. Model and condition must outlive this.
-    ImplicitDiffusion(const FluidModel<dim> &             model,
+    ImplicitDiffusion(const FluidModel<dim>              &model,
                       std::shared_ptr<const Lattice<dim>> lattice,
-                      const BoundaryCondition<dim> &      condition,
+                      const BoundaryCondition<dim>       &condition,
                       const double                        diffusivity);
 
     /// s* in `field` becomes s^{n+1} at `time` = t^{n+1}. Returns the number of iterations. Throws
@@ -35,17 +35,27 @@ namespace undine
     step(Field<dim> &field, const double time, const double dt);
 
   private:
-    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+    /// A row of the matrix; the first column is the diagonal.
+    struct Row
+    {
+      std::vector<dealii::types::global_dof_index> columns;
+      std::vector<double>                          values;
+    };
+
+    void
+    collect(Row &row, const GridIndex<dim> &index, const double dt) const;
 
     void
     assemble(const double dt);
 
-    Vector
+    /// V s* + h nu k_b s_b, in the order of Field::owned_values(). One ghost layer must be up to
+    /// date.
+    std::vector<double>
     right_side(const Field<dim> &field, const double time) const;
 
-    const FluidModel<dim> &                                     model;
+    const FluidModel<dim>                                      &model;
     std::shared_ptr<const Lattice<dim>>                         lattice;
-    const BoundaryCondition<dim> &                              condition;
+    const BoundaryCondition<dim>                               &condition;
     double                                                      diffusivity;
     double                                                      assembled_dt = 0; ///< [s]
     dealii::TrilinosWrappers::SparseMatrix                      matrix;

@@ -10,7 +10,38 @@ namespace undine
 {
   /// Indices of a grid point, one a direction; in periodic directions any whole number is valid.
   template <int dim>
-  using GridIndex = std::array<int, dim>;
+  struct GridIndex
+  {
+    std::array<int, dim> values;
+
+    int &
+    operator[](const unsigned int direction)
+    {
+      return values[direction];
+    }
+
+    int
+    operator[](const unsigned int direction) const
+    {
+      return values[direction];
+    }
+
+    bool
+    operator==(const GridIndex &other) const
+    {
+      return values == other.values;
+    }
+  };
+
+  /// The same number in all directions.
+  template <int dim>
+  GridIndex<dim>
+  all_directions(const int number)
+  {
+    GridIndex<dim> result;
+    result.values.fill(number);
+    return result;
+  }
 
   /// `index` moved by `distance` along `axis`.
   template <int dim>

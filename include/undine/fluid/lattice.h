@@ -29,7 +29,7 @@ namespace undine
 
     /// `normal_axis` < dim: faces normal to it; no_axis: cells.
     Lattice(std::shared_ptr<const Blocks<dim>> blocks,
-            const std::array<Row, dim> &       rows,
+            const std::array<Row, dim>        &rows,
             const unsigned int                 normal_axis);
 
     unsigned int

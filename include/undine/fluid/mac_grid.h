@@ -24,7 +24,9 @@ namespace undine
     using Planes = std::array<std::vector<double>, dim>;
 
     /// `planes` in ascending order [m].
-    MacGrid(const MPI_Comm communicator, const Planes &planes, const std::array<bool, dim> periodic);
+    MacGrid(const MPI_Comm              communicator,
+            const Planes               &planes,
+            const std::array<bool, dim> periodic);
 
     MPI_Comm
     communicator() const;

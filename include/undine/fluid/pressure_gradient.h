@@ -41,8 +41,8 @@ namespace undine
   /// pressure, minus grad p / rho. One ghost layer of the pressure must be up to date.
   template <int dim>
   Velocity<dim>
-  pressure_acceleration(const FluidModel<dim> &            model,
-                        const Field<dim> &                 pressure,
+  pressure_acceleration(const FluidModel<dim>            &model,
+                        const Field<dim>                 &pressure,
                         const std::vector<OpenFace<dim>> &openings);
 
   /// a_f^2 / (rho V_f), the entry that a face contributes to L = D (rho V)^-1 D^T.
@@ -50,7 +50,7 @@ namespace undine
   double
   pressure_coupling(const FluidModel<dim> &model,
                     const unsigned int     axis,
-                    const GridIndex<dim> & face);
+                    const GridIndex<dim>  &face);
   /// @}
 
   /// velocity += factor * acceleration on owned faces.

@@ -8,15 +8,17 @@
 
 namespace undine
 {
-  /// L = D (rho V)^-1 D^T, face by face: a face between two cells adds a^2/(rho V) [[1,-1],[-1,1]]
-  /// to their rows, one on an opening a^2/(rho V) to the cell inside. Rows are the numbers of the
-  /// cell lattice.
+  /// Build L = D (rho V)^-1 D^T, face by face: a face between two cells adds a^2/(rho V) to the
+  /// diagonal of each and couples them by minus that; one on an opening adds a^2/(rho V) to the
+  /// diagonal of the cell inside. Rows are the numbers of the cell lattice. Collective.
   ///
   /// Without opening L has the constant as its kernel. Then L_00 is added to the diagonal of row 0:
-  /// for right sides whose entries sum to zero the solution is unchanged but has p_0 = 0.
+  /// for right sides whose entries sum to zero the solution is one of the original equation, the
+  /// one with p_0 = 0.
   template <int dim>
-  dealii::TrilinosWrappers::SparseMatrix
-  pressure_matrix(const FluidModel<dim> &model);
+  void
+  build_pressure_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix,
+                        const FluidModel<dim>                  &model);
 } // namespace undine
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <undine/fluid/fluid_model.h>
 #include <undine/fluid/fluid_quantities.h>
+#include <undine/fluid/pressure_gradient.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -57,14 +58,18 @@ namespace undine
     unsigned int
     solve(Vector &impulse, const Vector &right_side, const double tolerance) const;
 
-    /// Add impulses h p to the velocity until its divergence vanishes; returns the sum h p in
-    /// `impulse`.
+    /// Add impulses h p to the velocity until its divergence vanishes, beginning with those in
+    /// `impulse`, which becomes the sum of all [Pa s]. The openings hold impulses in the place of
+    /// pressures; they are used up.
     Report
-    remove_divergence(Velocity<dim> &velocity, Field<dim> &impulse, const double time, double dt);
+    remove_divergence(Velocity<dim>              &velocity,
+                      Field<dim>                 &impulse,
+                      std::vector<OpenFace<dim>> &openings);
 
-    const FluidModel<dim> &                                    model;
+    const FluidModel<dim>                                     &model;
     std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    matrix;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid;
+    double                                                     smallest_area = 0; ///< [m^(dim-1)]
   };
 } // namespace undine
 

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/flow.h>
+#include <undine/fluid/fluid_quantities.h>
+#include <undine/fluid/fluid_step.h>
+#include <undine/fluid/interpolation.h>
+
+#include <fmt/format.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// Ghost layers for ways of h times the largest velocity, and for the points around their ends.
+    template <int dim>
+    GridIndex<dim>
+    reach(const FluidModel<dim> &model, const dealii::Tensor<1, dim> &distance, const double dt)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (distance[d] > 100 * (model.grid().upper()[d] - model.grid().lower()[d]))
+          throw SolveError(
+            fmt::format("The fluid would travel {:.3g} m in one step of {:.3g} s, more "
+                        "than 100 times through the domain. Try a smaller step.",
+                        distance[d],
+                        dt));
+      auto width = model.grid().planes_crossed(distance);
+      for (int &layers : width.values)
+        layers += 2;
+      return width;
+    }
+  } // namespace
+
+
+  template <int dim>
+  Flow<dim>::Flow(const FluidModel<dim> &model,
+                  const Velocity<dim>   &velocity,
+                  const double           time,
+                  const double           dt)
+    : fluid_model(model)
+    , frozen_velocity(velocity)
+    , start_time(time)
+    , step(dt)
+    , ghost_width(reach(model, std::abs(dt) * largest_components(model, velocity), dt))
+  {
+    for (auto &component : frozen_velocity.components)
+      component.exchange(ghost_width);
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      fill_boundary_points(
+        frozen_velocity[axis], model, VelocityCondition<dim>(axis), frozen_velocity, time);
+  }
+
+
+  template <int dim>
+  const FluidModel<dim> &
+  Flow<dim>::model() const
+  {
+    return fluid_model;
+  }
+
+
+  template <int dim>
+  double
+  Flow<dim>::time() const
+  {
+    return start_time;
+  }
+
+
+  template <int dim>
+  double
+  Flow<dim>::dt() const
+  {
+    return step;
+  }
+
+
+  template <int dim>
+  const Velocity<dim> &
+  Flow<dim>::velocity() const
+  {
+    return frozen_velocity;
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  Flow<dim>::velocity_at(const dealii::Point<dim> &place) const
+  {
+    dealii::Tensor<1, dim> result;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      result[axis] = interpolate(frozen_velocity[axis], place);
+    return result;
+  }
+
+
+  template <int dim>
+  const GridIndex<dim> &
+  Flow<dim>::width() const
+  {
+    return ghost_width;
+  }
+
+
+  template <int dim>
+  typename Flow<dim>::Trace
+  Flow<dim>::trace(const dealii::Point<dim> &place, const double dt) const
+  {
+    const auto middle = walk(place, dt / 2 * velocity_at(place));
+    return middle.left_domain ? middle : walk(place, dt * velocity_at(middle.foot));
+  }
+
+
+  template <int dim>
+  typename Flow<dim>::Trace
+  Flow<dim>::walk(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &way) const
+  {
+    const auto        &grid = fluid_model.grid();
+    dealii::Point<dim> end  = place + way;
+    // Each turn ends the way at the first boundary it meets, or bends it along that wall.
+    for (unsigned int turn = 0; turn < dim; ++turn)
+      {
+        double when = 2;
+        Side   side{0, 0};
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!grid.periodic(d) && (end[d] < grid.lower()[d] || end[d] > grid.upper()[d]))
+            {
+              const unsigned int upper = end[d] > grid.upper()[d] ? 1 : 0;
+              const double       wall  = upper ? grid.upper()[d] : grid.lower()[d];
+              const double       here  = std::max(0., (wall - place[d]) / way[d]);
+              if (here < when)
+                {
+                  when = here;
+                  side = {d, upper};
+                }
+            }
+        if (when > 1)
+          break;
+        const auto  hit      = place + when * way;
+        const auto &boundary = fluid_model.boundaries().at(side, hit);
+        if (boundary.is_open() || boundary.kind == BoundaryKind::inflow)
+          return {hit, true};
+        end[side.axis] = side.end == 0 ? grid.lower()[side.axis] : grid.upper()[side.axis];
+      }
+    return {end, false};
+  }
+
+
+  template <int dim>
+  FluidStep<dim>::FluidStep(const FluidModel<dim>        &model_,
+                            FluidState<dim>              &state_,
+                            const dealii::Tensor<1, dim> &gravity_,
+                            const double                  time_,
+                            const double                  dt_,
+                            TimingTree                   &timing_)
+    : model(model_)
+    , state(state_)
+    , gravity(gravity_)
+    , time(time_)
+    , dt(dt_)
+    , timing(timing_)
+    , flow(model_, state_.velocity, time_, dt_)
+  {
+  }
+
+
+  template class Flow<2>;
+  template class Flow<3>;
+  template struct FluidStep<2>;
+  template struct FluidStep<3>;
+} // namespace undine
