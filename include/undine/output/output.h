@@ -30,8 +30,8 @@ namespace undine
     TimingTree                                     &timing;
   };
 
-  /// Something that is written during a run. A new output is one new .cc file that registers itself;
-  /// a scene asks for it by its name in `Output / Parts`.
+  /// Something that is written during a run. A new output is one new .cc file that registers
+  /// itself; a scene asks for it by its name in `Output / Parts`.
   template <int dim>
   class Output
   {

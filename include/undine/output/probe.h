@@ -22,8 +22,8 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
-    /// `name` and `options` are those of the probe's subsection. Throws InputError if what the probe
-    /// looks at does not exist. Collective.
+    /// `name` and `options` are those of the probe's subsection. Throws InputError if what the
+    /// probe looks at does not exist. Collective.
     virtual void
     start(const std::string &name, const Options &options, const Models<dim> &models) = 0;
 

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_output_files_h
+#define undine_output_files_h
+
+#include <undine/base/core/errors.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <filesystem>
+#include <string>
+
+namespace undine
+{
+  /// Throws FileError on all ranks, with the first rank's text, if `failure` is not empty on any.
+  /// Collective.
+  void
+  throw_on_all_ranks(MPI_Comm communicator, const std::string &failure);
+
+  /// Run `action` on the first rank; what it throws becomes a FileError on every rank. Collective.
+  template <class Action>
+  void
+  on_first_rank(MPI_Comm communicator, const Action &action)
+  {
+    std::string failure;
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      try
+        {
+          action();
+        }
+      catch (const std::exception &error)
+        {
+          failure = error.what();
+        }
+    throw_on_all_ranks(communicator, failure);
+  }
+
+  /// "cannot write 'PATH': REASON. Check ...": what the user can do about a file.
+  std::string
+  cannot_write(const std::filesystem::path &path, const std::string &reason);
+
+  /// Make a folder and those above it. Throws FileError. One rank.
+  void
+  make_folder(const std::filesystem::path &path);
+
+  /// The name under which a file is written before it is whole.
+  std::filesystem::path
+  temporary_name(const std::filesystem::path &path);
+
+  /// Move what was written under temporary_name(path) to `path`, after it has reached the disk: at
+  /// any moment, also if the machine stops, `path` is the old file or the new one. Throws
+  /// FileError. One rank.
+  void
+  put_in_place(const std::filesystem::path &path);
+
+  /// Write a whole file under a temporary name, then put it in place. Throws FileError. One rank.
+  void
+  write_file(const std::filesystem::path &path, const std::string &text);
+
+  /// Append to a file; the text is in the file, as a whole, when this returns. Throws FileError.
+  /// One rank.
+  void
+  append_to_file(const std::filesystem::path &path, const std::string &text);
+
+  /// The text of a file. Throws FileError. One rank.
+  std::string
+  read_file(const std::filesystem::path &path);
+
+  /// Write a file whose text is that of all ranks, one after the other, by parallel input and
+  /// output. Collective. Throws FileError on all ranks; an older file is then still whole.
+  void
+  write_file_together(MPI_Comm                     communicator,
+                      const std::filesystem::path &path,
+                      const std::string           &text);
+} // namespace undine
+
+#endif

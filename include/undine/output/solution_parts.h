@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_output_solution_parts_h
+#define undine_output_solution_parts_h
+
+#include <undine/coupled/models.h>
+#include <undine/coupled/state.h>
+#include <undine/output/body_patches.h>
+#include <undine/output/patches.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// What formats for pictures have in common. @{
+
+  /// The parts that the scene has: bodies, then fluid. Collective.
+  template <int dim>
+  std::vector<Patches<dim>>
+  solution_parts(const Models<dim> &models,
+                 const State<dim>  &state,
+                 Configuration      configuration = Configuration::rest);
+
+  /// "solution/fluid_000120.vtu", within the folder of the run.
+  std::filesystem::path
+  solution_file(const std::string &part, const Clock &clock, const std::string &extension);
+  /// @}
+} // namespace undine
+
+#endif

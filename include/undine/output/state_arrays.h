@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_output_state_arrays_h
+#define undine_output_state_arrays_h
+
+#include <undine/coupled/models.h>
+#include <undine/coupled/state.h>
+#include <undine/output/hdf5_file.h>
+
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// A named array whose whole does not depend on the number of ranks, and this rank's box of it.
+  struct StateArray
+  {
+    std::string         name; ///< "solid/velocity", "fluid/pressure"
+    HDF5File::Selection selection;
+    std::vector<double> values;
+  };
+
+  /// Everything in `state` but its clock. Nodal vectors are in the order of
+  /// SolidModel::canonical_order(), each rank holding a stretch of equal length; fields of the
+  /// fluid are in the order of their lattice, the first direction running fastest. Collective.
+  template <int dim>
+  std::vector<StateArray>
+  pack(const Models<dim> &models, const State<dim> &state);
+
+  /// The reverse. `arrays` are those of pack() for a state of the same parts, with other values.
+  /// Collective.
+  template <int dim>
+  void
+  unpack(State<dim> &state, const Models<dim> &models, const std::vector<StateArray> &arrays);
+} // namespace undine
+
+#endif

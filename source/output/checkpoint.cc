@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/checkpoint.h>
+#include <undine/output/files.h>
+#include <undine/output/state_arrays.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace undine
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    constexpr std::uint64_t format_version = 1;
+
+
+    template <int dim>
+    MPI_Comm
+    communicator_of(const Models<dim> &models)
+    {
+      return models.solid ? models.solid->communicator() : models.fluid->grid().communicator();
+    }
+
+
+    std::array<fs::path, 2>
+    slots(const fs::path &directory)
+    {
+      return {{directory / "checkpoint" / "slot_0.h5", directory / "checkpoint" / "slot_1.h5"}};
+    }
+
+
+    /// The step of a slot that looks whole, or why it is not. One rank.
+    struct Inspection
+    {
+      std::uint64_t step = 0;
+      std::string   problem;
+    };
+
+
+    Inspection
+    inspect(const fs::path &slot)
+    {
+      Inspection result;
+      if (!fs::exists(slot))
+        {
+          result.problem = "'" + slot.string() + "' does not exist";
+          return result;
+        }
+      try
+        {
+          const auto file = HDF5File::open(slot, MPI_COMM_SELF);
+          if (file.read_attribute<std::uint64_t>("format") != format_version)
+            result.problem = "'" + slot.string() + "' is of another version of Undine";
+          file.read_attribute<std::uint64_t>("complete");
+          result.step = file.read_attribute<std::uint64_t>("step");
+        }
+      catch (const FileError &error)
+        {
+          result.problem = error.what();
+        }
+      return result;
+    }
+
+
+    /// A number that changes if any value is changed or moved, whichever ranks the values are on:
+    /// the sum of a hash of every value with its place in the whole array.
+    std::uint64_t
+    checksum(const StateArray &array, const MPI_Comm communicator)
+    {
+      const auto   &box = array.selection;
+      std::uint64_t sum = 0;
+      for (std::size_t i = 0; i < array.values.size(); ++i)
+        {
+          std::uint64_t place = 0, stride = 1, rest = i, bits;
+          for (std::size_t d = box.size.size(); d-- > 0;)
+            {
+              place += (box.offset[d] + rest % box.count[d]) * stride;
+              rest /= box.count[d];
+              stride *= box.size[d];
+            }
+          std::memcpy(&bits, &array.values[i], sizeof(bits));
+          // Multiplication by odd constants and shifts: the finalizer of MurmurHash3 [A. Appleby].
+          std::uint64_t hash = bits ^ (place * 0x9E3779B97F4A7C15u);
+          hash               = (hash ^ (hash >> 33)) * 0xFF51AFD7ED558CCDu;
+          hash               = (hash ^ (hash >> 33)) * 0xC4CEB9FE1A85EC53u;
+          sum += hash ^ (hash >> 33);
+        }
+      return dealii::Utilities::MPI::sum(sum, communicator);
+    }
+
+
+    std::string
+    checksum_name(const StateArray &array)
+    {
+      return "checksum of " + array.name;
+    }
+
+
+    void
+    assert_finite(const std::vector<StateArray> &arrays, const MPI_Comm communicator)
+    {
+      for (const auto &array : arrays)
+        {
+          const bool finite = std::all_of(array.values.begin(),
+                                          array.values.end(),
+                                          [](const double value) { return std::isfinite(value); });
+          if (dealii::Utilities::MPI::min(finite ? 1 : 0, communicator) == 0)
+            throw SolveError("'" + array.name +
+                             "' holds a value that is not a number. No checkpoint of this state is "
+                             "written; the one before is kept.");
+        }
+    }
+
+
+    template <int dim>
+    void
+    write_slot(const fs::path                &slot,
+               const std::vector<StateArray> &arrays,
+               const Clock                   &clock,
+               const MPI_Comm                 communicator)
+    {
+      auto file = HDF5File::create(temporary_name(slot), communicator);
+      file.write_attribute("format", format_version);
+      file.write_attribute("dimension", std::uint64_t(dim));
+      file.write_attribute("step", std::uint64_t(clock.step));
+      file.write_attribute("time", clock.time);
+      for (const auto &array : arrays)
+        {
+          file.write(array.name, array.selection, array.values);
+          file.write_attribute(checksum_name(array), checksum(array, communicator));
+        }
+      file.write_attribute("complete", std::uint64_t(1));
+      file.close();
+      on_first_rank(communicator, [&] { put_in_place(slot); });
+    }
+
+
+    /// Fill clock and arrays, of which names and sizes are given.
+    template <int dim>
+    void
+    read_slot(std::vector<StateArray> &arrays,
+              Clock                   &clock,
+              const fs::path          &slot,
+              const MPI_Comm           communicator)
+    {
+      const auto file = HDF5File::open(slot, communicator);
+      if (file.read_attribute<std::uint64_t>("dimension") != dim)
+        throw FileError("'" + slot.string() + "' is not of " + std::to_string(dim) +
+                        " dimensions, as the scene is");
+      clock.step = file.read_attribute<std::uint64_t>("step");
+      clock.time = file.read_attribute<double>("time");
+      for (auto &array : arrays)
+        {
+          if (!file.contains(array.name))
+            throw FileError("'" + slot.string() + "' has no '" + array.name +
+                            "': it belongs to another scene");
+          array.values = file.read<double>(array.name, array.selection);
+          if (checksum(array, communicator) !=
+              file.read_attribute<std::uint64_t>(checksum_name(array)))
+            throw FileError("'" + slot.string() + "' is damaged: '" + array.name +
+                            "' is not what was written");
+        }
+    }
+
+
+    /// Numbers of the slots that look whole, the newest first; adds why the others do not.
+    std::vector<unsigned int>
+    candidates(std::vector<std::string> &problems,
+               const fs::path           &directory,
+               const MPI_Comm            communicator)
+    {
+      std::vector<std::pair<std::uint64_t, unsigned int>> found; // step, slot
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        for (const unsigned int s : {0, 1})
+          {
+            const auto result = inspect(slots(directory)[s]);
+            if (result.problem.empty())
+              found.emplace_back(result.step, s);
+            else
+              problems.push_back(result.problem);
+          }
+      std::sort(found.rbegin(), found.rend());
+      problems = dealii::Utilities::MPI::broadcast(communicator, problems);
+      std::vector<unsigned int> numbers;
+      for (const auto &slot : dealii::Utilities::MPI::broadcast(communicator, found))
+        numbers.push_back(slot.second);
+      return numbers;
+    }
+  } // namespace
+
+
+  template <int dim>
+  void
+  write_checkpoint(const fs::path &directory, const Models<dim> &models, const State<dim> &state)
+  {
+    const MPI_Comm communicator = communicator_of(models);
+    const auto     arrays       = pack(models, state);
+    assert_finite(arrays, communicator);
+    on_first_rank(communicator, [&] { make_folder(directory / "checkpoint"); });
+
+    std::vector<std::string> problems;
+    const auto               whole = candidates(problems, directory, communicator);
+    const unsigned int       older = whole.empty() ? 0 : 1 - whole.front();
+    write_slot<dim>(slots(directory)[older], arrays, state.clock, communicator);
+  }
+
+
+  template <int dim>
+  ResumedFrom
+  read_checkpoint(const fs::path &directory, const Models<dim> &models, State<dim> &state)
+  {
+    const MPI_Comm communicator = communicator_of(models);
+    ResumedFrom    result;
+    for (const unsigned int s : candidates(result.skipped, directory, communicator))
+      try
+        {
+          auto  arrays = pack(models, state);
+          Clock clock  = state.clock;
+          read_slot<dim>(arrays, clock, slots(directory)[s], communicator);
+          unpack(state, models, arrays);
+          state.clock = clock;
+          result.slot = slots(directory)[s];
+          return result;
+        }
+      catch (const FileError &error)
+        {
+          result.skipped.push_back(error.what());
+        }
+    std::string reasons;
+    for (const auto &reason : result.skipped)
+      reasons += "\n  " + reason;
+    throw FileError("there is no checkpoint in '" + directory.string() +
+                    "' that this scene can be resumed from:" + reasons);
+  }
+
+
+  template void
+  write_checkpoint(const fs::path &, const Models<2> &, const State<2> &);
+  template void
+  write_checkpoint(const fs::path &, const Models<3> &, const State<3> &);
+  template ResumedFrom
+  read_checkpoint(const fs::path &, const Models<2> &, State<2> &);
+  template ResumedFrom
+  read_checkpoint(const fs::path &, const Models<3> &, State<3> &);
+} // namespace undine

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/patches.h>
+
+namespace undine
+{
+  template <int dim>
+  void
+  Patches<dim>::add_scalar(const std::string &field, const std::string &unit)
+  {
+    components.push_back(field);
+    units[field] = unit;
+  }
+
+
+  template <int dim>
+  void
+  Patches<dim>::add_vector(const std::string &field, const std::string &unit)
+  {
+    const unsigned int first = components.size();
+    vectors.emplace_back(first,
+                         first + dim - 1,
+                         field,
+                         dealii::DataComponentInterpretation::component_is_part_of_vector);
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      components.push_back(field + "_" + char('x' + axis));
+    units[field] = unit;
+  }
+
+
+  template struct Patches<2>;
+  template struct Patches<3>;
+} // namespace undine

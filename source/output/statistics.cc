@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/output.h>
+#include <undine/output/probe.h>
+#include <undine/output/statistics_file.h>
+
+namespace undine
+{
+  namespace
+  {
+    void
+    append(Columns &columns, const Columns &more)
+    {
+      columns.insert(columns.end(), more.begin(), more.end());
+    }
+
+
+    Columns
+    columns_of_step(const Clock &clock, const Report &report)
+    {
+      return {{"Step", "1", double(clock.step)},
+              {"Time", "s", clock.time},
+              {"Step length", "s", report.dt},
+              {"Newton iterations", "1", double(report.newton_iterations)},
+              {"Linear iterations", "1", double(report.linear_iterations)},
+              {"Step cuts", "1", double(report.cuts)}};
+    }
+  } // namespace
+
+
+  /// The file `statistics`: a row for the initial state and for every step with how the step went,
+  /// what the models measured, and the probes.
+  template <int dim>
+  class Statistics : public Output<dim>
+  {
+  public:
+    void
+    add_options(const Options &) override
+    {
+    }
+
+    void
+    start(const OutputContext<dim> &new_context, const State<dim> &state) override
+    {
+      context = std::make_unique<const OutputContext<dim>>(new_context);
+      file    = std::make_unique<StatisticsFile>(
+        context->communicator, context->directory / "statistics", state.clock.step);
+    }
+
+    bool
+    due(const Clock &) const override
+    {
+      return true;
+    }
+
+    void
+    write(const State<dim> &state, const Report &report) override
+    {
+      const auto timed   = context->timing.section("statistics");
+      Columns    columns = columns_of_step(state.clock, report);
+      append(columns, report.columns);
+      for (const auto &probe : context->probes)
+        append(columns, probe->columns(context->models, state));
+      file->append(columns);
+    }
+
+  private:
+    std::unique_ptr<const OutputContext<dim>> context;
+    std::unique_ptr<StatisticsFile>           file;
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Output, Statistics>
+      statistics("statistics", "one row of numbers a step, as text; always written");
+  }
+} // namespace undine
