@@ -72,7 +72,7 @@ namespace undine
 
     /// What the effect adds to the file `statistics`.
     virtual Columns
-    columns(const FluidModel<dim> &model, const FluidState<dim> &state) const;
+    columns(const FluidModel<dim> &model, const FluidState<dim> &state, double time) const;
   };
 
   /// The effects that the scene calls for, in alphabetical order of their names.

@@ -4,6 +4,8 @@
 
 #include <undine/fluid/flow.h>
 
+#include <string>
+
 namespace undine
 {
   /// How a field is carried with the flow for one step: ds/dt + v.grad s = 0. The same code serves
@@ -16,6 +18,10 @@ namespace undine
 
     virtual void
     add_options(const Options &options) = 0;
+
+    /// In a few words: "MacCormack, limited".
+    virtual std::string
+    summary() const = 0;
 
     /// The field at t + h from the field at t. Collective.
     virtual Field<dim>

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/effects/effect.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  /// Lift by small differences of density, rho (1 - beta (s - s0)) (Boussinesq): the faces are
+  /// accelerated by -beta (s - s0) g for every field named. Weight itself is in the reduced
+  /// pressure.
+  template <int dim>
+  class Buoyancy : public Effect<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override
+    {
+      for (const auto &name : options.named_sections("field"))
+        {
+          Lift       lift;
+          const auto section = options.section(name);
+          lift.scalar        = name;
+          section.require("Expansion coefficient",
+                          lift.expansion,
+                          "",
+                          Allowed::anything(),
+                          "beta: loss of density, relative, per unit of the field; > 0 for what "
+                          "rises, < 0 for what sinks.");
+          section.add("Reference value",
+                      lift.reference,
+                      "",
+                      Allowed::anything(),
+                      "s0: value at which the fluid has its nominal density.");
+          lifts.push_back(lift);
+        }
+    }
+
+    void
+    check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
+    {
+      const auto contains = [](const std::vector<std::string> &list, const std::string &word) {
+        return std::find(list.begin(), list.end(), word) != list.end();
+      };
+      if (lifts.empty())
+        throw options.error("",
+                            "names no field that makes the fluid lighter or heavier",
+                            "Add a subsection with the name of a carried field.");
+      if (!contains(around.effects, "gravity"))
+        throw options.error("",
+                            "buoyancy needs gravity, which the scene does not call for",
+                            "Add a subsection 'gravity' to 'Effects'.");
+      for (const auto &lift : lifts)
+        if (!contains(around.scalars, lift.scalar))
+          throw options.section(lift.scalar)
+            .error("",
+                   "no field named '" + lift.scalar + "' is carried",
+                   "Add it to 'Effects/scalar transport' as a subsection of that name.");
+    }
+
+    std::string
+    summary() const override
+    {
+      std::string text;
+      for (const auto &lift : lifts)
+        text += fmt::format("{}{}: {:.4g} ({} - {:.4g})",
+                            text.empty() ? "" : "; ",
+                            lift.scalar,
+                            lift.expansion,
+                            lift.scalar,
+                            lift.reference);
+      return text;
+    }
+
+    void
+    accelerate(FluidStep<dim> &step) const override
+    {
+      const auto timed = step.timing.section("buoyancy");
+      for (const auto &lift : lifts)
+        {
+          auto scalar = step.state.scalars.at(lift.scalar);
+          scalar.exchange(1);
+          for (unsigned int axis = 0; axis < dim; ++axis)
+            if (step.gravity[axis] != 0)
+              accelerate_faces(step, scalar, lift, axis);
+        }
+    }
+
+  private:
+    struct Lift
+    {
+      std::string scalar;
+      double      expansion = 0;
+      double      reference = 0;
+    };
+
+    /// On faces between two cells with the value there, linear between the centres; on openings
+    /// with that of the cell inside.
+    void
+    accelerate_faces(FluidStep<dim>    &step,
+                     const Field<dim>  &scalar,
+                     const Lift        &lift,
+                     const unsigned int axis) const
+    {
+      const auto  &grid      = step.model.grid();
+      auto        &component = step.state.velocity[axis];
+      const double factor    = -step.dt * lift.expansion * step.gravity[axis];
+      for_each(component.owned(), [&](const GridIndex<dim> &face) {
+        auto below = moved<dim>(face, axis, -1);
+        auto above = face;
+        if (grid.at_boundary(axis, face))
+          (face[axis] == 0 ? below : above) = face[axis] == 0 ? above : below;
+        const double width_below = grid.cell_width(axis, below[axis]);
+        const double width_above = grid.cell_width(axis, above[axis]);
+        const double value =
+          (scalar(below) * width_above + scalar(above) * width_below) / (width_below + width_above);
+        component(face) += factor * (value - lift.reference);
+      });
+    }
+
+    std::vector<Lift> lifts;
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Effect, Buoyancy>
+      registered("buoyancy", "Lift by a carried field, such as heat or smoke.");
+  }
+} // namespace undine

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/effects/effect.h>
+
+#include <fmt/format.h>
+
+namespace undine
+{
+  /// Rayleigh damping of bodies, C = alpha M + eta K'(d^n): with the tangent at the present
+  /// deformation, so that rigid rotation is not damped.
+  template <int dim>
+  class Damping : public Effect<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override
+    {
+      options.add("Mass coefficient",
+                  mass_coefficient,
+                  "1/s",
+                  Allowed::not_negative(),
+                  "alpha: damps slow motion most, free flight included.");
+      options.add("Stiffness coefficient",
+                  stiffness_coefficient,
+                  "s",
+                  Allowed::not_negative(),
+                  "eta: damps fast vibration most.");
+    }
+
+    void
+    check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
+    {
+      if (!around.has_solid)
+        throw options.error("",
+                            "damping acts on bodies, but the scene has none",
+                            "Remove the section or add a body.");
+      if (mass_coefficient == 0 && stiffness_coefficient == 0)
+        throw options.error(
+          "Mass coefficient",
+          "and 'Stiffness coefficient' are both zero, so that damping does nothing",
+          "Set one of them to a number > 0, or remove the section.");
+    }
+
+    std::string
+    summary() const override
+    {
+      return fmt::format("C = {:.4g} M + {:.4g} K'", mass_coefficient, stiffness_coefficient);
+    }
+
+    void
+    affect(SolidEnvironment<dim> &environment) const override
+    {
+      environment.mass_damping += mass_coefficient;
+      environment.stiffness_damping += stiffness_coefficient;
+    }
+
+  private:
+    double mass_coefficient      = 0;
+    double stiffness_coefficient = 0;
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Effect, Damping> registered("damping",
+                                                            "Rayleigh damping of bodies.");
+  }
+} // namespace undine

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/effects/effect.h>
+
+#include <fmt/format.h>
+
+namespace undine
+{
+  /// Uniform gravity g. The fluid's pressure is the reduced one, p - rho g.x, in which the weight
+  /// of a fluid of constant density is contained: nothing is added to its velocity, and fluid at
+  /// rest stays at rest exactly. Bodies feel their weight.
+  template <int dim>
+  class Gravity : public Effect<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override
+    {
+      options.require(
+        "Acceleration", acceleration, "m/s^2", Allowed::anything(), "Of free fall, as a vector.");
+    }
+
+    std::string
+    summary() const override
+    {
+      return "(" + write_value(acceleration) + ") m/s^2, in the fluid as reduced pressure";
+    }
+
+    void
+    affect(SolidEnvironment<dim> &environment) const override
+    {
+      environment.gravity += acceleration;
+    }
+
+  private:
+    dealii::Tensor<1, dim> acceleration;
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Effect, Gravity>
+      registered("gravity", "Weight of bodies; the fluid's is part of its reduced pressure.");
+  }
+} // namespace undine

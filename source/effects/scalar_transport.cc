@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/effects/effect.h>
+#include <undine/fluid/advection.h>
+#include <undine/fluid/implicit_diffusion.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  namespace
+  {
+    /// One carried field, with what the scene says about it. Held where the scene says so and at
+    /// inflows; no flux through other boundaries.
+    template <int dim>
+    class CarriedScalar : public BoundaryCondition<dim>
+    {
+    public:
+      explicit CarriedScalar(const std::string &name_)
+        : name(name_)
+      {
+      }
+
+      void
+      add_options(const Options &options)
+      {
+        options.add("Initial value", initial, "", Allowed::anything(), "At the start.");
+        options.add("Source",
+                    source,
+                    "1/s",
+                    Allowed::anything(),
+                    "Rate at which the value grows, besides transport.");
+        options.add("Inflow value",
+                    inflow,
+                    "",
+                    Allowed::anything(),
+                    "Of fluid that comes in through inflows and openings.");
+        options.add("Diffusivity", diffusivity, "m^2/s", Allowed::not_negative(), "Its own.");
+        options.add("Held boundaries",
+                    held_boundaries,
+                    "",
+                    Allowed::anything(),
+                    "Names of boundaries on which the value is held, such as heated walls.");
+        options.add(
+          "Held value", held, "", Allowed::anything(), "On the boundaries where it is held.");
+        if (!options.is_reference() && options.given("Held value") && held_boundaries.empty())
+          throw options.error("Held value",
+                              "is given, but no boundary to hold it",
+                              "Name boundaries of the fluid in 'Held boundaries'.");
+      }
+
+      bool
+      holds(const Boundary<dim> &boundary) const override
+      {
+        return boundary.kind == BoundaryKind::inflow || is_listed(boundary);
+      }
+
+      double
+      held_value(const Boundary<dim> &boundary,
+                 const unsigned int,
+                 const dealii::Point<dim> &place,
+                 const double              time) const override
+      {
+        return is_listed(boundary) ? held.value(place, time) : inflow.value(place, time);
+      }
+
+      double
+      entering_value(const dealii::Point<dim> &place, const double time) const override
+      {
+        return inflow.value(place, time);
+      }
+
+      std::string              name;
+      Expression<dim>          initial, source, inflow, held;
+      std::vector<std::string> held_boundaries;
+      double                   diffusivity = 0;
+
+      /// Matrix of the last step size: a cache.
+      mutable std::unique_ptr<ImplicitDiffusion<dim>> equation;
+
+    private:
+      bool
+      is_listed(const Boundary<dim> &boundary) const
+      {
+        return std::find(held_boundaries.begin(), held_boundaries.end(), boundary.name) !=
+               held_boundaries.end();
+      }
+    };
+  } // namespace
+
+
+  /// Fields that the flow carries, such as smoke or temperature:
+  ///
+  ///     ds/dt + v.grad s = D Laplace(s) + q
+  ///
+  /// explicit source, implicit diffusion. Advection is not conservative: the integral of s drifts
+  /// with the error of the interpolation.
+  template <int dim>
+  class ScalarTransport : public Effect<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override
+    {
+      method = options.template choose<Advection<dim>>(
+        "Method", "MacCormack", "How the fields are carried.");
+      for (const auto &name : options.named_sections("field"))
+        {
+          fields.push_back(std::make_unique<CarriedScalar<dim>>(name));
+          fields.back()->add_options(options.section(name));
+        }
+    }
+
+    void
+    check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
+    {
+      if (!around.has_fluid)
+        throw options.error("",
+                            "scalar transport needs a fluid, but the scene has none",
+                            "Remove the section or add a section 'Fluid'.");
+      if (fields.empty())
+        throw options.error("",
+                            "names no field to carry",
+                            "Add a subsection with the field's name, such as 'subsection smoke'.");
+    }
+
+    std::string
+    summary() const override
+    {
+      std::string names;
+      for (const auto &field : fields)
+        names += (names.empty() ? "" : ", ") + field->name;
+      return names;
+    }
+
+    std::vector<std::string>
+    scalars() const override
+    {
+      std::vector<std::string> names;
+      for (const auto &field : fields)
+        names.push_back(field->name);
+      return names;
+    }
+
+    void
+    initialize(const FluidModel<dim> &model, FluidState<dim> &state) const override
+    {
+      for (const auto &field : fields)
+        {
+          check_boundaries(model, *field);
+          Field<dim> values(model.grid().cells());
+          for_each(values.owned(), [&](const GridIndex<dim> &cell) {
+            values(cell) = field->initial.value(values.lattice().point(cell), 0);
+          });
+          state.scalars[field->name] = values;
+        }
+    }
+
+    void
+    transport(FluidStep<dim> &step) const override
+    {
+      const auto timed = step.timing.section("scalar transport");
+      for (const auto &field : fields)
+        {
+          auto &values = step.state.scalars.at(field->name);
+          values       = method->advect(step.flow, values, *field);
+        }
+    }
+
+    void
+    accelerate(FluidStep<dim> &step) const override
+    {
+      for (const auto &field : fields)
+        if (!field->source.is_zero())
+          {
+            auto &values = step.state.scalars.at(field->name);
+            for_each(values.owned(), [&](const GridIndex<dim> &cell) {
+              values(cell) += step.dt * field->source.value(values.lattice().point(cell),
+                                                            step.time + step.dt / 2);
+            });
+          }
+    }
+
+    void
+    diffuse(FluidStep<dim> &step) const override
+    {
+      const auto timed = step.timing.section("scalar diffusion");
+      for (const auto &field : fields)
+        if (field->diffusivity > 0)
+          {
+            if (!field->equation)
+              field->equation = std::make_unique<ImplicitDiffusion<dim>>(
+                step.model, step.model.grid().cells(), *field, field->diffusivity);
+            step.linear_iterations += field->equation->step(
+              step.state.scalars.at(field->name), step.time + step.dt, step.dt);
+          }
+    }
+
+    Columns
+    columns(const FluidModel<dim> &model, const FluidState<dim> &state, double) const override
+    {
+      Columns columns;
+      for (const auto &field : fields)
+        columns.push_back({"Integral of " + field->name,
+                           dim == 2 ? "m^2" : "m^3",
+                           integral(model, state.scalars.at(field->name))});
+      return columns;
+    }
+
+  private:
+    void
+    check_boundaries(const FluidModel<dim> &model, const CarriedScalar<dim> &field) const
+    {
+      for (const auto &name : field.held_boundaries)
+        {
+          std::string known;
+          bool        found = false;
+          for (const auto &boundary : model.boundaries().all())
+            {
+              found = found || boundary.name == name;
+              known += (known.empty() ? "'" : ", '") + boundary.name + "'";
+            }
+          if (!found)
+            throw InputError("section 'Effects/scalar transport/" + field.name +
+                             "', key 'Held boundaries': the fluid has no boundary named '" + name +
+                             "'. Allowed: " + known);
+        }
+    }
+
+    std::unique_ptr<Advection<dim>>                  method;
+    std::vector<std::unique_ptr<CarriedScalar<dim>>> fields;
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Effect, ScalarTransport>
+      registered("scalar transport", "Fields such as smoke and temperature move with the flow.");
+  }
+} // namespace undine

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/effects/effect.h>
+#include <undine/fluid/implicit_diffusion.h>
+#include <undine/fluid/pressure_gradient.h>
+
+#include <fmt/format.h>
+
+namespace undine
+{
+  /// Friction in a fluid of constant viscosity, implicit in time (implicit Euler):
+  ///
+  ///     (1 - h nu Laplace) w = v'' - h grad p^n / rho,   v* = w + h grad p^n / rho
+  ///
+  /// for each component, with walls that stick, inflow, and no friction on openings (see FluidStep
+  /// for the old pressure gradient).
+  template <int dim>
+  class Viscosity : public Effect<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override
+    {
+      options.require(
+        "Dynamic viscosity", dynamic_viscosity, "Pa s", Allowed::positive(), "Of the fluid.");
+    }
+
+    void
+    check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
+    {
+      if (!around.has_fluid)
+        throw options.error("",
+                            "viscosity acts on a fluid, but the scene has none",
+                            "Remove the section or add a section 'Fluid'.");
+    }
+
+    std::string
+    summary() const override
+    {
+      return fmt::format("{:.4g} Pa s, implicit", dynamic_viscosity);
+    }
+
+    void
+    diffuse(FluidStep<dim> &step) const override
+    {
+      const auto timed    = step.timing.section("viscosity");
+      auto      &velocity = step.state.velocity;
+      auto       pressure = step.state.pressure;
+      pressure.exchange(1);
+      const auto gradient =
+        pressure_acceleration(step.model, pressure, open_faces(step.model, velocity, step.time));
+      add(velocity, step.dt, gradient);
+      set_boundary_velocity(velocity, step.model, step.time + step.dt);
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        step.linear_iterations +=
+          solver(step.model, axis).step(velocity[axis], step.time + step.dt, step.dt);
+      add(velocity, -step.dt, gradient);
+    }
+
+    Columns
+    columns(const FluidModel<dim> &model,
+            const FluidState<dim> &state,
+            const double           time) const override
+    {
+      return force_columns(
+        "Viscous force", model, viscous_forces(model, state, dynamic_viscosity, time));
+    }
+
+  private:
+    /// The equation of one component, set up at its first use.
+    ImplicitDiffusion<dim> &
+    solver(const FluidModel<dim> &model, const unsigned int axis) const
+    {
+      if (!equations[axis])
+        {
+          conditions[axis] = std::make_unique<VelocityCondition<dim>>(axis);
+          equations[axis] =
+            std::make_unique<ImplicitDiffusion<dim>>(model,
+                                                     model.grid().faces(axis),
+                                                     *conditions[axis],
+                                                     dynamic_viscosity / model.density());
+        }
+      return *equations[axis];
+    }
+
+    double dynamic_viscosity = 0;
+    /// Matrices of the last step size: a cache.
+    mutable std::array<std::unique_ptr<VelocityCondition<dim>>, dim> conditions;
+    mutable std::array<std::unique_ptr<ImplicitDiffusion<dim>>, dim> equations;
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Effect, Viscosity>
+      registered("viscosity", "Friction in the fluid and on its walls.");
+  }
+} // namespace undine
