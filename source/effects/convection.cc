@@ -15,7 +15,6 @@ namespace undine
     {
       method = options.template choose<Advection<dim>>(
         "Method", "MacCormack", "How the velocity is carried.");
-      options.add("Method", name, "", Allowed::anything(), "How the velocity is carried.");
     }
 
     void
@@ -30,7 +29,7 @@ namespace undine
     std::string
     summary() const override
     {
-      return name;
+      return method->summary();
     }
 
     void
@@ -43,7 +42,6 @@ namespace undine
     }
 
   private:
-    std::string                     name = "MacCormack";
     std::unique_ptr<Advection<dim>> method;
   };
 

@@ -22,6 +22,12 @@ namespace undine
     {
     }
 
+    std::string
+    summary() const override
+    {
+      return "MacCormack, limited";
+    }
+
     Field<dim>
     advect(const Flow<dim>              &flow,
            const Field<dim>             &field,

@@ -15,6 +15,12 @@ namespace undine
     {
     }
 
+    std::string
+    summary() const override
+    {
+      return "semi-Lagrangian, multilinear";
+    }
+
     Field<dim>
     advect(const Flow<dim>              &flow,
            const Field<dim>             &field,
