@@ -59,6 +59,7 @@ namespace undine
     template <int dim>
     void
     start_outputs(const State<dim> &state,
+                  const Report     &first,
                   Scene<dim>       &scene,
                   TimingTree       &timing,
                   MPI_Comm          communicator)
@@ -69,8 +70,20 @@ namespace undine
         {
           output->start(context, state);
           if (state.clock.step == 0 && output->due(state.clock))
-            output->write(state, Report());
+            output->write(state, first);
         }
+    }
+
+
+    /// Replace an initialised state by that of the last checkpoint.
+    template <int dim>
+    void
+    take_up_again(State<dim> &state, const Scene<dim> &scene, Log &log)
+    {
+      const auto from = read_checkpoint(scene.directory, scene.models, state);
+      for (const auto &reason : from.skipped)
+        log.print("skipped a checkpoint: {}", reason);
+      log.print("resumed at step {}, time {:.6g} s", state.clock.step, state.clock.time);
     }
 
 
@@ -96,12 +109,12 @@ namespace undine
 
       State<dim> state;
       {
-        const auto timed = timing.section("initialise");
-        state.clock      = scene.clock;
-        scene.scheme->initialize(state, scene.models, timing);
+        const auto timed   = timing.section("initialise");
+        state.clock        = scene.clock;
+        const Report first = scene.scheme->initialize(state, scene.models, timing);
         if (resumed)
-          read_checkpoint(scene.directory, scene.models, state);
-        start_outputs(state, scene, timing, communicator);
+          take_up_again(state, scene, log);
+        start_outputs(state, first, scene, timing, communicator);
       }
       print_unknowns(log, scene);
       run_keeping_last_state(state, scene, log, timing);
