@@ -3,7 +3,6 @@
 #define undine_fluid_index_box_h
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 namespace undine
@@ -12,7 +11,7 @@ namespace undine
   template <int dim>
   struct GridIndex
   {
-    std::array<int, dim> values;
+    int values[dim]; ///< bare, so that {{1, 2}} is one
 
     int &
     operator[](const unsigned int direction)
@@ -29,7 +28,7 @@ namespace undine
     bool
     operator==(const GridIndex &other) const
     {
-      return values == other.values;
+      return std::equal(values, values + dim, other.values);
     }
   };
 
@@ -39,7 +38,7 @@ namespace undine
   all_directions(const int number)
   {
     GridIndex<dim> result;
-    result.values.fill(number);
+    std::fill_n(result.values, dim, number);
     return result;
   }
 
