@@ -19,7 +19,7 @@ import scene_tools  # noqa: E402
 STEPS = 5
 CASES = [
     ("Solid alone: 3D cantilever, Q2 elements, theta integrator", "prm/cantilever.prm",
-     "Bodies/beam/Subdivisions", ["20, 2, 4", "32, 4, 6", "48, 6, 10"]),
+     "Bodies/beam/Cells", ["20, 2, 4", "32, 4, 6", "48, 6, 10"]),
     ("Fluid alone: 3D plume, two scalars", "prm/plume.prm",
      "Domain/Cells", ["32, 64, 32", "50, 100, 50", "80, 156, 80"]),
 ]

@@ -23,7 +23,7 @@ namespace undine
       effect->initialize(model, state.fluid);
     report.linear_iterations +=
       projection.make_divergence_free(state.fluid, state.clock.time).iterations;
-    add_columns(report, state.fluid);
+    add_columns(report, state.fluid, state.clock.time);
   }
 
 
@@ -56,20 +56,22 @@ namespace undine
     }
     report.linear_iterations += fluid.linear_iterations;
     const auto phase = timing.section("measure");
-    add_columns(report, state.fluid);
+    add_columns(report, state.fluid, fluid.time + fluid.dt);
   }
 
 
   template <int dim>
   void
-  FluidAlone<dim>::add_columns(Report &report, const FluidState<dim> &state) const
+  FluidAlone<dim>::add_columns(Report                &report,
+                               const FluidState<dim> &state,
+                               const double           time) const
   {
     const auto append = [&](const Columns &more) {
       report.columns.insert(report.columns.end(), more.begin(), more.end());
     };
     append(fluid_columns(model, state));
     for (const auto &effect : models.effects)
-      append(effect->columns(model, state));
+      append(effect->columns(model, state, time));
   }
 
 

@@ -50,7 +50,7 @@ namespace undine
 
   private:
     void
-    add_columns(Report &report, const FluidState<dim> &state) const;
+    add_columns(Report &report, const FluidState<dim> &state, double time) const;
 
     const Models<dim>     &models;
     const FluidModel<dim> &model;
