@@ -39,7 +39,6 @@ namespace undine
   void
   SolidAlone<dim>::step(State<dim> &state, Report &report) const
   {
-    const auto   timed = timing.section("solid");
     const double time  = state.clock.time;
     const auto   solid = solid_step.step(state.solid, environment, time, report.dt, timing);
     report.newton_iterations += solid.newton.iterations;

@@ -248,9 +248,54 @@ namespace undine
   typename SolidEquations<dim>::Matrix
   SolidEquations<dim>::jacobian(const Vector &velocity) const
   {
-    const auto   timed  = timing.section("assemble tangent");
-    const Vector end    = displacement(velocity);
-    Matrix       result = model.matrix();
+    Matrix result = full_jacobian(displacement(velocity));
+    fix_rows_and_columns(result, model.all_fixed());
+    return result;
+  }
+
+
+  /// d d^{n+1} - d^n at fixed degrees of freedom, zero elsewhere [m].
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::prescribed_increment() const
+  {
+    Vector result = model.vector();
+    prescribe_displacement(result, model, time + dt);
+    for (const auto &fixed : model.fixed())
+      result(fixed.dof) -= old_state.displacement(fixed.dof);
+    result.compress(dealii::VectorOperation::add);
+    return result;
+  }
+
+
+  template <int dim>
+  bool
+  SolidEquations<dim>::has_motion() const
+  {
+    return prescribed_increment().linfty_norm() > 0;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::LinearSystem
+  SolidEquations<dim>::motion_predictor() const
+  {
+    Vector jump = prescribed_increment();
+    jump *= -1 / coefficients.displacement;
+    LinearSystem system{full_jacobian(old_state.displacement), model.vector()};
+    system.matrix.vmult(system.right_side, jump);
+    clear_fixed(system.right_side, model);
+    fix_rows_and_columns(system.matrix, model.all_fixed());
+    return system;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Matrix
+  SolidEquations<dim>::full_jacobian(const Vector &end) const
+  {
+    const auto timed  = timing.section("assemble tangent");
+    Matrix     result = model.matrix();
     for (const auto &stage : coefficients.stages)
       if (stage.position > 0)
         {
@@ -265,7 +310,6 @@ namespace undine
       add_matrix(result, mass_factor, mass);
     if (damping_stiffness.m() > 0)
       add_matrix(result, coefficients.damping * environment.stiffness_damping, damping_stiffness);
-    fix_rows_and_columns(result, model.all_fixed());
     return result;
   }
 
@@ -291,6 +335,14 @@ namespace undine
           state.acceleration, model, time + (1 + integrator.acceleration_shift()) * dt, dt);
       }
     return state;
+  }
+
+
+  template <int dim>
+  bool
+  SolidEquations<dim>::is_static() const
+  {
+    return coefficients.mass == 0;
   }
 
 

@@ -43,6 +43,15 @@ namespace undine
         return solver.solve(jacobian, residual, equations.displacement(velocity));
       }
 
+      /// The change of u by which the bodies follow prescribed motions, from d^n.
+      Unknown
+      motion(const Unknown &velocity)
+      {
+        const auto system = equations.motion_predictor();
+        const auto timed  = timing.section("solve linear system");
+        return solver.solve(system.matrix, system.right_side, equations.displacement(velocity));
+      }
+
       double
       scale() const
       {
@@ -122,7 +131,20 @@ namespace undine
     }
 
 
-    /// Newton's method from u^n, and if that fails from the velocity that keeps d^n.
+    /// u that keeps d^n, but for what fixed degrees of freedom that have moved draw with them.
+    template <int dim>
+    typename SolidModel<dim>::Vector
+    resting_guess(StepProblem<dim> &problem, const SolidEquations<dim> &equations)
+    {
+      auto velocity = equations.guess_at_rest();
+      if (equations.has_motion())
+        velocity.add(1., problem.motion(velocity));
+      return velocity;
+    }
+
+
+    /// Newton's method from u^n, and if that fails from d^n. In the other order without inertia: an
+    /// extrapolated equilibrium changes the volume of what is nearly incompressible.
     template <int dim>
     NewtonReport
     solve_step(typename SolidModel<dim>::Vector &velocity,
@@ -130,16 +152,18 @@ namespace undine
                const SolidEquations<dim>        &equations,
                const NewtonOptions              &options)
     {
-      if (options.fixed_iterations == 0)
-        try
-          {
-            velocity = equations.guess();
-            return solve_newton(problem, velocity, options);
-          }
-        catch (const SolveError &)
-          {
-          }
-      velocity = equations.guess_at_rest();
+      const bool rest_first = equations.is_static() || options.fixed_iterations > 0;
+      try
+        {
+          velocity = rest_first ? resting_guess(problem, equations) : equations.guess();
+          return solve_newton(problem, velocity, options);
+        }
+      catch (const SolveError &)
+        {
+          if (options.fixed_iterations > 0)
+            throw;
+        }
+      velocity = rest_first ? equations.guess() : resting_guess(problem, equations);
       return solve_newton(problem, velocity, options);
     }
   } // namespace
@@ -168,7 +192,6 @@ namespace undine
     const double instant = 1e-3; // [s], for the derivatives of prescribed motions at the start
     SolidState   state{model.vector(), model.vector(), model.vector()};
     set_initial(state, model);
-    prescribe_displacement(state.displacement, model, time);
     prescribe_velocity(state.velocity, model, time, instant);
     if (model.numerics().integrator->uses_acceleration())
       {
@@ -190,10 +213,11 @@ namespace undine
                        const SolidEnvironment<dim> &environment,
                        const double                 time,
                        const double                 dt,
-                       TimingTree                  &timing) const
+                       TimingTree                  &timing,
+                       const Vector                &nodal_forces) const
   {
     const auto          timed = timing.section("solid");
-    SolidEquations<dim> equations(model, mass_matrix, state, environment, time, dt, timing);
+    SolidEquations<dim> equations(model, mass_matrix, state, environment, time, dt, timing, nodal_forces);
     StepProblem<dim>    problem(model, equations, timing);
     auto                velocity = model.vector();
 

@@ -123,7 +123,7 @@ namespace undine
     try
       {
         const dealii::TrilinosWrappers::SolverDirect::AdditionalData data(
-          false, Amesos().Query(mumps) ? mumps : "Amesos_Klu");
+          false, getenv("KLU")==nullptr ? mumps : "Amesos_Klu");
         dealii::TrilinosWrappers::SolverDirect(control, data).solve(A, x, b);
       }
     catch (const dealii::ExceptionBase &)

@@ -25,15 +25,14 @@ namespace undine
 
 
     void
-    write_row(std::ostream &out, const TimingTree::Node &node, const int depth)
+    write_row(std::ostream &out, const TimingTree::Node &node, const int depth, const double whole)
     {
-      const double whole = node.parent != nullptr ? node.parent->seconds : node.seconds;
       out << std::left << std::setw(44) << std::string(2 * depth, ' ') + node.name << std::right
           << std::setw(10) << node.calls << std::setw(14) << std::fixed << std::setprecision(4)
           << node.seconds << std::setw(9) << std::setprecision(1)
           << (whole > 0 ? 100 * node.seconds / whole : 0.) << '\n';
       for (const auto &inner : node.children)
-        write_row(out, *inner, depth + 1);
+        write_row(out, *inner, depth + 1, node.seconds);
     }
   } // namespace
 
@@ -80,7 +79,10 @@ namespace undine
   TimingTree::write(std::ostream &out) const
   {
     out << "# phase                                          calls       seconds        %\n";
+    double whole = 0;
     for (const auto &node : top.children)
-      write_row(out, *node, 0);
+      whole += node->seconds;
+    for (const auto &node : top.children)
+      write_row(out, *node, 0, whole);
   }
 } // namespace undine

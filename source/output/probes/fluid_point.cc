@@ -42,10 +42,10 @@ namespace undine
 
       Columns result;
       for (unsigned int axis = 0; axis < dim; ++axis)
-        result.push_back({name + ": velocity " + char('x' + axis), "m/s", values[axis]});
-      result.push_back({name + ": pressure", "Pa", values[dim]});
+        result.push_back({name + " velocity " + char('x' + axis), "m/s", values[axis]});
+      result.push_back({name + " pressure", "Pa", values[dim]});
       for (unsigned int s = 0; s < sampler.scalar_names().size(); ++s)
-        result.push_back({name + ": " + sampler.scalar_names()[s], "scalar", values[dim + 1 + s]});
+        result.push_back({name + " " + sampler.scalar_names()[s], "scalar", values[dim + 1 + s]});
       return result;
     }
 
