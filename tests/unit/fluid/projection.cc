@@ -221,9 +221,9 @@ TEST_CASE("a closed box with a net inflow is refused by name", "[projection][mpi
 
 TEST_CASE("failures of the pressure solver say what to try", "[projection]")
 {
-  const auto model = make_model<2>(
-    FluidText{"100, 100", "", "", "", 1., section("Pressure solver", "set Maximum iterations = 1")});
-  auto state = model.initial_state();
+  const auto model = make_model<2>(FluidText{
+    "100, 100", "", "", "", 1., section("Pressure solver", "set Maximum iterations = 1")});
+  auto       state = model.initial_state();
   fill_scattered(state.velocity);
   const auto why = message_of([&] { Projection<2>(model).project(state, 0, 0.1); });
   CHECK_THAT(why, Catch::Matchers::Contains("Maximum iterations"));
