@@ -137,9 +137,9 @@ namespace undine
     read_without_models(const Options &options)
     {
       Scene<dim>   scene;
-      unsigned int dimension = dim;
+      unsigned int dimension = dim; // is the scene's: read_dimension() chose this instance
       read_title(options, scene.title);
-      options.add("Dimension", dimension, "", Allowed::between(2, 3), "Of space.");
+      options.require("Dimension", dimension, "", Allowed::between(2, 3), "Of space.");
       scene.clock  = read_clock(options);
       scene.scheme = options.choose<Scheme<dim>>("Scheme", "simultaneous", "How time advances.");
       read_effects(scene, options);

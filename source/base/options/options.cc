@@ -118,6 +118,15 @@ namespace undine
   }
 
 
+  void
+  Options::mark_required(const std::string &key) const
+  {
+    for (auto &entry : store->entries)
+      if (entry.section == path && entry.key == key && entry.condition == condition)
+        entry.required = true;
+  }
+
+
   bool
   Options::given(const std::string &key) const
   {

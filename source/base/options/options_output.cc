@@ -81,30 +81,54 @@ namespace undine
     }
 
 
+    /// What a key takes: "number, > 0".
+    std::string
+    allowed_values(const Options::Entry &entry)
+    {
+      if (entry.allowed.empty() || entry.type == entry.allowed)
+        return entry.type;
+      return entry.type == "text" ? entry.allowed : entry.type + ", " + entry.allowed;
+    }
+
+
+    /// Parts that a scene can choose often share keys: such rows become one, with all conditions.
+    std::vector<Options::Entry>
+    without_repetition(const std::vector<const Options::Entry *> &entries)
+    {
+      std::vector<Options::Entry> result;
+      for (const auto *entry : entries)
+        {
+          const auto same =
+            std::find_if(result.begin(), result.end(), [&](const Options::Entry &other) {
+              return other.key == entry->key && other.help == entry->help &&
+                     other.default_value == entry->default_value && other.unit == entry->unit &&
+                     allowed_values(other) == allowed_values(*entry);
+            });
+          if (same == result.end())
+            result.push_back(*entry);
+          else if (const auto name = entry->condition.find(" = "); name != std::string::npos)
+            same->condition += " | " + entry->condition.substr(name + 3);
+        }
+      return result;
+    }
+
+
     void
-    write_reference_section(std::ostream      &out,
-                            const SectionTree &tree,
-                            const std::string &path,
-                            const unsigned int depth)
+    write_reference_section(std::ostream &out, const SectionTree &tree, const std::string &path)
     {
       if (!tree.entries.empty())
         {
-          out << '\n'
-              << std::string(depth, '#') << ' ' << (path.empty() ? "Top level" : escaped(path))
-              << "\n\n"
+          out << "\n## " << (path.empty() ? "Top level" : escaped(path)) << "\n\n"
               << "| key | default | allowed | unit | meaning |\n|---|---|---|---|---|\n";
-          for (const auto *entry : tree.entries)
-            out << "| " << escaped(entry->key) << " | " << escaped(entry->default_value) << " | "
-                << escaped(entry->type == entry->allowed || entry->allowed.empty()
-                             ? entry->type
-                             : (entry->type == "text" ? entry->allowed
-                                                      : entry->type + ", " + entry->allowed))
-                << " | " << entry->unit << " | "
-                << (entry->condition.empty() ? "" : "*" + escaped(entry->condition) + ":* ")
-                << escaped(entry->help) << " |\n";
+          for (const auto &entry : without_repetition(tree.entries))
+            out << "| " << escaped(entry.key) << " | "
+                << (entry.required ? "*must be given*" : escaped(entry.default_value)) << " | "
+                << escaped(allowed_values(entry)) << " | " << entry.unit << " | "
+                << (entry.condition.empty() ? "" : "*" + escaped(entry.condition) + ":* ")
+                << escaped(entry.help) << " |\n";
         }
       for (const auto &[name, section] : tree.sections)
-        write_reference_section(out, section, path.empty() ? name : path + " / " + name, depth);
+        write_reference_section(out, section, path.empty() ? name : path + " / " + name);
     }
   } // namespace
 
@@ -126,6 +150,6 @@ namespace undine
   void
   Options::write_reference(std::ostream &out) const
   {
-    write_reference_section(out, sort_by_section(entries()), "", 2);
+    write_reference_section(out, sort_by_section(entries()), "");
   }
 } // namespace undine

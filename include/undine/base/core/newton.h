@@ -72,6 +72,10 @@ namespace undine
     double
     try_to_evaluate(const Unknown &x);
 
+    /// Add the correction, or the largest of its halves that is admissible. Returns the residual.
+    double
+    take_correction(Unknown &x, const Unknown &correction);
+
     /// Halve the correction of the best point until the residual falls. False if it never does.
     bool
     backtrack(Unknown &x, double &residual);
@@ -119,9 +123,8 @@ namespace undine
             best    = {x, correction, residual};
             relaxed = 0;
           }
-        x.add(1., correction);
+        residual = take_correction(x, correction);
         ++report.iterations;
-        residual = try_to_evaluate(x);
         if (options.fixed_iterations > 0 && std::isinf(residual))
           throw SolveError("the correction cannot be accepted. " + last_refusal);
         if (options.fixed_iterations == 0 && !(residual < best.residual))
@@ -159,6 +162,25 @@ namespace undine
         last_refusal = std::string("Last refused: ") + error.what() + " ";
         return std::numeric_limits<double>::infinity();
       }
+  }
+
+
+  template <class Problem>
+  double
+  Newton<Problem>::take_correction(Unknown &x, const Unknown &correction)
+  {
+    x.add(1., correction);
+    double residual = try_to_evaluate(x);
+    double length   = 1;
+    if (options.fixed_iterations == 0)
+      for (unsigned int cut = 0; std::isinf(residual) && cut < options.maximum_cuts; ++cut)
+        {
+          length /= 2;
+          ++report.cuts;
+          x.add(-length, correction);
+          residual = try_to_evaluate(x);
+        }
+    return residual;
   }
 
 

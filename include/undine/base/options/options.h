@@ -38,6 +38,7 @@ namespace undine
       std::string allowed;
       std::string help;
       std::string condition; ///< "Model = neo-Hookean": known only then; empty: always
+      bool        required = false;
     };
 
     /// Read from a file.
@@ -87,7 +88,8 @@ namespace undine
               unit,
               allowed.description,
               help,
-              ""});
+              "",
+              false});
     }
 
     /// A parameter without a sensible default: the scene must give it.
@@ -106,6 +108,7 @@ namespace undine
                       (allowed.description.empty() ? "" : ", " + allowed.description) +
                       (unit.empty() ? "" : " [" + unit + "]") + ". " + help);
       add(key, variable, unit, allowed, help);
+      mark_required(key);
     }
 
     /// Choose a registered part by name and let it add its own options to this section.
@@ -176,6 +179,9 @@ namespace undine
 
     void
     record(Entry entry) const;
+
+    void
+    mark_required(const std::string &key) const;
 
     Options
     under_condition(const std::string &condition) const;
