@@ -5,6 +5,7 @@ import re
 import subprocess
 
 SLACK = 2  # iterations
+ROUNDING = 1e-13  # in any unit: what rounding leaves of numbers around one
 
 
 def environment():
@@ -65,7 +66,7 @@ def differences(text, record, tolerance, compare_iterations):
             counted = "iterations" in name.lower()
             if counted and not compare_iterations:
                 continue
-            allowed = SLACK if counted else tolerance * scale[unit]
+            allowed = SLACK if counted else max(tolerance * scale[unit], ROUNDING)
             if not abs(value - wanted) <= allowed:
                 result.append(f"row {number}, {name}: {value!r} instead of {wanted!r} "
                               f"(allowed difference {allowed:.3g} {unit})")
