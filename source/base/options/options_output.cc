@@ -44,16 +44,24 @@ namespace undine
     }
 
 
+    /// What the scene does not assign stays a comment: parts may ask what was given, and the file
+    /// must give the same run.
     void
-    write_prm_section(std::ostream &out, const SectionTree &tree, const std::string &indent)
+    write_prm_section(std::ostream      &out,
+                      const SectionTree &tree,
+                      ParameterFile     &scene,
+                      const std::string &indent)
     {
       for (const auto *entry : tree.entries)
-        out << indent << "set " << entry->key << " = " << entry->value
-            << (entry->unit.empty() ? "" : "  # [" + entry->unit + "]") << '\n';
+        {
+          const bool assigned = scene.find(entry->section + entry->key) != nullptr;
+          out << indent << (assigned ? "set " : "# default: ") << entry->key << " = "
+              << entry->value << (entry->unit.empty() ? "" : "  # [" + entry->unit + "]") << '\n';
+        }
       for (const auto &[name, section] : tree.sections)
         {
           out << '\n' << indent << "subsection " << name << '\n';
-          write_prm_section(out, section, indent + "  ");
+          write_prm_section(out, section, scene, indent + "  ");
           out << indent << "end\n";
         }
     }
@@ -136,7 +144,7 @@ namespace undine
   void
   Options::write_prm(std::ostream &out) const
   {
-    write_prm_section(out, sort_by_section(entries()), "");
+    write_prm_section(out, sort_by_section(entries()), store->file, "");
   }
 
 
