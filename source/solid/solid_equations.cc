@@ -137,6 +137,7 @@ namespace undine
         note_size(nodal_forces, 1);
         known.add(-1., nodal_forces);
       }
+    largest_known = largest_term;
   }
 
 
@@ -204,6 +205,7 @@ namespace undine
   {
     const auto timed  = timing.section("assemble forces");
     Vector     result = known;
+    largest_term      = largest_known;
     if (coefficients.mass != 0)
       {
         Vector inertia = model.vector();

@@ -58,6 +58,17 @@ namespace undine
       Solver(control).solve(A, x, b, multigrid);
       return control.last_step();
     }
+
+
+    /// KLU has the smaller overhead, MUMPS works on blocks.
+    dealii::TrilinosWrappers::SolverDirect::AdditionalData
+    factorisation(const unsigned int n_unknowns)
+    {
+      const unsigned int few   = 2000;
+      const bool         mumps = n_unknowns > few && Amesos().Query("Amesos_Mumps");
+      return dealii::TrilinosWrappers::SolverDirect::AdditionalData(
+        false, mumps ? "Amesos_Mumps" : "Amesos_Klu");
+    }
   } // namespace
 
 
@@ -77,7 +88,7 @@ namespace undine
     if (choice != "auto")
       return choice == "direct";
     // Where a factorisation costs as much as multigrid.
-    const unsigned int most = dim == 2 ? 60000 : 6000;
+    const unsigned int most = dim == 2 ? 30000 : 6000;
     const bool         separated =
       std::any_of(model.bodies().begin(), model.bodies().end(), [](auto &body) {
         return body.kinematics->separates_volumetric_part(*body.material);
@@ -117,14 +128,11 @@ namespace undine
   typename TangentSolver<dim>::Vector
   TangentSolver<dim>::solve_directly(const Matrix &A, const Vector &b) const
   {
-    const std::string     mumps = "Amesos_Mumps";
     dealii::SolverControl control;
     Vector                x = model.vector();
     try
       {
-        const dealii::TrilinosWrappers::SolverDirect::AdditionalData data(
-          false, getenv("KLU")==nullptr ? mumps : "Amesos_Klu");
-        dealii::TrilinosWrappers::SolverDirect(control, data).solve(A, x, b);
+        dealii::TrilinosWrappers::SolverDirect(control, factorisation(A.m())).solve(A, x, b);
       }
     catch (const dealii::ExceptionBase &)
       {

@@ -38,10 +38,26 @@ namespace undine
     Vector
     guess() const;
 
-    /// A first u [m/s] that keeps d^{n+1} = d^n: always admissible, and the point at which one
-    /// Newton correction is a linearisation at d^n.
+    /// A first u [m/s] that keeps d^{n+1} = d^n, the point at which one Newton correction is a
+    /// linearisation at d^n. Fixed degrees of freedom have moved, so that this is admissible only
+    /// with the change of u that motion_predictor() gives.
     Vector
     guess_at_rest() const;
+
+    struct LinearSystem
+    {
+      Matrix matrix;
+      Vector right_side;
+    };
+
+    /// Do fixed degrees of freedom move during the step?
+    bool
+    has_motion() const;
+
+    /// Linearised at d^n: the change of u at free degrees of freedom by which the bodies follow the
+    /// prescribed motions, A_ff du_f = -A_fg dd_g / (d d^{n+1} / du).
+    LinearSystem
+    motion_predictor() const;
 
     /// The left side of the balance for u [N], zero at fixed degrees of freedom. Throws SolveError.
     Vector
@@ -68,6 +84,10 @@ namespace undine
     SolidState
     end_state(const Vector &velocity) const;
 
+    /// Does the step leave out inertia?
+    bool
+    is_static() const;
+
     /// Size of the terms of the residual evaluated last [N], and the norm that rounding gives their
     /// sum [N]. @{
     double
@@ -85,6 +105,10 @@ namespace undine
     add_damping(Vector &forces, const Vector &velocity, double factor) const;
     void
     add_stage(Vector &forces, const StepCoefficients::Stage &stage, const Vector &displacement);
+    Matrix
+    full_jacobian(const Vector &end_displacement) const;
+    Vector
+    prescribed_increment() const;
     void
     find_known_forces();
     void
@@ -103,7 +127,8 @@ namespace undine
     const StepCoefficients       coefficients;
     const bool                   has_pressure;
     Matrix                       damping_stiffness; ///< K'(d^n + r h u^n); empty without damping
-    double                       largest_term = 0;  ///< [N]
+    double                       largest_known = 0; ///< size of the terms without u [N]
+    double                       largest_term  = 0; ///< of all terms [N]
     double                       own_rounding;      ///< [N]
     Vector                       known;             ///< terms of the residual without u [N]
   };

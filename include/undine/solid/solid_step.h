@@ -41,17 +41,20 @@ namespace undine
     SolidState
     initialize(const SolidEnvironment<dim> &environment, double time) const;
 
-    /// From `time` to `time + dt` [s]. Collective. Throws SolveError; the state is then unchanged.
+    /// From `time` to `time + dt` [s]. `nodal_forces` [N], if not empty, act during the whole step
+    /// (SolidEquations). Collective. Throws SolveError; the state is then unchanged.
     ///
-    ///  1. guess u^{n+1} = u^n (d^{n+1} = d^n if that inverts a cell)
+    ///  1. guess u^{n+1} = u^n
     ///  2. Newton: assemble residual and tangent, solve, line search
-    ///  3. d^{n+1}, u^{n+1}, a^{n+1} from u^{n+1}
+    ///  3. if that fails, again from the guess d^{n+1} = d^n
+    ///  4. d^{n+1}, u^{n+1}, a^{n+1} from u^{n+1}
     SolidReport
     step(SolidState                  &state,
          const SolidEnvironment<dim> &environment,
          double                       time,
          double                       dt,
-         TimingTree                  &timing) const;
+         TimingTree                  &timing,
+         const Vector                &nodal_forces = {}) const;
 
     /// M [kg].
     const Matrix &

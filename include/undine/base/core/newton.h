@@ -19,7 +19,7 @@ namespace undine
     unsigned int maximum_iterations = 40;
     unsigned int fixed_iterations   = 0;  ///< do exactly so many, converged or not; 0: converge
     unsigned int maximum_cuts       = 10; ///< halvings of one correction in the line search
-    unsigned int relaxed_steps      = 4;  ///< full corrections that may increase the residual
+    unsigned int relaxed_steps      = 8;  ///< full corrections that may increase the residual
   };
 
   /// How it went.

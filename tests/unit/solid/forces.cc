@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_scene.h"
+
+#include <undine/solid/internal_forces.h>
+#include <undine/solid/loads.h>
+
+#include <catch2/catch.hpp>
+
+#include <random>
+
+using namespace undine_tests;
+
+namespace
+{
+  /// A body of eight or so cells of no special shape.
+  template <int dim>
+  std::string
+  block(const std::string &material,
+        const unsigned int degree,
+        const std::string &keys       = "",
+        const std::string &boundaries = "")
+  {
+    const std::string map =
+      dim == 2 ? "x+0.1*y*x; 0.7*y+0.05*x*y" : "x+0.1*y*z; 0.7*y+0.05*x*z; 0.8*z-0.1*x*y";
+    return one_body(fmt::format("set Cells = {}\n set Map = {}\n set Density = 3\n"
+                                "set Material = {}\n set Young's modulus = 10\n"
+                                "set Poisson's ratio = 0.3\n{}",
+                                dim == 2 ? "3, 2" : "2, 1, 1",
+                                map,
+                                material,
+                                keys),
+                    boundaries,
+                    fmt::format("set Element degree = {}", degree));
+  }
+
+
+  /// Nodal values at random, the same for every number of ranks.
+  template <int dim>
+  Vector
+  random_field(const SolidModel<dim> &model, const double size, const unsigned int seed)
+  {
+    std::mt19937        engine(seed);
+    std::vector<double> values(model.dof_handler().n_dofs());
+    for (auto &value : values)
+      value = size * (2. * engine() / std::mt19937::max() - 1);
+    const auto order = model.canonical_order();
+    auto       field = model.vector();
+    for (const auto dof : model.locally_owned())
+      field(dof) = values[order[dof]];
+    field.compress(dealii::VectorOperation::insert);
+    return field;
+  }
+
+
+  Vector
+  sum(const Vector &a, const double factor, const Vector &b)
+  {
+    Vector result = a;
+    result.add(factor, b);
+    return result;
+  }
+
+
+  Vector
+  product(const Matrix &A, const Vector &x)
+  {
+    Vector result = x;
+    A.vmult(result, x);
+    return result;
+  }
+
+
+  /// |A dx - df| / |A dx| with df by central differences.
+  template <class Force>
+  double
+  tangent_error(const Matrix &A, const Vector &x, const Vector &direction, const Force &force)
+  {
+    const double step = 1e-6;
+    const Vector difference =
+      sum(force(sum(x, step, direction)), -1, force(sum(x, -step, direction)));
+    const Vector predicted = product(A, direction);
+    Vector       error     = difference;
+    error *= 1 / (2 * step);
+    error.add(-1., predicted);
+    return error.l2_norm() / predicted.l2_norm();
+  }
+
+
+  template <int dim>
+  void
+  check_tangent(const std::string &material, const unsigned int degree, const std::string &keys)
+  {
+    INFO(material << ", degree " << degree << ", " << dim << "D " << keys);
+    const Solid<dim> solid(block<dim>(material, degree, keys));
+    const auto       d = random_field(solid.model, 0.03 / degree, 1);
+    const auto       a = random_field(solid.model, 1, 2);
+    const auto       b = random_field(solid.model, 1, 3);
+    const auto       A = internal_stiffness(solid.model, d);
+    CHECK(tangent_error(A, d, a, [&](const Vector &x) { return internal_forces(solid.model, x); }) <
+          1e-7);
+    CHECK(b * product(A, a) == Approx(a * product(A, b)).epsilon(1e-12));
+
+    const double step = 1e-6;
+    CHECK((elastic_energy(solid.model, sum(d, step, a)) -
+           elastic_energy(solid.model, sum(d, -step, a))) /
+            (2 * step) ==
+          Approx(internal_forces(solid.model, d) * a).epsilon(1e-6));
+  }
+
+
+  /// x -> R x - x for a rotation that is not small.
+  template <int dim>
+  Vector
+  rotated(const SolidModel<dim> &model)
+  {
+    const double c = std::cos(2.), s = std::sin(2.);
+    auto         field = model.vector();
+    for (const auto dof : model.locally_owned())
+      {
+        const auto x = model.rest_position(dof);
+        auto       y = x;
+        y[0]         = c * x[0] - s * x[1] + 5;
+        y[1]         = s * x[0] + c * x[1];
+        field(dof)   = y[model.axis(dof)] - x[model.axis(dof)];
+      }
+    field.compress(dealii::VectorOperation::insert);
+    return field;
+  }
+} // namespace
+
+
+TEST_CASE("internal forces: tangent and energy by differences, for every law", "[solid][mpi]")
+{
+  for (const auto &material : Registry<Material>::instance().names())
+    for (const unsigned int degree : {1, 2})
+      {
+        check_tangent<2>(material, degree, "set Plane state = plane strain");
+        check_tangent<2>(material, degree, "set Plane state = plane stress");
+        check_tangent<3>(material, degree, "");
+      }
+}
+
+
+TEST_CASE("a rigid rotation leaves bodies without force", "[solid][mpi]")
+{
+  for (const auto &material : Registry<Material>::instance().names())
+    if (material != "linear elastic")
+      for (const unsigned int degree : {1, 2})
+        {
+          INFO(material << ", degree " << degree);
+          const Solid<2> plane(block<2>(material, degree));
+          CHECK(internal_forces(plane.model, rotated(plane.model)).linfty_norm() < 1e-12);
+          const Solid<3> space(block<3>(material, degree));
+          CHECK(internal_forces(space.model, rotated(space.model)).linfty_norm() < 1e-12);
+        }
+}
+
+
+TEST_CASE("follower pressure: tangent by differences, work by volume", "[solid][mpi]")
+{
+  const auto keys = [](const std::string &sides) {
+    return boundary("wet", "set Kind = pressure\n set Pressure = 2\n set Sides = " + sides);
+  };
+  const Solid<3> top(block<3>("neo-Hookean", 2, "", keys("top, left")));
+  const auto     d = random_field(top.model, 0.02, 1);
+  const auto     a = random_field(top.model, 1, 2);
+  CHECK(tangent_error(pressure_stiffness(top.model, d, 0), d, a, [&](const Vector &x) {
+          return pressure_loads(top.model, x, 0);
+        }) < 1e-7);
+
+  // Over a closed surface the pressure is the gradient of -p times the volume.
+  const Solid<2> all(block<2>("neo-Hookean", 2, "", keys("left, right, bottom, top")));
+  const auto     e      = random_field(all.model, 0.02, 3);
+  const auto     b      = random_field(all.model, 1, 4);
+  const double   step   = 1e-5;
+  const auto     volume = [&](const double factor) {
+    return measure_bodies(all.model, sum(e, factor, b))[0].volume;
+  };
+  CHECK(pressure_loads(all.model, e, 0) * b ==
+        Approx(-2 * (volume(step) - volume(-step)) / (2 * step)).epsilon(1e-8));
+}
+
+
+TEST_CASE("dead loads add up to weight, load and traction", "[solid][mpi]")
+{
+  SolidEnvironment<3> environment;
+  environment.gravity[2] = -10;
+  const Solid<3>       solid(block<3>("neo-Hookean",
+                                2,
+                                "set Load = 0; x*t; 0",
+                                boundary("end",
+                                         "set Kind = traction\n set Sides = right\n"
+                                               "set Traction = 7*t; 0; 0")),
+                       environment);
+  const auto           loads = dead_loads(solid.model, environment, 2);
+  dealii::Tensor<1, 3> total;
+  for (const auto dof : solid.model.locally_owned())
+    total[solid.model.axis(dof)] += loads(dof);
+  total           = dealii::Utilities::MPI::sum(total, MPI_COMM_WORLD);
+  const auto body = measure_bodies(solid.model, solid.model.vector())[0];
+  CHECK(body.mass == Approx(3 * body.volume));
+  CHECK(total[2] == Approx(-10 * body.mass));
+  CHECK(total[1] == Approx(2 * body.volume * body.centre_of_mass[0]));
+
+  double area = 0;
+  for (const auto &face : solid.model.faces())
+    area += face.cell->face(face.face)->measure();
+  CHECK(total[0] == Approx(14 * area).epsilon(1e-3)); // measure() takes warped faces as flat
+}
+
+
+TEST_CASE("an inverted cell is an error on all ranks, with body and place", "[solid][mpi]")
+{
+  const Solid<2> solid(block<2>("neo-Hookean", 1));
+  auto           d = solid.model.vector();
+  for (const auto dof : solid.model.locally_owned())
+    if (solid.model.rest_position(dof)[0] > 0.9)
+      d(dof) = solid.model.axis(dof) == 0 ? -1.5 : 0.;
+  d.compress(dealii::VectorOperation::insert);
+  CHECK_THROWS_WITH(internal_forces(solid.model, d), Catch::Contains("body 'body'"));
+  CHECK_THROWS_AS(internal_stiffness(solid.model, d), SolveError);
+  CHECK_THROWS_AS(elastic_energy(solid.model, d), SolveError);
+}

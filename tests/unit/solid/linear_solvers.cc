@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_scene.h"
+
+#include <undine/solid/internal_forces.h>
+#include <undine/solid/mass_matrix.h>
+#include <undine/solid/rigid_motions.h>
+#include <undine/solid/sparse.h>
+#include <undine/solid/tangent_solver.h>
+
+#include <catch2/catch.hpp>
+
+using namespace undine_tests;
+
+namespace
+{
+  template <int dim>
+  std::string
+  beam(const std::string &solver, const unsigned int cells, const std::string &sides = "left")
+  {
+    return one_body(fmt::format("set Upper corner = {}\n set Cells = {}\n set Density = 1\n"
+                                "set Young's modulus = 1000\n set Poisson's ratio = 0.3",
+                                dim == 2 ? "4, 1" : "4, 1, 1",
+                                dim == 2 ? fmt::format("{}, {}", 4 * cells, cells)
+                                         : fmt::format("{}, {}, {}", 4 * cells, cells, cells)),
+                    boundary("root", "set Sides = " + sides),
+                    "set Time integrator = static\n set Linear solver = " + solver);
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  sag(const std::string &solver, const unsigned int cells, unsigned int &iterations)
+  {
+    SolidEnvironment<dim> gravity;
+    gravity.gravity[1] = -1;
+    Solid<dim>         solid(beam<dim>(solver, cells), gravity);
+    const auto         report = solid.advance(1);
+    dealii::Point<dim> tip;
+    tip[0]     = 4;
+    iterations = report.newton.linear_iterations / std::max(report.newton.iterations, 1u);
+    CHECK(report.note.empty());
+    return solid.displacement(tip);
+  }
+} // namespace
+
+
+TEST_CASE("multigrid and factorisation agree; multigrid knows rotations", "[solid][mpi]")
+{
+  unsigned int none, few;
+  CHECK((sag<2>("direct", 12, none) - sag<2>("multigrid", 12, few)).norm() < 1e-9);
+  CHECK(none == 0);
+  CHECK(few > 0);
+  CHECK(few < 60); // with translations alone several times as many
+  CHECK((sag<3>("direct", 2, none) - sag<3>("multigrid", 2, few)).norm() < 1e-9);
+  CHECK(few < 60);
+}
+
+
+TEST_CASE("rigid motions cost no elastic energy to first order", "[solid][mpi]")
+{
+  const Solid<3> solid(beam<3>("direct", 1));
+  const auto     zero    = solid.model.vector();
+  const auto     K       = internal_stiffness(solid.model, zero);
+  const auto     motions = rigid_motions(solid.model, zero);
+  REQUIRE(motions.NumVectors() == 6);
+  // Seen by nodes whose neighbours are all free: the far half of the beam.
+  for (int motion = 0; motion < 6; ++motion)
+    {
+      auto x = solid.model.vector(), force = solid.model.vector();
+      for (unsigned int row = 0; row < solid.model.locally_owned().n_elements(); ++row)
+        x(solid.model.locally_owned().nth_index_in_set(row)) = motions[motion][row];
+      x.compress(dealii::VectorOperation::insert);
+      CHECK(x.l2_norm() > 1);
+      K.vmult(force, x);
+      for (const auto dof : solid.model.locally_owned())
+        if (solid.model.rest_position(dof)[0] > 2)
+          CHECK(std::abs(force(dof)) < 1e-9);
+    }
+}
+
+
+TEST_CASE("an indefinite tangent is solved directly, and that is said", "[solid][mpi]")
+{
+  // The stiffness less a mass that outweighs it in many modes.
+  const Solid<2> solid(beam<2>("multigrid", 12));
+  auto           A = internal_stiffness(solid.model, solid.model.vector());
+  add_matrix(A, -1e6, mass_matrix(solid.model));
+  fix_rows_and_columns(A, solid.model.all_fixed());
+  auto b = solid.model.vector();
+  for (const auto dof : solid.model.locally_owned())
+    b(dof) = std::sin(solid.model.rest_position(dof)[0] * 3) + solid.model.axis(dof);
+  b.compress(dealii::VectorOperation::insert);
+
+  TangentSolver<2> solver(solid.model);
+  const auto       x      = solver.solve(A, b, solid.model.vector());
+  auto             defect = solid.model.vector();
+  A.vmult(defect, x);
+  defect.add(-1., b);
+  CHECK(defect.l2_norm() < 1e-8 * b.l2_norm());
+  CHECK_THAT(solver.note(), Catch::Contains("solved directly"));
+}
+
+
+TEST_CASE("a static body that nothing holds is an error", "[solid]")
+{
+  SolidEnvironment<2> gravity;
+  gravity.gravity[1] = -1;
+  Solid<2> solid(one_body("set Cells = 2, 2\n set Density = 1\n set Young's modulus = 1\n"
+                          "set Poisson's ratio = 0.3",
+                          "",
+                          "set Time integrator = static"),
+                 gravity);
+  CHECK_THROWS_AS(solid.advance(1), SolveError);
+  CHECK(solid.state.displacement.l2_norm() == 0);
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "solid_scene.h"
+
+#include <undine/base/core/newton.h>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+
+using namespace undine_tests;
+
+namespace
+{
+  struct Number
+  {
+    double value = 0;
+
+    void
+    add(const double factor, const Number &other)
+    {
+      value += factor * other.value;
+    }
+  };
+
+
+  /// One equation with one unknown.
+  struct Scalar
+  {
+    using Unknown = Number;
+
+    std::function<double(double)> f, derivative;
+    double                        last = 0;
+
+    double
+    evaluate(const Number &x)
+    {
+      last = f(x.value);
+      return std::abs(last);
+    }
+
+    Number
+    correction(const Number &x)
+    {
+      return {-last / derivative(x.value)};
+    }
+
+    double
+    scale() const
+    {
+      return 1;
+    }
+
+    double
+    rounding() const
+    {
+      return 1e-15;
+    }
+
+    unsigned int
+    linear_iterations() const
+    {
+      return 0;
+    }
+  };
+} // namespace
+
+
+TEST_CASE("Newton's method cuts corrections that overshoot", "[newton]")
+{
+  // Full corrections diverge for |x| > 1.39.
+  Scalar problem{[](double x) { return std::atan(x); }, [](double x) { return 1 / (1 + x * x); }};
+  Number x{20};
+  const auto report = solve_newton(problem, x, NewtonOptions());
+  CHECK(std::abs(x.value) < 1e-10);
+  CHECK(report.cuts > 0);
+}
+
+
+TEST_CASE("Newton's method keeps out of where the equations make no sense", "[newton]")
+{
+  Scalar problem{[](double x) {
+                   if (x <= 0)
+                     throw SolveError("x is negative");
+                   return std::log(x) + 1;
+                 },
+                 [](double x) { return 1 / x; }};
+  Number x{20};
+  solve_newton(problem, x, NewtonOptions());
+  CHECK(x.value == Approx(std::exp(-1.)));
+}
+
+
+TEST_CASE("Newton's method says how it failed", "[newton]")
+{
+  Scalar problem{[](double x) { return x * x + 1; }, [](double x) { return 2 * x; }};
+  Number x{3};
+  CHECK_THROWS_WITH(solve_newton(problem, x, NewtonOptions()),
+                    Catch::Contains("does not converge") && Catch::Contains("residual: 10 "));
+  NewtonOptions one;
+  one.fixed_iterations = 1;
+  x.value              = 3;
+  CHECK(solve_newton(problem, x, one).iterations == 1);
+  CHECK(x.value == Approx(3 - 10. / 6));
+}
+
+
+TEST_CASE("Newton's method converges quadratically on bodies", "[solid]")
+{
+  for (const auto &material : Registry<Material>::instance().names())
+    {
+      INFO(material);
+      SolidEnvironment<2> gravity;
+      gravity.gravity[1] = -0.1;
+      Solid<2>    solid(one_body("set Upper corner = 2, 1\n set Cells = 4, 2\n set Density = 1\n"
+                                 "set Young's modulus = 10\n set Poisson's ratio = 0.3\n"
+                                 "set Material = " +
+                                material,
+                              boundary("root", "set Sides = left"),
+                              "set Time integrator = static"),
+                     gravity);
+      const auto &residuals = solid.advance(1).newton.residuals;
+      REQUIRE(residuals.size() >= 2);
+      CHECK(residuals.size() <= 9);
+      // Of the last correction before rounding: |r_k+1| <= C |r_k|^2 with C of order one here.
+      const double last = residuals.back(), before = residuals[residuals.size() - 2];
+      CHECK(last <= std::max(100 * before * before, 1e-13));
+    }
+}
+
+
+TEST_CASE("a body at rest needs no iteration, one in steady flight neither", "[solid]")
+{
+  Solid<2> resting(
+    one_body("set Density = 1\n set Young's modulus = 1e9\n set Poisson's ratio = 0.3"));
+  CHECK(resting.advance(1).newton.iterations == 0);
+  Solid<2> flying(
+    one_body("set Density = 1\n set Young's modulus = 1e9\n set Poisson's ratio = 0.3\n"
+             "set Initial velocity = 100; 3"));
+  for (unsigned int step = 0; step < 5; ++step)
+    CHECK(flying.advance(0.1).newton.iterations <= 1);
+  CHECK(flying.displacement({1, 1})[0] == Approx(50));
+}
