@@ -189,7 +189,8 @@ namespace undine
     data_out.add_data_vector(cells.body, "body", cell);
     data_out.add_data_vector(cells.stress, "von_Mises_stress", cell);
     data_out.add_data_vector(cells.volume, "volume_ratio", cell);
-    data_out.build_patches(model.mapping(), model.dof_handler().get_fe().degree);
+    data_out.build_patches(
+      model.mapping(), model.dof_handler().get_fe().degree, BodyDataOut<dim>::no_curved_cells);
     result.patches = data_out.take_patches();
     if (configuration == Configuration::deformed)
       for (auto &patch : result.patches)

@@ -56,6 +56,7 @@ namespace undine
     {
       constexpr unsigned int          n_vertices = dealii::GeometryInfo<dim>::vertices_per_cell;
       dealii::DataOutBase::Patch<dim> patch;
+      patch.reference_cell = dealii::ReferenceCells::get_hypercube<dim>();
       patch.data.reinit(values.front().size(), n_vertices);
       for (unsigned int v = 0; v < n_vertices; ++v)
         {

@@ -167,13 +167,13 @@ namespace undine
     }
 
 
-    bool
-    has_size(const hid_t space, const std::vector<hsize_t> &size)
+    std::vector<hsize_t>
+    size_of(Watch &watch, const hid_t space)
     {
-      std::vector<hsize_t> found(std::max(0, H5Sget_simple_extent_ndims(space)));
-      if (!found.empty())
-        H5Sget_simple_extent_dims(space, found.data(), nullptr);
-      return found == size;
+      std::vector<hsize_t> size(std::max(0, watch.check(H5Sget_simple_extent_ndims(space))));
+      if (!size.empty())
+        watch.check(H5Sget_simple_extent_dims(space, size.data(), nullptr));
+      return size;
     }
 
 
@@ -300,7 +300,7 @@ namespace undine
     {
       const Handle data(watch.check(H5Dopen2(file, name.c_str(), H5P_DEFAULT)), H5Dclose);
       const Handle space(watch.check(H5Dget_space(data)), H5Sclose);
-      if (watch.failure.empty() && !has_size(space, selection.size))
+      if (watch.failure.empty() && size_of(watch, space) != selection.size)
         watch.failure = "'" + name + "' has another size than this scene gives it";
       if (watch.failure.empty())
         {
@@ -329,6 +329,21 @@ namespace undine
       }
     throw_on_all_ranks(communicator, watch.failure.empty() ? "" : cannot_read(path, watch.failure));
     return found;
+  }
+
+
+  std::vector<hsize_t>
+  HDF5File::size(const std::string &name) const
+  {
+    Watch                watch;
+    std::vector<hsize_t> result;
+    {
+      const Handle data(watch.check(H5Dopen2(file, name.c_str(), H5P_DEFAULT)), H5Dclose);
+      const Handle space(watch.check(H5Dget_space(data)), H5Sclose);
+      result = size_of(watch, space);
+    }
+    throw_on_all_ranks(communicator, watch.failure.empty() ? "" : cannot_read(path, watch.failure));
+    return result;
   }
 
 

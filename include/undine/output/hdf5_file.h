@@ -66,6 +66,10 @@ namespace undine
     bool
     contains(const std::string &name) const;
 
+    /// Of a whole array.
+    std::vector<hsize_t>
+    size(const std::string &name) const;
+
     /// Everything is in the file when this returns.
     void
     close();
