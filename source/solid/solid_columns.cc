@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <fmt/format.h>
+
 namespace undine
 {
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
@@ -194,7 +196,7 @@ namespace undine
     for (unsigned int b = 0; b < model.bodies().size(); ++b)
       {
         const auto &body = model.bodies()[b];
-        columns.push_back({"volume " + body.name, dim == 2 ? "m^2" : "m^3", measures[b].volume});
+        columns.push_back({"volume " + body.name, fmt::format("m^{}", dim), measures[b].volume});
         add_vector<dim>(columns,
                         "centre of mass " + body.name,
                         "m",

@@ -23,6 +23,7 @@ namespace undine
       StepProblem(const SolidModel<dim> &model, SolidEquations<dim> &equations, TimingTree &timing)
         : equations(equations)
         , solver(model)
+        , tolerance(model.numerics().newton.relative_tolerance)
         , timing(timing)
       {
       }
@@ -40,7 +41,9 @@ namespace undine
         const auto jacobian = equations.jacobian(velocity);
         const auto timed    = timing.section("solve linear system");
         residual *= -1.;
-        return solver.solve(jacobian, residual, equations.displacement(velocity));
+        // A hundredth of what Newton's method stops at.
+        const double negligible = 0.01 * tolerance * scale();
+        return solver.solve(jacobian, residual, equations.displacement(velocity), negligible);
       }
 
       /// The change of u by which the bodies follow prescribed motions, from d^n.
@@ -79,6 +82,7 @@ namespace undine
     private:
       SolidEquations<dim> &equations;
       TangentSolver<dim>   solver;
+      const double         tolerance;
       TimingTree          &timing;
       Unknown              residual;
     };
@@ -217,9 +221,10 @@ namespace undine
                        const Vector                &nodal_forces) const
   {
     const auto          timed = timing.section("solid");
-    SolidEquations<dim> equations(model, mass_matrix, state, environment, time, dt, timing, nodal_forces);
-    StepProblem<dim>    problem(model, equations, timing);
-    auto                velocity = model.vector();
+    SolidEquations<dim> equations(
+      model, mass_matrix, state, environment, time, dt, timing, nodal_forces);
+    StepProblem<dim> problem(model, equations, timing);
+    auto             velocity = model.vector();
 
     SolidReport report;
     report.newton    = solve_step(velocity, problem, equations, model.numerics().newton);

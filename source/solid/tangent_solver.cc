@@ -13,6 +13,7 @@
 #include <Teuchos_ParameterList.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace undine
 {
@@ -50,11 +51,12 @@ namespace undine
             const dealii::TrilinosWrappers::SparseMatrix    &A,
             const typename SolidModel<dim>::Vector          &b,
             const SolidModel<dim>                           &model,
-            const dealii::TrilinosWrappers::PreconditionAMG &multigrid)
+            const dealii::TrilinosWrappers::PreconditionAMG &multigrid,
+            const double                                     negligible)
     {
       const unsigned int    maximum_iterations = 300;
-      dealii::SolverControl control(maximum_iterations,
-                                    model.numerics().linear_tolerance * b.l2_norm());
+      dealii::SolverControl control(
+        maximum_iterations, std::max(negligible, model.numerics().linear_tolerance * b.l2_norm()));
       Solver(control).solve(A, x, b, multigrid);
       return control.last_step();
     }
@@ -88,18 +90,21 @@ namespace undine
     if (choice != "auto")
       return choice == "direct";
     // Where a factorisation costs as much as multigrid.
-    const unsigned int most = dim == 2 ? 30000 : 6000;
-    const bool         separated =
+    const std::array<unsigned int, 2> most_in_2d_and_3d{{30000, 6000}};
+    const bool                        separated =
       std::any_of(model.bodies().begin(), model.bodies().end(), [](auto &body) {
         return body.kinematics->separates_volumetric_part(*body.material);
       });
-    return separated || model.dof_handler().n_dofs() <= most;
+    return separated || model.dof_handler().n_dofs() <= most_in_2d_and_3d[dim - 2];
   }
 
 
   template <int dim>
   typename TangentSolver<dim>::Vector
-  TangentSolver<dim>::solve(const Matrix &A, const Vector &b, const Vector &displacement)
+  TangentSolver<dim>::solve(const Matrix &A,
+                            const Vector &b,
+                            const Vector &displacement,
+                            const double  negligible)
   {
     if (is_direct())
       return solve_directly(A, b);
@@ -109,9 +114,9 @@ namespace undine
     Vector x = model.vector();
     try
       {
-        all_iterations += symmetric
-                            ? iterate<dealii::SolverCG<Vector>>(x, A, b, model, multigrid)
-                            : iterate<dealii::SolverGMRES<Vector>>(x, A, b, model, multigrid);
+        all_iterations +=
+          symmetric ? iterate<dealii::SolverCG<Vector>>(x, A, b, model, multigrid, negligible)
+                    : iterate<dealii::SolverGMRES<Vector>>(x, A, b, model, multigrid, negligible);
         return x;
       }
     catch (const dealii::SolverControl::NoConvergence &failure)

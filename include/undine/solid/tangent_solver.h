@@ -23,10 +23,11 @@ namespace undine
     /// `model` must outlive it.
     explicit TangentSolver(const SolidModel<dim> &model);
 
-    /// A^{-1} b. `displacement` [m] says where the bodies are. Collective. Throws SolveError if A
-    /// is singular.
+    /// A^{-1} b, or if A is solved iteratively, up to a residual |A x - b| that is `negligible`
+    /// [N]. `displacement` [m] says where the bodies are. Collective. Throws SolveError if A is
+    /// singular.
     Vector
-    solve(const Matrix &A, const Vector &b, const Vector &displacement);
+    solve(const Matrix &A, const Vector &b, const Vector &displacement, double negligible = 0);
 
     /// Of the iterative solver, so far.
     unsigned int

@@ -21,11 +21,11 @@ namespace
         const std::string &boundaries = "")
   {
     const std::string map =
-      dim == 2 ? "x+0.1*y*x; 0.7*y+0.05*x*y" : "x+0.1*y*z; 0.7*y+0.05*x*z; 0.8*z-0.1*x*y";
+      plane_or_space<dim>("x+0.1*y*x; 0.7*y+0.05*x*y", "x+0.1*y*z; 0.7*y+0.05*x*z; 0.8*z-0.1*x*y");
     return one_body(fmt::format("set Cells = {}\n set Map = {}\n set Density = 3\n"
                                 "set Material = {}\n set Young's modulus = 10\n"
                                 "set Poisson's ratio = 0.3\n{}",
-                                dim == 2 ? "3, 2" : "2, 1, 1",
+                                plane_or_space<dim>("3, 2", "2, 1, 1"),
                                 map,
                                 material,
                                 keys),

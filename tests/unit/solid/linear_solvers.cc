@@ -17,13 +17,14 @@ namespace
   std::string
   beam(const std::string &solver, const unsigned int cells, const std::string &sides = "left")
   {
-    return one_body(fmt::format("set Upper corner = {}\n set Cells = {}\n set Density = 1\n"
-                                "set Young's modulus = 1000\n set Poisson's ratio = 0.3",
-                                dim == 2 ? "4, 1" : "4, 1, 1",
-                                dim == 2 ? fmt::format("{}, {}", 4 * cells, cells)
-                                         : fmt::format("{}, {}, {}", 4 * cells, cells, cells)),
-                    boundary("root", "set Sides = " + sides),
-                    "set Time integrator = static\n set Linear solver = " + solver);
+    return one_body(
+      fmt::format("set Upper corner = {}\n set Cells = {}\n set Density = 1\n"
+                  "set Young's modulus = 1000\n set Poisson's ratio = 0.3",
+                  plane_or_space<dim>("4, 1", "4, 1, 1"),
+                  plane_or_space<dim>(fmt::format("{}, {}", 4 * cells, cells),
+                                      fmt::format("{}, {}, {}", 4 * cells, cells, cells))),
+      boundary("root", "set Sides = " + sides),
+      "set Time integrator = static\n set Linear solver = " + solver);
   }
 
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <fstream>
 #include <string>
 #include <unistd.h>
@@ -39,6 +40,15 @@ namespace undine_tests
   {
     return "subsection Bodies\n subsection body\n" + body + "\n subsection Boundaries\n" +
            boundaries + "\n end\n end\nend\nsubsection Solid numerics\n" + numerics + "\nend\n";
+  }
+
+
+  /// The first text in 2D, the second in 3D.
+  template <int dim>
+  std::string
+  plane_or_space(const std::string &plane, const std::string &space)
+  {
+    return std::array<std::string, 2>{{plane, space}}[dim - 2];
   }
 
 
