@@ -65,6 +65,8 @@ namespace undine
       std::vector<std::vector<dealii::Tensor<1, dim>>> result;
       for (const auto &body : model.bodies())
         result.emplace_back(body.boundaries.size());
+      if (reactions.size() == 0)
+        return result;
       for (const auto &fixed : model.fixed())
         result[fixed.body][fixed.boundary][fixed.axis] += reactions(fixed.dof);
       for (auto &of_body : result)

@@ -52,12 +52,13 @@ namespace undine
             const typename SolidModel<dim>::Vector          &b,
             const SolidModel<dim>                           &model,
             const dealii::TrilinosWrappers::PreconditionAMG &multigrid,
-            const double                                     negligible)
+            const double                                     negligible,
+            const typename Solver::AdditionalData           &data = {})
     {
       const unsigned int    maximum_iterations = 300;
       dealii::SolverControl control(
         maximum_iterations, std::max(negligible, model.numerics().linear_tolerance * b.l2_norm()));
-      Solver(control).solve(A, x, b, multigrid);
+      Solver(control, data).solve(A, x, b, multigrid);
       return control.last_step();
     }
 
@@ -111,12 +112,15 @@ namespace undine
     auto                                      motions = rigid_motions(model, displacement);
     dealii::TrilinosWrappers::PreconditionAMG multigrid;
     initialize_multigrid(multigrid, A, model, motions);
-    Vector x = model.vector();
+    using ConjugateGradients = dealii::SolverCG<Vector>;
+    using GMRES              = dealii::SolverGMRES<Vector>;
+    const typename GMRES::AdditionalData true_residual(100, true); // preconditioned from the right
+    Vector                               x = model.vector();
     try
       {
-        all_iterations +=
-          symmetric ? iterate<dealii::SolverCG<Vector>>(x, A, b, model, multigrid, negligible)
-                    : iterate<dealii::SolverGMRES<Vector>>(x, A, b, model, multigrid, negligible);
+        all_iterations += symmetric
+                            ? iterate<ConjugateGradients>(x, A, b, model, multigrid, negligible)
+                            : iterate<GMRES>(x, A, b, model, multigrid, negligible, true_residual);
         return x;
       }
     catch (const dealii::SolverControl::NoConvergence &failure)

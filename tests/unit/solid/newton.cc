@@ -129,7 +129,7 @@ TEST_CASE("Newton's method converges quadratically on bodies", "[solid]")
 }
 
 
-TEST_CASE("a body at rest needs no iteration, one in steady flight neither", "[solid]")
+TEST_CASE("a body at rest needs no iteration, one in steady flight neither", "[solid][mpi]")
 {
   Solid<2> resting(
     one_body("set Density = 1\n set Young's modulus = 1e9\n set Poisson's ratio = 0.3"));

@@ -113,3 +113,23 @@ TEST_CASE("Cook's membrane of linear material", "[solid]")
   CHECK(cook_deflection(cook(material, 32, 2)) ==
         Approx(number(reference, "uy_corner_mm")).epsilon(0.002));
 }
+
+
+TEST_CASE("rollers hold one direction: a bar pulled contracts by Poisson's ratio", "[solid][mpi]")
+{
+  Solid<2> solid(one_body("set Upper corner = 2, 1\n set Cells = 4, 3\n set Density = 1\n"
+                          "set Material = linear elastic\n set Young's modulus = 10\n"
+                          "set Poisson's ratio = 0.3\n set Plane state = plane stress",
+                          boundary("left", "set Sides = left\n set Components = x") +
+                            boundary("floor", "set Sides = bottom\n set Components = y") +
+                            boundary("right",
+                                     "set Sides = right\n set Components = x\n"
+                                     "set Kind = prescribed motion\n set Displacement = 0.02*t; 0"),
+                          "set Time integrator = static"));
+  solid.advance(1);
+  CHECK(solid.displacement({2, 1})[0] == Approx(0.02));
+  CHECK(solid.displacement({2, 1})[1] == Approx(-0.3 * 0.01));
+  CHECK(solid.column("reaction body/right x") == Approx(10 * 0.01));
+  CHECK(solid.column("reaction body/left x") == Approx(-10 * 0.01));
+  CHECK(std::abs(solid.column("reaction body/floor y")) < 1e-12);
+}
