@@ -33,10 +33,6 @@ namespace undine
     Report
     initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) override
     {
-      if (models.solid && models.fluid)
-        throw InputError(
-          "the scene has a fluid and bodies, but their interface is not part of this "
-          "version.\n  Try: remove the subsection 'Fluid' or 'Bodies'.");
       if (models.solid)
         solid = std::make_unique<SolidAlone<dim>>(models, timing);
       if (models.fluid)

@@ -43,6 +43,10 @@ namespace undine
     const auto   solid = solid_step.step(state.solid, environment, time, report.dt, timing);
     report.newton_iterations += solid.newton.iterations;
     report.linear_iterations += solid.newton.linear_iterations;
+    report.note           = solid.note;
+    const auto &residuals = solid.newton.residuals;
+    if (!residuals.empty() && residuals.front() > 0)
+      report.newton_reduction = residuals.back() / residuals.front();
     const auto measured = timing.section("measure");
     append(
       report.columns,

@@ -22,6 +22,8 @@ namespace undine
     if (dealii::Utilities::MPI::min(opened ? 1 : 0, communicator) == 0)
       throw FileError("cannot write '" + (directory / "log.txt").string() +
                       "'. Check the permissions of the folder, or choose another with --output.");
+    record(early);
+    early.clear();
   }
 
 
@@ -29,7 +31,16 @@ namespace undine
   Log::write(const std::string &text)
   {
     std::cout << text << std::flush;
+    record(text);
+  }
+
+
+  void
+  Log::record(const std::string &text)
+  {
     if (file.is_open())
       file << text << std::flush;
+    else if (speaks)
+      early += text;
   }
 } // namespace undine

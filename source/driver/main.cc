@@ -8,21 +8,39 @@
 #include <chrono>
 #include <exception>
 #include <iostream>
+#include <new>
+#include <string>
 #include <thread>
 
 namespace
 {
-  /// Print why the run failed and leave with `code`. An error that only one rank has seen must end
-  /// the others too, which wait for it; one that all have seen is printed once, by the first.
+  /// True if every rank comes here within a few seconds: they have all seen the same error.
+  bool
+  all_ranks_are_here()
+  {
+    MPI_Request request;
+    MPI_Ibarrier(MPI_COMM_WORLD, &request);
+    constexpr int patience = 300; // of 10 ms
+    int           complete = 0;
+    for (int wait = 0; wait < patience && complete == 0; ++wait)
+      {
+        MPI_Test(&request, &complete, MPI_STATUS_IGNORE);
+        std::this_thread::sleep_for(std::chrono::milliseconds(complete == 0 ? 10 : 0));
+      }
+    return complete != 0;
+  }
+
+
+  /// Print why the run failed and leave with `code`. An error that all ranks have seen is printed
+  /// by the first; one that only some have seen must end the others too, which wait for them.
   int
   fail(const std::string &message, const int code)
   {
-    const MPI_Comm everyone = MPI_COMM_WORLD;
-    if (dealii::Utilities::MPI::this_mpi_process(everyone) != 0)
-      std::this_thread::sleep_for(std::chrono::seconds(2));
-    std::cerr << "\nError: " << message << std::endl;
-    if (dealii::Utilities::MPI::n_mpi_processes(everyone) > 1)
-      MPI_Abort(everyone, code);
+    const bool together = all_ranks_are_here();
+    if (!together || dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cerr << "\nError: " << message << std::endl;
+    if (!together)
+      MPI_Abort(MPI_COMM_WORLD, code);
     return code;
   }
 } // namespace
@@ -44,6 +62,10 @@ main(int argc, char **argv)
   catch (const undine::Error &error)
     {
       return fail(error.what(), error.exit_code());
+    }
+  catch (const std::bad_alloc &)
+    {
+      return fail("out of memory. Try fewer cells or refinements, or more machines.", 6);
     }
   catch (const std::exception &error)
     {

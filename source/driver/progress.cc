@@ -32,11 +32,12 @@ namespace undine
     , begin(std::chrono::steady_clock::now())
     , last_line(begin)
   {
-    log.print("\n{:>8} {:>12} {:>11} {:>7} {:>7} {:>7}  left",
+    log.print("\n{:>8} {:>12} {:>11} {:>7} {:>9} {:>7} {:>7}  left",
               "step",
               "time [s]",
               "dt [s]",
               "Newton",
+              "reduction",
               "linear",
               "done");
   }
@@ -56,18 +57,20 @@ namespace undine
   {
     constexpr double pause = 0.5; // wall seconds between lines
     if (clock.step != start.step + 1 && !clock.ended() && seconds_since(last_line) < pause &&
-        report.cuts == 0)
+        report.cuts == 0 && report.note.empty())
       return;
     last_line         = std::chrono::steady_clock::now();
     const double done = share_done(clock);
-    log.print("{:>8} {:>12.5g} {:>11.4g} {:>7} {:>7} {:>6.1f}%  {}{}",
+    log.print("{:>8} {:>12.5g} {:>11.4g} {:>7} {:>9.1e} {:>7} {:>6.1f}%  {}{}{}",
               clock.step,
               clock.time,
               report.dt,
               report.newton_iterations,
+              report.newton_reduction,
               report.linear_iterations,
               100 * done,
               readable(seconds_since(begin) * (1 - done) / std::max(done, 1e-12)),
-              report.cuts > 0 ? fmt::format("   step cut {} time(s)", report.cuts) : "");
+              report.cuts > 0 ? fmt::format("   step cut {} time(s)", report.cuts) : "",
+              report.note.empty() ? "" : "   " + report.note);
   }
 } // namespace undine

@@ -34,6 +34,24 @@ namespace undine
     }
 
 
+    /// Write the state as a checkpoint; returns what to tell the user about it.
+    template <int dim>
+    std::string
+    keep_last_state(const State<dim> &state, const Scene<dim> &scene)
+    {
+      try
+        {
+          write_checkpoint(scene.directory, scene.models, state);
+          return "The state before it is kept; 'undine resume " + scene.directory.string() +
+                 " --set \"Section/Key=value\"' continues it.";
+        }
+      catch (const Error &error)
+        {
+          return std::string("The state before it could not be kept: ") + error.what();
+        }
+    }
+
+
     /// A failed run keeps its last good state: it can be looked at, and resumed with other
     /// settings.
     template <int dim>
@@ -46,12 +64,13 @@ namespace undine
         }
       catch (const SolveError &error)
         {
-          write_checkpoint(scene.directory, scene.models, state);
-          throw SolveError("step " + std::to_string(state.clock.step + 1) + ", which begins at " +
-                           fmt::format("{:.6g}", state.clock.time) + " s: " + error.what() +
-                           "\nThe state before it is kept; 'undine resume " +
-                           scene.directory.string() +
-                           " --set \"Section/Key=value\"' continues it.");
+          const std::string message = fmt::format("step {}, which begins at {:.6g} s: {}\n{}",
+                                                  state.clock.step + 1,
+                                                  state.clock.time,
+                                                  error.what(),
+                                                  keep_last_state(state, scene));
+          log.record("\nError: " + message + "\n");
+          throw SolveError(message);
         }
     }
 
@@ -102,11 +121,9 @@ namespace undine
           return;
         }
 
+      // The folder is touched last: a scene that cannot start leaves an earlier run as it was.
       const bool resumed = request.action == Request::Action::resume;
-      prepare_directory(scene.directory, options, resumed, communicator);
-      log.open(scene.directory, resumed ? std::ios::app : std::ios::trunc);
       print_header(log, scene, options, communicator);
-
       State<dim> state;
       {
         const auto timed   = timing.section("initialise");
@@ -114,6 +131,8 @@ namespace undine
         const Report first = scene.scheme->initialize(state, scene.models, timing);
         if (resumed)
           take_up_again(state, scene, log);
+        prepare_directory(scene.directory, options, resumed, communicator);
+        log.open(scene.directory, resumed ? std::ios::app : std::ios::trunc);
         start_outputs(state, first, scene, timing, communicator);
       }
       print_unknowns(log, scene);
@@ -143,6 +162,9 @@ namespace undine
       ParameterFile file(resumed ? request.directory + "/parameters.prm" : request.scene_file);
       for (const auto &assignment : request.assignments)
         file.set(assignment);
+      // The copy of the scene in the folder of the run must find the same files.
+      if (file.find("Folder of files") == nullptr)
+        file.set("Folder of files=" + std::filesystem::absolute(file.folder()).string());
       return file;
     }
   } // namespace

@@ -140,6 +140,13 @@ namespace undine
       unsigned int dimension = dim; // is the scene's: read_dimension() chose this instance
       read_title(options, scene.title);
       options.require("Dimension", dimension, "", Allowed::between(2, 3), "Of space.");
+      std::string folder = options.file().folder().string();
+      options.add("Folder of files",
+                  folder,
+                  "",
+                  Allowed::anything(),
+                  "Where relative names of files, such as meshes, begin; the scene's own folder if "
+                  "not given.");
       scene.clock  = read_clock(options);
       scene.scheme = options.choose<Scheme<dim>>("Scheme", "simultaneous", "How time advances.");
       read_effects(scene, options);
@@ -173,6 +180,11 @@ namespace undine
                           "the scene has neither a fluid nor a body",
                           "Try: add a subsection 'Fluid' or a subsection 'Bodies'.");
     options.assert_all_used();
+    if (scene.models.solid && scene.models.fluid)
+      throw options.error("",
+                          "the scene has both a fluid and bodies, but their interface is not part "
+                          "of this version",
+                          "Try: remove the subsection 'Fluid' or the subsection 'Bodies'.");
     check_effects(scene, options);
     const auto probes      = options.section("Probes");
     const auto probe_names = probes.named_sections("probe");

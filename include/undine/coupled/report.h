@@ -4,6 +4,8 @@
 
 #include <undine/base/core/column.h>
 
+#include <string>
+
 namespace undine
 {
   /// How an accepted step went.
@@ -13,7 +15,9 @@ namespace undine
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0; ///< of all linear solves of the step
     unsigned int cuts              = 0; ///< how often the asked step was cut and redone
-    Columns      columns;               ///< energies, forces, fluxes, ... of the new state
+    double       newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
+    std::string  note;                 ///< what was unusual; empty if nothing was
+    Columns      columns;              ///< energies, forces, fluxes, ... of the new state
   };
 } // namespace undine
 

@@ -18,7 +18,8 @@ namespace undine
   public:
     explicit Log(MPI_Comm communicator);
 
-    /// Also write to DIRECTORY/log.txt from now on, after what is there if `mode` is std::ios::app.
+    /// Also write to DIRECTORY/log.txt, what was printed so far included; after what is there if
+    /// `mode` is std::ios::app.
     /// Throws FileError on all ranks if it cannot be opened.
     void
     open(const std::filesystem::path &directory, std::ios::openmode mode);
@@ -31,12 +32,17 @@ namespace undine
         write(fmt::format(format, std::forward<Values>(values)...) + "\n");
     }
 
+    /// To log.txt only: what is printed elsewhere but belongs to the history of the run.
+    void
+    record(const std::string &text);
+
   private:
     void
     write(const std::string &text);
 
     MPI_Comm      communicator;
     bool          speaks;
+    std::string   early; ///< printed before the file was open
     std::ofstream file;
   };
 } // namespace undine

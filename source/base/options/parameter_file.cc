@@ -56,6 +56,7 @@ namespace undine
       throw FileError("cannot read the parameter file '" + name +
                       "'. Check the path; the scenes that come with the program are in prm/.");
 
+    open_files.push_back(std::filesystem::weakly_canonical(name));
     const std::size_t depth_at_start = sections.size();
     unsigned int      number         = 0;
     for (std::string raw; std::getline(in, raw);)
@@ -79,6 +80,23 @@ namespace undine
     if (sections.size() != depth_at_start)
       throw InputError(name + ": section '" + sections.back() +
                        "' is still open at the end of the file; an 'end' is missing.");
+    open_files.pop_back();
+  }
+
+
+  void
+  ParameterFile::include(const std::string              &name,
+                         const std::string              &place,
+                         const std::vector<std::string> &sections)
+  {
+    if (!std::filesystem::is_regular_file(name))
+      throw FileError(place + ": cannot read the included file '" + name +
+                      "'. Its path must be relative to the folder of the including file.");
+    if (std::find(open_files.begin(), open_files.end(), std::filesystem::weakly_canonical(name)) !=
+        open_files.end())
+      throw InputError(place + ": the file '" + name +
+                       "' includes itself, directly or by way of others.");
+    read(name, sections);
   }
 
 
@@ -104,11 +122,7 @@ namespace undine
         mention(join(sections));
       }
     else if (!included.empty())
-      {
-        if (std::filesystem::path(included) == std::filesystem::path(file).filename())
-          throw InputError(place + ": the file includes itself.");
-        read((std::filesystem::path(file).parent_path() / included).string(), sections);
-      }
+      include((std::filesystem::path(file).parent_path() / included).string(), place, sections);
     else if (equals != std::string::npos && equals > 0)
       assign(join(sections) + dealii::Utilities::trim(setting.substr(0, equals)),
              {dealii::Utilities::trim(setting.substr(equals + 1)), file, place});
@@ -196,6 +210,15 @@ namespace undine
   ParameterFile::name() const
   {
     return file_name;
+  }
+
+
+  std::filesystem::path
+  ParameterFile::folder() const
+  {
+    const auto given = assignments.find("Folder of files");
+    return given != assignments.end() ? std::filesystem::path(given->second.value)
+                                      : std::filesystem::path(file_name).parent_path();
   }
 
 

@@ -30,7 +30,7 @@ namespace undine
     void
     make_mesh(dealii::Triangulation<dim> &mesh) const override
     {
-      const auto    folder = std::filesystem::path(section->file().name()).parent_path();
+      const auto    folder = section->file().folder();
       const auto    path   = folder / file;
       std::ifstream in(path);
       if (!in)

@@ -2,6 +2,7 @@
 #ifndef undine_base_options_parameter_file_h
 #define undine_base_options_parameter_file_h
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -52,6 +53,11 @@ namespace undine
     const std::string &
     name() const;
 
+    /// Where relative names of files in the scene begin: the top-level key `Folder of files` if the
+    /// scene has it (a copy of the scene elsewhere does), else the folder of the file read.
+    std::filesystem::path
+    folder() const;
+
     /// The text read, included files in place.
     const std::string &
     text() const;
@@ -59,6 +65,12 @@ namespace undine
   private:
     void
     read(const std::string &file_name, std::vector<std::string> sections);
+
+    /// The file `name`, which is included at `place`.
+    void
+    include(const std::string              &name,
+            const std::string              &place,
+            const std::vector<std::string> &sections);
 
     /// One line; `sections` are those open before and after it.
     void
@@ -74,11 +86,12 @@ namespace undine
     void
     assign(const std::string &path, const Assignment &assignment);
 
-    std::string                       file_name = "defaults";
-    std::string                       all_text;
-    std::map<std::string, Assignment> assignments;
-    std::vector<std::string>          order;
-    std::vector<std::string>          section_order;
+    std::string                        file_name = "defaults";
+    std::string                        all_text;
+    std::map<std::string, Assignment>  assignments;
+    std::vector<std::string>           order;
+    std::vector<std::string>           section_order;
+    std::vector<std::filesystem::path> open_files; ///< being read: the scene and what it includes
   };
 } // namespace undine
 
