@@ -4,8 +4,25 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace undine
 {
+  namespace
+  {
+    /// Throws SolveError naming the first quantity that is no finite number.
+    void
+    assert_finite(const Columns &columns)
+    {
+      for (const auto &column : columns)
+        if (!std::isfinite(column.value))
+          throw SolveError("'" + column.name +
+                           "' is not a finite number. Check the expressions of the scene at this "
+                           "time, or try a smaller Time/Step.");
+    }
+  } // namespace
+
+
   /// The main scheme. A step of length h from t^n:
   ///
   ///  1. fluid: transport, forces, implicit terms of every effect that is on; v^n becomes v*
@@ -64,6 +81,7 @@ namespace undine
               solid->step(state, report);
             if (fluid)
               fluid->step(state, report);
+            assert_finite(report.columns);
             return report;
           }
         catch (const SolveError &error)

@@ -62,7 +62,12 @@ namespace undine
         {
           run_time_loop(state, scene, log, timing);
         }
-      catch (const SolveError &error)
+      catch (const FileError &error)
+        {
+          log.record(std::string("\nError: ") + error.what() + "\n");
+          throw;
+        }
+      catch (const Error &error)
         {
           const std::string message = fmt::format("step {}, which begins at {:.6g} s: {}\n{}",
                                                   state.clock.step + 1,

@@ -75,8 +75,10 @@ namespace undine
                         problem.message() + ". Choose another with --output or Output/Directory.");
       if (!resumed)
         {
-          // A checkpoint of an earlier run in the same folder must not be taken for one of this.
-          fs::remove_all(directory / "checkpoint", problem);
+          // What an earlier run left in the same folder must not be taken for results of this.
+          for (const char *name :
+               {"checkpoint", "statistics", "timing", "solution", "solution.pvd", "solution.xdmf"})
+            fs::remove_all(directory / name, problem);
           write_file(directory / "original.prm", options.file().text());
         }
       write_parameters(directory, options);

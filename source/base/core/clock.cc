@@ -35,8 +35,10 @@ namespace undine
   {
     const double distance = next_landing() - time;
     const double parts    = std::max(1., std::ceil(distance / dt - rounding));
-    // Far from the landing time the asked step is kept: equal parts would change it for nothing.
-    return parts > 2 ? dt : distance / parts;
+    const double equal    = distance / parts;
+    // Far from the landing time, or if only rounding differs, the asked step is kept: what was
+    // assembled for it stays valid.
+    return parts > 2 || std::abs(equal - dt) < rounding * dt ? dt : equal;
   }
 
 
