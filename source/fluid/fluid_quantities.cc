@@ -168,7 +168,7 @@ namespace undine
         const auto &boundary = model.boundaries().all()[b];
         if (boundary.is_open() || boundary.kind == BoundaryKind::inflow)
           columns.push_back(
-            {"Flux through " + boundary.name, dim == 2 ? "m^2/s" : "m^3/s", fluxes[b]});
+            {"Flux through " + boundary.name, "m^" + std::to_string(dim) + "/s", fluxes[b]});
       }
     const auto forces = force_columns("Pressure force", model, pressure_forces(model, state));
     columns.insert(columns.end(), forces.begin(), forces.end());

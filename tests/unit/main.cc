@@ -8,7 +8,7 @@ int
 main(int argc, char **argv)
 {
   // Catch2 reads the arguments; MPI_InitFinalize must not consume them.
-  int                                       no_arguments = 1;
+  int                                      no_arguments = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
   return Catch::Session().run(argc, argv);
 }

@@ -60,8 +60,8 @@ namespace undine
   /// @}
 
   /// Energies, momenta, volume and centre of mass of every body, and the force of every support
-  /// ("reaction beam/root x") from SolidReport::reactions, zero if that is empty. In 2D energies and
-  /// forces are those of 1 m of depth. Collective.
+  /// ("reaction beam/root x") from SolidReport::reactions, zero if that is empty. In 2D energies
+  /// and forces are those of 1 m of depth. Collective.
   template <int dim>
   Columns
   solid_columns(const SolidModel<dim>                        &model,
