@@ -97,7 +97,10 @@ def check_file(root, file):
         yield len(lines), "file", f"{len(lines)} lines; at most {FILE_LINES}: split it by concept"
     for number, line in enumerate(lines, 1):
         for rule, (pattern, why) in UNWANTED.items():
-            if re.search(pattern, line) and file.suffix != ".py":
+            # Tests may tell dimensions apart, and the checks speak of what they forbid.
+            if file.suffix == ".py" or (rule == "dimension" and root / "tests" in file.parents):
+                continue
+            if re.search(pattern, line):
                 yield number, rule, why
     if file.suffix == ".h":
         expected = guard_of(root, file) or r"\w+_h"

@@ -11,3 +11,14 @@ add_test(NAME sources/style
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_style.py
                  ${PROJECT_SOURCE_DIR})
 add_test(NAME sources/layout COMMAND ${PROJECT_SOURCE_DIR}/contrib/indent --check)
+
+add_test(NAME malformed/scenes
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_malformed.py
+                 $<TARGET_FILE:undine> ${CMAKE_CURRENT_SOURCE_DIR}/malformed)
+set_tests_properties(malformed/scenes PROPERTIES TIMEOUT 600)
+
+# Pictures need packages that the program does not: without them the test is skipped.
+add_test(NAME contrib/render
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_render.py ${PROJECT_SOURCE_DIR}/contrib/render
+                 $<TARGET_FILE:undine> ${PROJECT_SOURCE_DIR}/prm)
+set_tests_properties(contrib/render PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
