@@ -51,11 +51,10 @@ namespace undine
         }
       try
         {
-          const auto file = HDF5File::open(slot, MPI_COMM_SELF);
-          if (file.read_attribute<std::uint64_t>("format") != format_version)
+          const HDF5Reader file(slot, MPI_COMM_SELF);
+          if (file.attribute<std::uint64_t>("format") != format_version)
             result.problem = "'" + slot.string() + "' is of another version of Undine";
-          file.read_attribute<std::uint64_t>("complete");
-          result.step = file.read_attribute<std::uint64_t>("step");
+          result.step = file.attribute<std::uint64_t>("step");
         }
       catch (const FileError &error)
         {
@@ -122,19 +121,17 @@ namespace undine
                const Clock                   &clock,
                const MPI_Comm                 communicator)
     {
-      auto file = HDF5File::create(temporary_name(slot), communicator);
-      file.write_attribute("format", format_version);
-      file.write_attribute("dimension", std::uint64_t(dim));
-      file.write_attribute("step", std::uint64_t(clock.step));
-      file.write_attribute("time", clock.time);
+      HDF5Writer file(slot, communicator);
+      file.add_attribute("format", format_version);
+      file.add_attribute("dimension", std::uint64_t(dim));
+      file.add_attribute("step", std::uint64_t(clock.step));
+      file.add_attribute("time", clock.time);
       for (const auto &array : arrays)
         {
-          file.write(array.name, array.selection, array.values);
-          file.write_attribute(checksum_name(array), checksum(array, communicator));
+          file.add(array.name, array.selection, array.values);
+          file.add_attribute(checksum_name(array), checksum(array, communicator));
         }
-      file.write_attribute("complete", std::uint64_t(1));
-      file.close();
-      on_first_rank(communicator, [&] { put_in_place(slot); });
+      file.commit();
     }
 
 
@@ -146,20 +143,19 @@ namespace undine
               const fs::path          &slot,
               const MPI_Comm           communicator)
     {
-      const auto file = HDF5File::open(slot, communicator);
-      if (file.read_attribute<std::uint64_t>("dimension") != dim)
+      const HDF5Reader file(slot, communicator);
+      if (file.attribute<std::uint64_t>("dimension") != dim)
         throw FileError("'" + slot.string() + "' is not of " + std::to_string(dim) +
                         " dimensions, as the scene is");
-      clock.step = file.read_attribute<std::uint64_t>("step");
-      clock.time = file.read_attribute<double>("time");
+      clock.step = file.attribute<std::uint64_t>("step");
+      clock.time = file.attribute<double>("time");
       for (auto &array : arrays)
         {
           if (!file.contains(array.name))
             throw FileError("'" + slot.string() + "' has no '" + array.name +
                             "': it belongs to another scene");
           array.values = file.read<double>(array.name, array.selection);
-          if (checksum(array, communicator) !=
-              file.read_attribute<std::uint64_t>(checksum_name(array)))
+          if (checksum(array, communicator) != file.attribute<std::uint64_t>(checksum_name(array)))
             throw FileError("'" + slot.string() + "' is damaged: '" + array.name +
                             "' is not what was written");
         }

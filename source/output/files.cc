@@ -56,6 +56,16 @@ namespace undine
           }
       }
 
+      /// Have the file system set `bytes` aside, then give them back.
+      void
+      try_size(const std::uintmax_t bytes) const
+      {
+        const int code = ::posix_fallocate(number, 0, bytes);
+        if (code != 0 || ::ftruncate(number, 0) != 0)
+          throw FileError(
+            cannot_write(path, std::generic_category().message(code != 0 ? code : errno)));
+      }
+
       void
       reach_disk() const
       {
@@ -68,42 +78,6 @@ namespace undine
       fs::path path;
       int      number;
     };
-
-
-    std::string
-    mpi_reason(const int code)
-    {
-      char text[MPI_MAX_ERROR_STRING];
-      int  length = 0;
-      MPI_Error_string(code, text, &length);
-      return std::string(text, length);
-    }
-
-
-    /// Write `text` at `offset` [bytes] in portions that MPI can count. All ranks take part in
-    /// every portion, also after an error.
-    int
-    write_portions(MPI_Comm           communicator,
-                   MPI_File           file,
-                   const MPI_Offset   offset,
-                   const std::string &text)
-    {
-      constexpr std::size_t portion = std::size_t(1) << 30;
-
-      const std::uint64_t n_portions = dealii::Utilities::MPI::max(
-        std::uint64_t((text.size() + portion - 1) / portion), communicator);
-      int result = MPI_SUCCESS;
-      for (std::uint64_t p = 0; p < n_portions; ++p)
-        {
-          const std::size_t begin = std::min(text.size(), p * portion);
-          const std::size_t size  = std::min(text.size() - begin, portion);
-          const int         code  = MPI_File_write_at_all(
-            file, offset + begin, text.data() + begin, int(size), MPI_CHAR, MPI_STATUS_IGNORE);
-          if (result == MPI_SUCCESS)
-            result = code;
-        }
-      return result;
-    }
   } // namespace
 
 
@@ -146,6 +120,13 @@ namespace undine
 
 
   void
+  assert_room(const fs::path &path, const std::uintmax_t bytes)
+  {
+    Descriptor(path, O_WRONLY | O_CREAT | O_TRUNC).try_size(bytes);
+  }
+
+
+  void
   put_in_place(const fs::path &path)
   {
     const fs::path temporary = temporary_name(path);
@@ -183,34 +164,5 @@ namespace undine
     if (!in)
       throw FileError("cannot read '" + path.string() + "'");
     return text.str();
-  }
-
-
-  void
-  write_file_together(const MPI_Comm communicator, const fs::path &path, const std::string &text)
-  {
-    const fs::path temporary = temporary_name(path);
-    MPI_File       file      = MPI_FILE_NULL;
-    int            code      = MPI_File_open(
-      communicator, temporary.c_str(), MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &file);
-    throw_on_all_ranks(communicator,
-                       code == MPI_SUCCESS ? "" : cannot_write(path, mpi_reason(code)));
-
-    const std::uint64_t size   = text.size();
-    std::uint64_t       offset = 0;
-    MPI_Exscan(&size, &offset, 1, MPI_UINT64_T, MPI_SUM, communicator);
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      offset = 0; // MPI leaves it undefined
-    code = MPI_File_set_size(file, 0);
-    MPI_Barrier(communicator); // no rank may write before the others have emptied the file
-    const int code_written = write_portions(communicator, file, offset, text);
-    const int code_synced  = MPI_File_sync(file);
-    const int code_closed  = MPI_File_close(&file);
-    for (const int other : {code_written, code_synced, code_closed})
-      if (code == MPI_SUCCESS)
-        code = other;
-    throw_on_all_ranks(communicator,
-                       code == MPI_SUCCESS ? "" : cannot_write(path, mpi_reason(code)));
-    on_first_rank(communicator, [&] { put_in_place(path); });
   }
 } // namespace undine

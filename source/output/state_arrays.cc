@@ -99,10 +99,10 @@ namespace undine
 
     /// HDF5's last direction runs fastest, the lattice's first one does.
     template <int dim>
-    HDF5File::Selection
+    Selection
     selection_of(const Field<dim> &field)
     {
-      HDF5File::Selection selection;
+      Selection selection;
       for (unsigned int d = dim; d-- > 0;)
         {
           const auto &box = field.owned();

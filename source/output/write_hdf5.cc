@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/files.h>
 #include <undine/output/hdf5_file.h>
 #include <undine/output/patches.h>
 
@@ -25,7 +24,7 @@ namespace undine
       }
 
       /// As an array with `columns` numbers a row.
-      HDF5File::Selection
+      Selection
       of_columns(const hsize_t columns) const
       {
         return {{total, columns}, {first, 0}, {mine, columns}};
@@ -99,17 +98,16 @@ namespace undine
         filter.fill_cell_data(node_rows.first, cells);
       }
 
-    auto file = HDF5File::create(temporary_name(path), communicator);
-    file.write("nodes", node_rows.of_columns(dim), nodes);
-    file.write("cells", cell_rows.of_columns(dealii::GeometryInfo<dim>::vertices_per_cell), cells);
+    HDF5Writer file(path, communicator);
+    file.add("nodes", node_rows.of_columns(dim), nodes);
+    file.add("cells", cell_rows.of_columns(dealii::GeometryInfo<dim>::vertices_per_cell), cells);
     dealii::XDMFEntry entry(shown_as, time, node_rows.total, cell_rows.total, dim);
     for (const auto &[name, n_components] : fields(patches))
       {
-        file.write(name, node_rows.of_columns(n_components), field_data(filter, name));
+        file.add(name, node_rows.of_columns(n_components), field_data(filter, name));
         entry.add_attribute(name, n_components);
       }
-    file.close();
-    on_first_rank(communicator, [&] { put_in_place(path); });
+    file.commit();
     return entry;
   }
 

@@ -15,7 +15,7 @@ namespace undine
   struct StateArray
   {
     std::string         name; ///< "solid/velocity", "fluid/pressure"
-    HDF5File::Selection selection;
+    Selection           selection;
     std::vector<double> values;
   };
 

@@ -3,9 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <csignal>
 #include <limits>
-#include <sys/resource.h>
 
 #include "sample_scene.h"
 
@@ -54,30 +52,6 @@ namespace
       std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
     });
   }
-
-
-  /// Files may not grow beyond `bytes`, as on a disk that is nearly full.
-  class FileSizeLimit
-  {
-  public:
-    explicit FileSizeLimit(const rlim_t bytes)
-      : old_action(std::signal(SIGXFSZ, SIG_IGN))
-    {
-      getrlimit(RLIMIT_FSIZE, &old_limit);
-      const rlimit limit{bytes, old_limit.rlim_max};
-      setrlimit(RLIMIT_FSIZE, &limit);
-    }
-
-    ~FileSizeLimit()
-    {
-      setrlimit(RLIMIT_FSIZE, &old_limit);
-      std::signal(SIGXFSZ, old_action);
-    }
-
-  private:
-    rlimit old_limit;
-    void (*old_action)(int);
-  };
 } // namespace
 
 

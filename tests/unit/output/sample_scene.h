@@ -6,9 +6,11 @@
 #include <undine/coupled/state.h>
 #include <undine/output/files.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace undine_tests
@@ -37,6 +39,30 @@ namespace undine_tests
     }
 
     std::filesystem::path path;
+  };
+
+
+  /// Files may not grow beyond `bytes`, as on a disk that is nearly full.
+  class FileSizeLimit
+  {
+  public:
+    explicit FileSizeLimit(const rlim_t bytes)
+      : old_action(std::signal(SIGXFSZ, SIG_IGN))
+    {
+      getrlimit(RLIMIT_FSIZE, &old_limit);
+      const rlimit limit{bytes, old_limit.rlim_max};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    }
+
+    ~FileSizeLimit()
+    {
+      setrlimit(RLIMIT_FSIZE, &old_limit);
+      std::signal(SIGXFSZ, old_action);
+    }
+
+  private:
+    rlimit old_limit;
+    void (*old_action)(int);
   };
 
 

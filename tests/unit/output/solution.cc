@@ -66,7 +66,7 @@ namespace
   /// All of an HDF5 array with two directions.
   template <class Value>
   std::vector<Value>
-  read_all(const HDF5File &file, const std::string &name)
+  read_all(const HDF5Reader &file, const std::string &name)
   {
     const auto size = file.size(name);
     return file.read<Value>(name, {size, {0, 0}, size});
@@ -91,7 +91,7 @@ namespace
 
   /// The distinct numbers of one column of an array.
   std::set<double>
-  numbers_in_file(const HDF5File &file, const std::string &name, const unsigned int column)
+  numbers_in_file(const HDF5Reader &file, const std::string &name, const unsigned int column)
   {
     const auto       n_columns = file.size(name)[1];
     const auto       values    = read_all<double>(file, name);
@@ -104,7 +104,7 @@ namespace
 
   template <int dim>
   std::vector<dealii::Point<dim>>
-  nodes_in_file(const HDF5File &file)
+  nodes_in_file(const HDF5Reader &file)
   {
     const auto                      numbers = read_all<double>(file, "nodes");
     std::vector<dealii::Point<dim>> nodes(numbers.size() / dim);
@@ -117,7 +117,7 @@ namespace
   /// Of the boxes that the cells of a file are.
   template <int dim>
   double
-  volume_in_file(const HDF5File &file)
+  volume_in_file(const HDF5Reader &file)
   {
     constexpr unsigned int n_vertices = 1u << dim;
     const auto             nodes      = nodes_in_file<dim>(file);
@@ -160,7 +160,7 @@ TEMPLATE_TEST_CASE_SIG(
     {
       const auto path = folder.path / (part.name + ".h5");
       write_hdf5(MPI_COMM_WORLD, path, part.name, part, 0.5);
-      const auto file = HDF5File::open(path, MPI_COMM_WORLD);
+      const HDF5Reader file(path, MPI_COMM_WORLD);
       for (unsigned int c = 0; c < part.components.size(); ++c)
         {
           auto column = 0u;
@@ -278,9 +278,8 @@ TEST_CASE("xdmf: every time lists both parts, whose arrays exist", "[solution][m
                 {
                   auto text = attribute.second.get<std::string>("DataItem");
                   text.erase(std::remove_if(text.begin(), text.end(), ::isspace), text.end());
-                  const auto colon = text.find(':');
-                  const auto file =
-                    HDF5File::open(folder.path / text.substr(0, colon), MPI_COMM_WORLD);
+                  const auto       colon = text.find(':');
+                  const HDF5Reader file(folder.path / text.substr(0, colon), MPI_COMM_WORLD);
                   CHECK(file.contains(text.substr(colon + 2)));
                   ++n_arrays;
                 }

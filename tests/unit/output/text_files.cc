@@ -190,3 +190,25 @@ TEST_CASE("a text written by all ranks is that of the ranks in turn", "[files][m
     expected += piece(r);
   CHECK(read_file(folder.path / "text") == expected);
 }
+
+
+TEST_CASE("a full disk is an error on all ranks and leaves the old file", "[files][mpi]")
+{
+  TemporaryFolder folder;
+  const auto      path = folder.path / "text";
+  write_file_together(MPI_COMM_WORLD, path, "old\n");
+  std::string failure;
+  {
+    const FileSizeLimit limit(4096);
+    try
+      {
+        write_file_together(MPI_COMM_WORLD, path, std::string(1 << 20, 'x'));
+      }
+    catch (const FileError &error)
+      {
+        failure = error.what();
+      }
+  }
+  CHECK(failure.find(path.string()) != std::string::npos);
+  CHECK(read_file(path).substr(0, 4) == "old\n");
+}
