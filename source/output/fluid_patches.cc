@@ -6,67 +6,105 @@ namespace undine
 {
   namespace
   {
-    /// The numbers of one corner, in the order of the components.
-    template <int dim>
-    std::vector<float>
-    values_at(const FluidSampler<dim> &sampler, const GridIndex<dim> &corner)
-    {
-      std::vector<float> values;
-      const auto         place    = sampler.corner_position(corner);
-      const auto         velocity = sampler.velocity(place);
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        values.push_back(velocity[axis]);
-      values.push_back(sampler.pressure(place));
-      values.push_back(sampler.vorticity_magnitude(corner));
-      for (const double scalar : sampler.scalars(place))
-        values.push_back(scalar);
-      return values;
-    }
+    /// Cells along the edge of a patch, where as many are left. Patches share no points: larger
+    /// ones repeat fewer (in 3D two numbers a cell instead of eight).
+    constexpr int cells_of_patch = 4;
 
 
-    /// The corners of this rank's cells. Neighbouring cells share them, so each is sampled once.
+    /// The numbers in the corners of this rank's cells, each sampled once.
     template <int dim>
-    IndexBox<dim>
-    corners_of(const IndexBox<dim> &cells)
+    class CornerValues
     {
-      IndexBox<dim> corners = cells;
-      if (!cells.empty())
+    public:
+      CornerValues(const FluidSampler<dim> &sampler, const IndexBox<dim> &cells)
+        : sampler(sampler)
+        , corners(cells)
+        , n_components(dim + 2 + sampler.scalar_names().size())
+      {
+        if (cells.empty())
+          return;
         for (unsigned int axis = 0; axis < dim; ++axis)
           ++corners.upper[axis];
-      return corners;
-    }
+        values.reserve(corners.size() * n_components);
+        for_each(corners, [&](const auto &corner) { sample(corner); });
+      }
+
+      /// The cube of `n` cells a direction that begins at cell `first`.
+      dealii::DataOutBase::Patch<dim>
+      patch(const GridIndex<dim> &first, const int n) const
+      {
+        dealii::DataOutBase::Patch<dim> result;
+        result.reference_cell       = dealii::ReferenceCells::get_hypercube<dim>();
+        result.n_subdivisions       = n;
+        result.points_are_available = true; // a graded patch does not divide evenly
+        for (const unsigned int v : dealii::GeometryInfo<dim>::vertex_indices())
+          result.vertices[v] = sampler.corner_position(moved_to_vertex(first, v, n));
+
+        const IndexBox<dim> points{first, moved_to_vertex(first, (1u << dim) - 1, n + 1)};
+        result.data.reinit(n_components + dim, points.size());
+        unsigned int point = 0;
+        for_each(points, [&](const auto &corner) {
+          const float *source = values.data() + corners.position(corner) * n_components;
+          for (unsigned int c = 0; c < n_components; ++c)
+            result.data(c, point) = source[c];
+          const auto place = sampler.corner_position(corner);
+          for (unsigned int axis = 0; axis < dim; ++axis)
+            result.data(n_components + axis, point) = place[axis];
+          ++point;
+        });
+        return result;
+      }
+
+    private:
+      void
+      sample(const GridIndex<dim> &corner)
+      {
+        const auto place    = sampler.corner_position(corner);
+        const auto velocity = sampler.velocity(place);
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          values.push_back(velocity[axis]);
+        values.push_back(sampler.pressure(place));
+        values.push_back(sampler.vorticity_magnitude(corner));
+        for (const double scalar : sampler.scalars(place))
+          values.push_back(scalar);
+      }
+
+      static GridIndex<dim>
+      moved_to_vertex(GridIndex<dim> index, const unsigned int vertex, const int distance)
+      {
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          index[axis] += ((vertex >> axis) & 1) * distance;
+        return index;
+      }
+
+      const FluidSampler<dim> &sampler;
+      IndexBox<dim>            corners;
+      unsigned int             n_components;
+      std::vector<float>       values; ///< [corner * n_components + component]
+    };
 
 
-    template <int dim>
-    GridIndex<dim>
-    corner_of(GridIndex<dim> cell, const unsigned int vertex)
+    /// Call `action(first, n)` for cubes of n cells a direction that fill the box.
+    template <int dim, class Action>
+    void
+    for_each_cube(const IndexBox<dim> &cells, const Action &action)
     {
+      IndexBox<dim> blocks; // of cells_of_patch cells a direction, the last ones perhaps cut
       for (unsigned int axis = 0; axis < dim; ++axis)
-        cell[axis] += (vertex >> axis) & 1;
-      return cell;
-    }
-
-
-    template <int dim>
-    dealii::DataOutBase::Patch<dim>
-    patch_of(const GridIndex<dim>                  &cell,
-             const FluidSampler<dim>               &sampler,
-             const IndexBox<dim>                   &corners,
-             const std::vector<std::vector<float>> &values)
-    {
-      constexpr unsigned int          n_vertices = dealii::GeometryInfo<dim>::vertices_per_cell;
-      dealii::DataOutBase::Patch<dim> patch;
-      patch.reference_cell = dealii::ReferenceCells::get_hypercube<dim>();
-      patch.data.reinit(values.front().size(), n_vertices);
-      for (unsigned int v = 0; v < n_vertices; ++v)
-        {
-          const auto corner   = corner_of<dim>(cell, v);
-          const auto position = corners.position(corner);
-          patch.vertices[v]   = sampler.corner_position(corner);
-          for (unsigned int c = 0; c < values[position].size(); ++c)
-            patch.data(c, v) = values[position][c];
-        }
-      return patch;
+        blocks.upper[axis] =
+          (cells.upper[axis] - cells.lower[axis] + cells_of_patch - 1) / cells_of_patch;
+      for_each(blocks, [&](const auto &block) {
+        IndexBox<dim> cube;
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          {
+            cube.lower[axis] = cells.lower[axis] + block[axis] * cells_of_patch;
+            cube.upper[axis] = cube.lower[axis] + cells_of_patch;
+          }
+        if (cube.intersection(cells) == cube)
+          action(cube.lower, cells_of_patch);
+        else
+          for_each(cube.intersection(cells), [&](const auto &cell) { action(cell, 1); });
+      });
     }
   } // namespace
 
@@ -85,15 +123,10 @@ namespace undine
     for (const auto &name : sampler.scalar_names())
       result.add_scalar(name, "");
 
-    const auto                      cells   = model.grid().cells()->owned();
-    const auto                      corners = corners_of<dim>(cells);
-    std::vector<std::vector<float>> values;
-    values.reserve(corners.size());
-    for_each(corners,
-             [&](const auto &corner) { values.push_back(values_at<dim>(sampler, corner)); });
-    result.patches.reserve(cells.size());
-    for_each(cells, [&](const auto &cell) {
-      result.patches.push_back(patch_of<dim>(cell, sampler, corners, values));
+    const auto              cells = model.grid().cells()->owned();
+    const CornerValues<dim> values(sampler, cells);
+    for_each_cube(cells, [&](const GridIndex<dim> &first, const int n) {
+      result.patches.push_back(values.patch(first, n));
       result.patches.back().patch_index = result.patches.size() - 1;
     });
     return result;

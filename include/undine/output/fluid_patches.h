@@ -8,9 +8,9 @@
 
 namespace undine
 {
-  /// The fluid at `time` [s]: one patch for each cell of this rank with the values in its corners
-  /// (FluidSampler): velocity [m/s], reduced pressure [Pa], magnitude of the vorticity [1/s] and
-  /// every scalar. Collective.
+  /// The fluid at `time` [s]: patches of one or several cells of this rank with the values in the
+  /// cells' corners (FluidSampler): velocity [m/s], reduced pressure [Pa], magnitude of the
+  /// vorticity [1/s] and every scalar. Collective.
   template <int dim>
   Patches<dim>
   fluid_patches(const FluidModel<dim> &model, const FluidState<dim> &state, double time);
