@@ -201,7 +201,7 @@ namespace undine
       Columns columns;
       for (const auto &field : fields)
         columns.push_back({"Integral of " + field->name,
-                           dim == 2 ? "m^2" : "m^3",
+                           "m^" + std::to_string(dim),
                            integral(model, state.scalars.at(field->name))});
       return columns;
     }
