@@ -52,7 +52,8 @@ namespace undine
     {
       const auto phase = timing.section("project");
       fluid.linear_iterations +=
-        projection.project(state.fluid, fluid.time + fluid.dt, fluid.dt).iterations;
+        projection.project(state.fluid, fluid.flow.velocity(), fluid.time + fluid.dt, fluid.dt)
+          .iterations;
     }
     report.linear_iterations += fluid.linear_iterations;
     const auto phase = timing.section("measure");

@@ -46,8 +46,8 @@ namespace undine
       auto      &velocity = step.state.velocity;
       auto       pressure = step.state.pressure;
       pressure.exchange(1);
-      const auto gradient =
-        pressure_acceleration(step.model, pressure, open_faces(step.model, velocity, step.time));
+      const auto gradient = pressure_acceleration(
+        step.model, pressure, open_faces(step.model, step.flow.velocity(), step.time));
       add(velocity, step.dt, gradient);
       set_boundary_velocity(velocity, step.model, step.time + step.dt);
       for (unsigned int axis = 0; axis < dim; ++axis)

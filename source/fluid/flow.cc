@@ -27,6 +27,45 @@ namespace undine
         layers += 2;
       return width;
     }
+
+
+    /// Fill ghost layers and boundary points of a velocity.
+    template <int dim, class Width>
+    void
+    complete(Velocity<dim>         &velocity,
+             const FluidModel<dim> &model,
+             const Width           &width,
+             const double           time)
+    {
+      for (auto &component : velocity.components)
+        component.exchange(width);
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        fill_boundary_points(velocity[axis], model, VelocityCondition<dim>(axis), velocity, time);
+    }
+
+
+    /// How far fluid can go in one step along each axis [m]: as fast as the fastest face or
+    /// boundary point, such as a lid.
+    template <int dim>
+    dealii::Tensor<1, dim>
+    longest_way(const FluidModel<dim> &model,
+                const Velocity<dim>   &velocity,
+                const double           time,
+                const double           dt)
+    {
+      auto result            = largest_components(model, velocity); // asserts that they are finite
+      auto complete_velocity = velocity;
+      complete(complete_velocity, model, 1, time);
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          const auto &component = complete_velocity[axis];
+          for_each(component.stored(), [&](const GridIndex<dim> &index) {
+            result[axis] = std::max(result[axis], std::abs(component(index)));
+          });
+          result[axis] = dealii::Utilities::MPI::max(result[axis], model.grid().communicator());
+        }
+      return std::abs(dt) * result;
+    }
   } // namespace
 
 
@@ -39,13 +78,9 @@ namespace undine
     , frozen_velocity(velocity)
     , start_time(time)
     , step(dt)
-    , ghost_width(reach(model, std::abs(dt) * largest_components(model, velocity), dt))
+    , ghost_width(reach(model, longest_way(model, velocity, time, dt), dt))
   {
-    for (auto &component : frozen_velocity.components)
-      component.exchange(ghost_width);
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      fill_boundary_points(
-        frozen_velocity[axis], model, VelocityCondition<dim>(axis), frozen_velocity, time);
+    complete(frozen_velocity, model, ghost_width, time);
   }
 
 

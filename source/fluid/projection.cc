@@ -206,11 +206,22 @@ namespace undine
   typename Projection<dim>::Report
   Projection<dim>::project(FluidState<dim> &state, const double time, const double dt)
   {
+    return project(state, state.velocity, time, dt);
+  }
+
+
+  template <int dim>
+  typename Projection<dim>::Report
+  Projection<dim>::project(FluidState<dim>     &state,
+                           const Velocity<dim> &carrying,
+                           const double         time,
+                           const double         dt)
+  {
     set_boundary_velocity(state.velocity, model, time);
     const bool closed = !model.boundaries().has_opening();
     if (closed)
       check_net_flux(model, state.velocity);
-    auto openings = open_faces(model, state.velocity, time);
+    auto openings = open_faces(model, carrying, time);
     for (auto &open : openings)
       open.pressure *= dt;
     for_each(state.pressure.owned(),

@@ -42,6 +42,14 @@ namespace undine
     Report
     project(FluidState<dim> &state, const double time, const double dt);
 
+    /// The same within a step: `carrying` = v^n tells where fluid enters through openings. v*
+    /// cannot: friction adds h grad p^n / rho to it, which may point inwards in a steady outflow.
+    Report
+    project(FluidState<dim>     &state,
+            const Velocity<dim> &carrying,
+            const double         time,
+            const double         dt);
+
     /// The divergence-free velocity nearest to the one given, for a start at `time`; the state's
     /// pressure becomes zero.
     Report

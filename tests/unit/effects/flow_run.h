@@ -74,7 +74,7 @@ namespace undine_tests
       for (const auto &effect : effects)
         effect->diffuse(fluid);
       time += dt;
-      report = projection.project(state, time, dt);
+      report = projection.project(state, fluid.flow.velocity(), time, dt);
     }
 
     void
