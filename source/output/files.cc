@@ -60,10 +60,11 @@ namespace undine
       void
       try_size(const std::uintmax_t bytes) const
       {
-        const int code = ::posix_fallocate(number, 0, bytes);
-        if (code != 0 || ::ftruncate(number, 0) != 0)
+        const int code    = ::posix_fallocate(number, 0, bytes);
+        const int emptied = ::ftruncate(number, 0) == 0 ? 0 : errno;
+        if (code != 0 || emptied != 0)
           throw FileError(
-            cannot_write(path, std::generic_category().message(code != 0 ? code : errno)));
+            cannot_write(path, std::generic_category().message(code != 0 ? code : emptied)));
       }
 
       void
@@ -151,7 +152,19 @@ namespace undine
   void
   append_to_file(const fs::path &path, const std::string &text)
   {
-    Descriptor(path, O_WRONLY | O_CREAT | O_APPEND).write(text);
+    const Descriptor file(path, O_WRONLY | O_CREAT | O_APPEND);
+    const auto       old_size = fs::file_size(path);
+    try
+      {
+        file.write(text);
+      }
+    catch (const FileError &)
+      {
+        // The part that found room goes, so that the file ends with a whole line.
+        std::error_code ignored;
+        fs::resize_file(path, old_size, ignored);
+        throw;
+      }
   }
 
 

@@ -17,6 +17,18 @@ namespace undine
       "</Grid>\n</Domain>\n</Xdmf>\n"};
 
 
+    /// A part's description, by its name instead of deal.II's "mesh".
+    std::string
+    named(std::string description, const std::string &name)
+    {
+      const std::string unnamed = "Name=\"mesh\"";
+      const auto        place   = description.find(unnamed);
+      if (place != std::string::npos)
+        description.replace(place, unnamed.size(), "Name=\"" + name + "\"");
+      return description;
+    }
+
+
     /// One time: bodies and fluid side by side.
     std::string
     at_time(const double time, const std::string &parts)
@@ -69,7 +81,8 @@ namespace undine
                                         file.string(),
                                         part,
                                         state.clock.time);
-          grids += entry.get_xdmf_content(1, dealii::ReferenceCells::get_hypercube<dim>());
+          grids += named(entry.get_xdmf_content(1, dealii::ReferenceCells::get_hypercube<dim>()),
+                         part.name);
         }
       records->add(state.clock.time, at_time(state.clock.time, grids));
     }

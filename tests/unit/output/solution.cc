@@ -276,6 +276,11 @@ TEST_CASE("xdmf: every time lists both parts, whose arrays exist", "[solution][m
       {
         CHECK(time.second.get<double>("Time.<xmlattr>.Value") == 0.5 * n_times);
         ++n_times;
+        std::vector<std::string> names;
+        for (const auto &part : time.second)
+          if (part.first == "Grid")
+            names.push_back(part.second.get<std::string>("<xmlattr>.Name"));
+        CHECK(names == std::vector<std::string>{"bodies", "fluid"});
         for (const auto &part : time.second)
           if (part.first == "Grid")
             for (const auto &attribute : part.second)

@@ -101,6 +101,27 @@ TEST_CASE("statistics: what is not a number is named and not written", "[statist
 }
 
 
+TEST_CASE("statistics: a full disk leaves whole rows", "[statistics][mpi]")
+{
+  TemporaryFolder folder;
+  StatisticsFile  file(MPI_COMM_WORLD, folder.path / "statistics", 0);
+  unsigned int    written = 0;
+  {
+    const FileSizeLimit limit(4096);
+    const auto          fill_disk = [&] {
+      for (; written < 1000; ++written)
+        file.append(row(written, 1. / 3));
+    };
+    CHECK_THROWS_AS(fill_disk(), FileError);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  const auto text = read_file(folder.path / "statistics");
+  CHECK(written > 10);
+  CHECK(steps(text).size() == written);
+  CHECK(text.back() == '\n');
+}
+
+
 TEST_CASE("time records stay valid XML and follow a resumed run", "[records][mpi]")
 {
   TemporaryFolder          folder;
