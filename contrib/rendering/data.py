@@ -57,7 +57,7 @@ class Part:
         if self.is_bodies:
             return "displacement"
         carried = [name for name in self.fields
-                   if name not in ("velocity", "pressure", "rank", "subdomain")
+                   if name not in ("pressure", "vorticity_magnitude")
                    and self.data.GetPointData().GetArray(name).GetNumberOfComponents() == 1]
         for name in ["smoke", "temperature"] + carried + ["velocity", "pressure"]:
             if name in self.fields:

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Drawing bodies and fluid at one time."""
+import math
+
 import vtk
 
 DIRECTIONS = {"front": (0, 0, 1), "back": (0, 0, -1), "left": (-1, 0, 0), "right": (1, 0, 0),
               "top": (0, 1, 1e-3), "bottom": (0, -1, 1e-3), "oblique": (0.55, 0.4, 1)}
 UNITS = {"displacement": "m", "velocity": "m/s", "pressure": "Pa", "temperature": "K",
-         "von_Mises_stress": "Pa"}
+         "von_Mises_stress": "Pa", "vorticity_magnitude": "1/s"}
 VIRIDIS = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"]
 WATER = ["#f7fbff", "#d0e1f2", "#94c4df", "#4a98c9", "#1764ab", "#08306b"]
 SMOKE = ["#ffffff", "#c9c9c9", "#8c8c8c", "#4d4d4d", "#1a1a1a"]
@@ -14,21 +16,20 @@ SIGNED = ["#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b"]
 INK = (0.12, 0.12, 0.15)
 
 
-def colours(field, is_bodies, limits):
-    """Colour table and, for clouds, opacity."""
-    table = {"smoke": SMOKE, "temperature": HEAT}.get(field, VIRIDIS if is_bodies else WATER)
+def colour_table(field, is_bodies, limits):
+    if limits[0] < 0 < limits[1]:
+        return SIGNED
+    return {"smoke": SMOKE, "temperature": HEAT}.get(field, VIRIDIS if is_bodies else WATER)
+
+
+def transfer_function(table, limits):
     low, high = limits
-    if low < 0 < high:
-        table = SIGNED
     transfer = vtk.vtkColorTransferFunction()
-    opacity = vtk.vtkPiecewiseFunction()
     for number, colour in enumerate(table):
         share = number / (len(table) - 1)
         rgb = [int(colour[i:i + 2], 16) / 255 for i in (1, 3, 5)]
         transfer.AddRGBPoint(low + share * (high - low), *rgb)
-    for share, value in ((0, 0), (0.03, 0), (0.3, 0.25), (1, 0.85)):
-        opacity.AddPoint(low + share * (high - low), value)
-    return transfer, opacity
+    return transfer
 
 
 def surface_actor(data, field, transfer, is_flat):
@@ -72,8 +73,8 @@ def edge_actor(data, flat):
     return actor
 
 
-def cloud(data, field, transfer, opacity):
-    """A scalar in space as translucent volume."""
+def cloud(data, field, table, limits):
+    """A scalar in space as translucent volume, denser where it is higher."""
     bounds = data.GetBounds()
     lengths = [bounds[2 * axis + 1] - bounds[2 * axis] for axis in range(3)]
     spacing = max(lengths) / 128
@@ -83,13 +84,18 @@ def cloud(data, field, transfer, opacity):
     resample.Update()
     image = resample.GetOutput()
     image.GetPointData().SetActiveScalars(field)
-    mapper = vtk.vtkFixedPointVolumeRayCastMapper()
+    mapper = vtk.vtkOpenGLGPUVolumeRayCastMapper()
     mapper.SetInputData(image)
+    opacity = vtk.vtkPiecewiseFunction()
+    for share, value in ((0, 0), (0.01, 0), (0.15, 0.1), (1, 0.5)):
+        opacity.AddPoint(limits[0] + share * (limits[1] - limits[0]), value)
+    # Thin clouds are light because they are translucent: their colour need not be light too.
+    dark = [SMOKE[-1], SMOKE[-1]] if table is SMOKE else table[1:]
     volume = vtk.vtkVolume()
     volume.SetMapper(mapper)
-    volume.GetProperty().SetColor(transfer)
+    volume.GetProperty().SetColor(transfer_function(dark, limits))
     volume.GetProperty().SetScalarOpacity(opacity)
-    volume.GetProperty().SetScalarOpacityUnitDistance(max(lengths) / 16)
+    volume.GetProperty().SetScalarOpacityUnitDistance(max(lengths) / 40)
     volume.GetProperty().SetInterpolationTypeToLinear()
     return volume
 
@@ -126,25 +132,33 @@ def text_property(prop, size):
     prop.ShadowOff()
 
 
-def colour_bar(transfer, field, is_bodies, options):
+def colour_bar(transfer, is_bodies, options):
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(transfer)
-    unit = f" [{UNITS[field]}]" if field in UNITS else ""
-    owner = "bodies: " if is_bodies and field != "displacement" else ""
-    bar.SetTitle(owner + ("speed" if field == "velocity" else field) + unit)
     bar.UnconstrainedFontSizeOn()
     size = max(10, options.height // 42)
-    text_property(bar.GetTitleTextProperty(), size)
     text_property(bar.GetLabelTextProperty(), size)
     bar.SetNumberOfLabels(5)
-    bar.SetLabelFormat("%-#.3g")
-    bar.SetVerticalTitleSeparation(size // 2)
+    bar.SetLabelFormat("%-.3g")
     bar.SetOrientationToVertical()
-    bar.SetBarRatio(0.18)
-    bar.SetWidth(0.12)
+    bar.SetBarRatio(0.23)
+    bar.SetWidth(0.095)
     bar.SetHeight(0.6)
-    bar.SetPosition(0.865 if is_bodies else 0.015, 0.2)
+    bar.SetTitle("")
+    bar.SetPosition(0.9 if is_bodies else 0.015, 0.2)
     return bar
+
+
+def bar_title(field, is_bodies, options):
+    owner = "bodies: " if is_bodies and field != "displacement" else ""
+    name = "speed" if field == "velocity" else field.replace("_", " ")
+    title = vtk.vtkTextActor()
+    title.SetInput(owner + name + (f" [{UNITS[field]}]" if field in UNITS else ""))
+    text_property(title.GetTextProperty(), max(10, options.height // 42))
+    if is_bodies:
+        title.GetTextProperty().SetJustificationToRight()
+    title.SetPosition(options.width * (0.985 if is_bodies else 0.015), options.height * 0.815)
+    return title
 
 
 def time_stamp(time, options):
@@ -160,9 +174,12 @@ def add_part(renderer, part, extent, options):
     data = part.warped(options.warp)
     transfer, is_vector = None, False
     if field:
-        transfer, opacity = colours(field, part.is_bodies, extent.range_of(part, field, options))
+        limits = extent.range_of(part, field, options)
+        table = colour_table(field, part.is_bodies, limits)
+        transfer = transfer_function(table, limits)
         is_vector = data.GetPointData().GetArray(field).GetNumberOfComponents() > 1
-        renderer.AddActor2D(colour_bar(transfer, field, part.is_bodies, options))
+        renderer.AddActor2D(colour_bar(transfer, part.is_bodies, options))
+        renderer.AddActor2D(bar_title(field, part.is_bodies, options))
     if part.is_bodies:
         for actor in (surface_actor(data, field, transfer, part.is_flat()),
                       edge_actor(data, part.is_flat())):
@@ -176,7 +193,7 @@ def add_part(renderer, part, extent, options):
     elif field is None or is_vector or field == "pressure":
         renderer.AddActor(surface_actor(middle_slice(data), field, transfer, True))
     else:
-        renderer.AddVolume(cloud(data, field, transfer, opacity))
+        renderer.AddVolume(cloud(data, field, table, limits))
 
 
 def aim(camera, bounds, options):
@@ -187,7 +204,10 @@ def aim(camera, bounds, options):
     centre = [(bounds[2 * axis] + bounds[2 * axis + 1]) / 2 for axis in range(3)]
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(centre)
-    camera.SetPosition([c + d for c, d in zip(centre, direction)])
+    # Outside the box: a cloud seen from within itself is not drawn.
+    away = 2 * sum(bounds[2 * axis + 1] - bounds[2 * axis] for axis in range(3))
+    length = sum(d * d for d in direction) ** 0.5
+    camera.SetPosition([c + away * d / length for c, d in zip(centre, direction)])
     camera.SetViewUp(0, 1, 0)
     camera.OrthogonalizeViewUp()
     transform = camera.GetViewTransformMatrix()
@@ -195,7 +215,7 @@ def aim(camera, bounds, options):
                for i in (0, 1) for j in (0, 1) for k in (0, 1)]
     half = [max(abs(corner[axis]) for corner in corners) for axis in (0, 1)]
     aspect = options.width / options.height
-    camera.SetParallelScale(max(half[1] / 0.86, half[0] / (0.74 * aspect)) / options.zoom)
+    camera.SetParallelScale(max(half[1] / 0.86, half[0] / (0.7 * aspect)) / options.zoom)
 
 
 class Painter:
@@ -206,7 +226,7 @@ class Painter:
         self.options = options
         self.window = vtk.vtkRenderWindow()
         self.window.SetOffScreenRendering(True)
-        self.window.SetMultiSamples(8)
+        self.window.SetMultiSamples(0)
         self.window.SetSize(options.width, options.height)
 
     def paint(self, parts, time, file):
