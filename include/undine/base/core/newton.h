@@ -109,6 +109,9 @@ namespace undine
   {
     report          = NewtonReport();
     double residual = problem.evaluate(x);
+    if (!std::isfinite(residual))
+      throw SolveError("the forces at the start of the step are not finite numbers. Check the "
+                       "scene's expressions (loads, tractions, pressures, motions) at this time.");
     report.residuals.push_back(residual);
     best.residual          = std::numeric_limits<double>::infinity();
     unsigned int allowance = options.relaxed_steps;
