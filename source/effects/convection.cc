@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
 #include <undine/fluid/advection.h>
+#include <undine/fluid/pressure_gradient.h>
 
 namespace undine
 {
-  /// The fluid carries its own momentum: dv/dt + (v.grad) v = 0 for one step. Without it the flow
+  /// The fluid carries its own momentum: dv/dt + (v.grad) v = a for one step, where the
+  /// acceleration a by forces is carried along by half (see FluidStep). Without convection the flow
   /// is a Stokes flow.
   template <int dim>
   class Convection : public Effect<dim>
@@ -13,8 +15,8 @@ namespace undine
     void
     add_options(const Options &options) override
     {
-      method = options.template choose<Advection<dim>>(
-        "Method", "MacCormack", "How the velocity is carried.");
+      method =
+        options.template choose<Advection<dim>>("Method", "cubic", "How the velocity is carried.");
     }
 
     void
@@ -35,10 +37,13 @@ namespace undine
     void
     transport(FluidStep<dim> &step) const override
     {
-      const auto timed = step.timing.section("convection");
+      const auto timed    = step.timing.section("convection");
+      auto      &velocity = step.state.velocity;
+      add(velocity, FluidStep<dim>::carried_share * step.dt, step.state.acceleration);
       for (unsigned int axis = 0; axis < dim; ++axis)
-        step.state.velocity[axis] =
-          method->advect(step.flow, step.state.velocity[axis], VelocityCondition<dim>(axis));
+        velocity[axis] = method->advect(step.flow, velocity[axis], VelocityCondition<dim>(axis));
+      add(velocity, -FluidStep<dim>::carried_share * step.dt, step.state.acceleration);
+      step.carried = velocity;
     }
 
   private:

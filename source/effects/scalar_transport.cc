@@ -69,6 +69,12 @@ namespace undine
         return inflow.value(place, time);
       }
 
+      bool
+      obeys_maximum_principle() const override
+      {
+        return true;
+      }
+
       std::string              name;
       Expression<dim>          initial, source, inflow, held;
       std::vector<std::string> held_boundaries;
@@ -101,8 +107,8 @@ namespace undine
     void
     add_options(const Options &options) override
     {
-      method = options.template choose<Advection<dim>>(
-        "Method", "MacCormack", "How the fields are carried.");
+      method =
+        options.template choose<Advection<dim>>("Method", "cubic", "How the fields are carried.");
       for (const auto &name : options.named_sections("field"))
         {
           fields.push_back(std::make_unique<CarriedScalar<dim>>(name));

@@ -9,7 +9,7 @@ namespace undine
 {
   /// Friction in a fluid of constant viscosity, implicit in time (implicit Euler):
   ///
-  ///     (1 - h nu Laplace) w = v'' - h grad p^n / rho,   v* = w + h grad p^n / rho
+  ///     (1 - h nu Laplace) w = v'' - h grad q^n / rho,   v* = w + h grad q^n / rho
   ///
   /// for each component, with walls that stick, inflow, and no friction on openings (see FluidStep
   /// for the old pressure gradient).
@@ -53,6 +53,7 @@ namespace undine
       for (unsigned int axis = 0; axis < dim; ++axis)
         step.linear_iterations +=
           solver(step.model, axis).step(velocity[axis], step.time + step.dt, step.dt);
+      step.pressure_correction = pressure_correction(step.model, velocity);
       add(velocity, -step.dt, gradient);
     }
 
@@ -66,6 +67,21 @@ namespace undine
     }
 
   private:
+    /// -mu div w in every cell [Pa]. Exchanges ghosts of w.
+    Field<dim>
+    pressure_correction(const FluidModel<dim> &model, Velocity<dim> &velocity) const
+    {
+      exchange(velocity);
+      const auto  outflow = divergence(model, velocity);
+      Field<dim>  correction(model.grid().cells());
+      std::size_t k = 0;
+      for_each(correction.owned(), [&](const GridIndex<dim> &cell) {
+        correction(cell) = -dynamic_viscosity * outflow[k++] / model.grid().cell_volume(cell);
+      });
+      return correction;
+    }
+
+
     /// The equation of one component, set up at its first use.
     ImplicitDiffusion<dim> &
     solver(const FluidModel<dim> &model, const unsigned int axis) const

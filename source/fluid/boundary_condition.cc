@@ -37,6 +37,14 @@ namespace undine
   }
 
 
+  template <int dim>
+  bool
+  VelocityCondition<dim>::obeys_maximum_principle() const
+  {
+    return false;
+  }
+
+
   namespace
   {
     /// The value of one boundary point: held and entering shares plus the rest of the nearest

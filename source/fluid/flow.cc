@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/flow.h>
 #include <undine/fluid/fluid_quantities.h>
-#include <undine/fluid/fluid_step.h>
 #include <undine/fluid/interpolation.h>
 
 #include <fmt/format.h>
@@ -10,7 +9,7 @@ namespace undine
 {
   namespace
   {
-    /// Ghost layers for ways of h times the largest velocity, and for the points around their ends.
+    /// Ghost layers for ways of a given length, and for the up to four points around their ends.
     template <int dim>
     GridIndex<dim>
     reach(const FluidModel<dim> &model, const dealii::Tensor<1, dim> &distance, const double dt)
@@ -24,7 +23,7 @@ namespace undine
                         dt));
       auto width = model.grid().planes_crossed(distance);
       for (int &layers : width.values)
-        layers += 2;
+        layers += 3;
       return width;
     }
 
@@ -179,26 +178,6 @@ namespace undine
   }
 
 
-  template <int dim>
-  FluidStep<dim>::FluidStep(const FluidModel<dim>        &model_,
-                            FluidState<dim>              &state_,
-                            const dealii::Tensor<1, dim> &gravity_,
-                            const double                  time_,
-                            const double                  dt_,
-                            TimingTree                   &timing_)
-    : model(model_)
-    , state(state_)
-    , gravity(gravity_)
-    , time(time_)
-    , dt(dt_)
-    , timing(timing_)
-    , flow(model_, state_.velocity, time_, dt_)
-  {
-  }
-
-
   template class Flow<2>;
   template class Flow<3>;
-  template struct FluidStep<2>;
-  template struct FluidStep<3>;
 } // namespace undine

@@ -105,8 +105,9 @@ namespace undine
     state.pressure = Field<dim>(mac_grid.cells());
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
-        auto &component = state.velocity[axis];
-        component       = Field<dim>(mac_grid.faces(axis));
+        auto &component          = state.velocity[axis];
+        component                = Field<dim>(mac_grid.faces(axis));
+        state.acceleration[axis] = component;
         if (!parameters.initial_velocity.is_zero())
           for_each(component.owned(), [&](const GridIndex<dim> &face) {
             component(face) =

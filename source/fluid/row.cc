@@ -19,6 +19,30 @@ namespace undine
     for (int i = 0; i + 1 < n; ++i)
       uniform = uniform && std::abs(begin[i + 1] - begin[i] - spacing) < 1e-6 * spacing;
     inverse_spacing = uniform ? 1 / spacing : 0;
+    set_up_polynomials();
+  }
+
+
+  void
+  Row::set_up_polynomials()
+  {
+    const int n_stored   = points.size();
+    const int n_places   = periodic() ? 4 : std::min(4, n_stored);
+    const int n_stencils = periodic() ? n : std::max(1, n_stored - 3);
+    for (int s = 0; s < n_stencils; ++s)
+      {
+        Polynomial polynomial{};
+        for (int k = 0; k < n_places; ++k)
+          polynomial.places[k] = periodic() ? position(s - 1 + k) : points[s + k];
+        for (int k = 0; k < n_places; ++k)
+          {
+            polynomial.factors[k] = 1;
+            for (int l = 0; l < n_places; ++l)
+              if (l != k)
+                polynomial.factors[k] /= polynomial.places[k] - polynomial.places[l];
+          }
+        polynomials.push_back(polynomial);
+      }
   }
 
 
@@ -74,17 +98,44 @@ namespace undine
   }
 
 
+  int
+  Row::move_into_period(double &place) const
+  {
+    if (!periodic())
+      return 0;
+    const int periods = std::floor((place - points[0]) / length);
+    place -= periods * length;
+    return periods;
+  }
+
+
   Row::Bracket
   Row::locate(double place) const
   {
-    int images = 0;
-    if (length > 0)
-      {
-        images = std::floor((place - points[0]) / length);
-        place -= images * length;
-      }
-    const int    i      = find(place);
-    const double weight = (place - points[i]) / (points[i + 1] - points[i]);
-    return {i + first + images * n, std::clamp(weight, 0., 1.)};
+    const int    periods = move_into_period(place);
+    const int    i       = find(place);
+    const double weight  = (place - points[i]) / (points[i + 1] - points[i]);
+    return {i + first + periods * n, std::clamp(weight, 0., 1.)};
+  }
+
+
+  Row::Stencil
+  Row::stencil(double place) const
+  {
+    const int  periods  = move_into_period(place);
+    const int  i        = find(place);
+    const int  n_places = periodic() ? 4 : std::min<int>(4, points.size());
+    const int  begin    = periodic() ? i : std::clamp(i - 1, 0, int(polynomials.size()) - 1);
+    const auto at       = std::clamp(place, points.front(), points.back());
+
+    const auto &polynomial = polynomials[begin];
+    Stencil     result{begin + first + periods * n - (periodic() ? 1 : 0),
+                   static_cast<unsigned int>(n_places),
+                   polynomial.factors};
+    for (int k = 0; k < n_places; ++k)
+      for (int l = 0; l < n_places; ++l)
+        if (l != k)
+          result.weights[k] *= at - polynomial.places[l];
+    return result;
   }
 } // namespace undine

@@ -30,6 +30,11 @@ namespace undine
     /// The value that comes in through an opening.
     virtual double
     entering_value(const dealii::Point<dim> &place, const double time) const = 0;
+
+    /// True if the flow never carries a value beyond those around it, so that an advection must not
+    /// create new extrema. That costs accuracy at smooth ones.
+    virtual bool
+    obeys_maximum_principle() const = 0;
   };
 
   /// The velocity along one axis, on sides parallel to that axis.
@@ -51,6 +56,10 @@ namespace undine
     /// Zero: fluid enters at right angles.
     double
     entering_value(const dealii::Point<dim> &place, const double time) const override;
+
+    /// False: pressure changes the components of the velocity.
+    bool
+    obeys_maximum_principle() const override;
 
   private:
     unsigned int axis;

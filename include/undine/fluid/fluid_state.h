@@ -34,9 +34,10 @@ namespace undine
   template <int dim>
   struct FluidState
   {
-    Velocity<dim>                     velocity; ///< [m/s]
-    Field<dim>                        pressure; ///< reduced pressure p - rho g.x [Pa]
-    std::map<std::string, Field<dim>> scalars;  ///< by name, e.g. "smoke", "temperature"
+    Velocity<dim>                     velocity;     ///< [m/s]
+    Velocity<dim>                     acceleration; ///< Dv/Dt of the last step (FluidStep) [m/s^2]
+    Field<dim>                        pressure;     ///< reduced pressure p - rho g.x [Pa]
+    std::map<std::string, Field<dim>> scalars;      ///< by name, e.g. "smoke", "temperature"
   };
 } // namespace undine
 

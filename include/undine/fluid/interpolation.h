@@ -8,7 +8,7 @@
 
 namespace undine
 {
-  /// A value and the bounds of the samples it was made of.
+  /// A value and the bounds of the samples around its place.
   struct BoundedValue
   {
     double value;
@@ -27,6 +27,12 @@ namespace undine
   template <int dim>
   BoundedValue
   interpolate_with_bounds(const Field<dim> &field, const dealii::Point<dim> &place);
+
+  /// Interpolation by the cubic polynomials through four points in each direction; the bounds are
+  /// those of the 2^dim samples around the place, which the value may exceed.
+  template <int dim>
+  BoundedValue
+  interpolate_cubic(const Field<dim> &field, const dealii::Point<dim> &place);
 } // namespace undine
 
 #endif

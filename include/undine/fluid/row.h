@@ -2,6 +2,7 @@
 #ifndef undine_fluid_row_h
 #define undine_fluid_row_h
 
+#include <array>
 #include <vector>
 
 namespace undine
@@ -20,6 +21,14 @@ namespace undine
     {
       int    lower;
       double weight;
+    };
+
+    /// The (up to) four points around a place and the weights of the polynomial through them.
+    struct Stencil
+    {
+      int                   first;
+      unsigned int          n_points; ///< fewer than 4 only if the row has no more
+      std::array<double, 4> weights;
     };
 
     Row() = default;
@@ -70,18 +79,38 @@ namespace undine
     Bracket
     locate(double place) const;
 
+    /// Cubic interpolation (Lagrange), exact for cubic polynomials on graded rows too. Next to an
+    /// end of the row the points are those nearest to the end.
+    Stencil
+    stencil(double place) const;
+
   private:
+    /// Four points in a row and prod_{l != k} 1 / (x_k - x_l) for each of them.
+    struct Polynomial
+    {
+      std::array<double, 4> places;
+      std::array<double, 4> factors;
+    };
+
     Row(std::vector<double> points, const int first, const int n, const double length);
+
+    void
+    set_up_polynomials();
 
     /// Position in `points` of the last point not above `place`, found in O(1) on uniform rows.
     int
     find(const double place) const;
 
-    std::vector<double> points;              ///< from index `first`; periodic: up to index n
-    int                 first           = 0; ///< -1 if there are boundary points
-    int                 n               = 0;
-    double              length          = 0; ///< period [m]; 0: not periodic
-    double              inverse_spacing = 0; ///< [1/m]; 0: spacing not uniform
+    /// Move a place by whole periods into the row; returns by how many.
+    int
+    move_into_period(double &place) const;
+
+    std::vector<double>     points;      ///< from index `first`; periodic: up to index n
+    std::vector<Polynomial> polynomials; ///< by position of the first point; periodic: less one
+    int                     first           = 0; ///< -1 if there are boundary points
+    int                     n               = 0;
+    double                  length          = 0; ///< period [m]; 0: not periodic
+    double                  inverse_spacing = 0; ///< [1/m]; 0: spacing not uniform
   };
 } // namespace undine
 

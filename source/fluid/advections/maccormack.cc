@@ -11,7 +11,8 @@ namespace undine
   ///
   ///     s1 = A(s^n),  s0 = A^-1(s1),  s^{n+1} = s1 + (s^n - s0) / 2
   ///
-  /// limited to the bounds of the samples that made s1. Second order in space (Selle, Fedkiw, Kim,
+  /// for fields with a maximum principle limited to the bounds of the samples that made s1. Second
+  /// order in space (Selle, Fedkiw, Kim,
   /// Liu, Rossignac 2008). Plain semi-Lagrangian where a path ends at an opening or inflow.
   template <int dim>
   class MacCormack : public Advection<dim>
@@ -25,7 +26,7 @@ namespace undine
     std::string
     summary() const override
     {
-      return "MacCormack, limited";
+      return "MacCormack";
     }
 
     Field<dim>
@@ -33,9 +34,10 @@ namespace undine
            const Field<dim>             &field,
            const BoundaryCondition<dim> &condition) const override
     {
-      const auto                &model  = flow.model();
-      const double               dt     = flow.dt();
-      Field<dim>                 source = field;
+      const auto                &model   = flow.model();
+      const bool                 limited = condition.obeys_maximum_principle();
+      const double               dt      = flow.dt();
+      Field<dim>                 source  = field;
       Field<dim>                 predicted(field.shared_lattice());
       std::vector<BoundedValue>  predictions;
       std::vector<unsigned char> left;
@@ -59,8 +61,8 @@ namespace undine
         if (!left[k] && !trace.left_domain)
           {
             const double returned = interpolate(predicted, trace.foot);
-            corrected(index)      = std::clamp(
-              bounds.value + (source(index) - returned) / 2, bounds.smallest, bounds.largest);
+            const double value    = bounds.value + (source(index) - returned) / 2;
+            corrected(index) = limited ? std::clamp(value, bounds.smallest, bounds.largest) : value;
           }
         ++k;
       });
@@ -72,7 +74,6 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Advection, MacCormack>
-      registered("MacCormack",
-                 "Semi-Lagrangian, corrected by a step back and limited: second order in space.");
+      registered("MacCormack", "Semi-Lagrangian, corrected by a step back: second order in space.");
   }
 } // namespace undine

@@ -35,7 +35,7 @@ namespace undine_tests
 
 
   inline std::string
-  convection(const std::string &method = "MacCormack")
+  convection(const std::string &method = "cubic")
   {
     return section("convection", "set Method = " + method);
   }
@@ -75,6 +75,7 @@ namespace undine_tests
         effect->diffuse(fluid);
       time += dt;
       report = projection.project(state, fluid.flow.velocity(), time, dt);
+      fluid.finish();
     }
 
     void

@@ -35,6 +35,12 @@ namespace
     {
       return 0;
     }
+
+    bool
+    obeys_maximum_principle() const override
+    {
+      return true;
+    }
   };
 
 
