@@ -190,6 +190,12 @@ namespace undine
       return {restrict_to_space<dim>(material.stress(F)), J, 1.};
     }
 
+    Thickness<dim>
+    thickness(const Material &, const Tensor<2, dim> &) const override
+    {
+      return {1., Tensor<2, dim>()};
+    }
+
     double
     energy(const Material &material, const Tensor<2, dim> &H) const override
     {
@@ -215,6 +221,9 @@ namespace undine
 
     PointStress<2>
     stress(const Material &material, const Gradient &H) const override;
+
+    Thickness<2>
+    thickness(const Material &material, const Gradient &H) const override;
 
     double
     energy(const Material &material, const Gradient &H) const override;
@@ -245,6 +254,15 @@ namespace undine
   {
     const auto F = free_thickness(material, H);
     return {restrict_to_space<2>(whole_stress(material, F)), determinant(F), F[2][2]};
+  }
+
+
+  Thickness<2>
+  PlaneStress::thickness(const Material &material, const Gradient &H) const
+  {
+    const auto F = free_thickness(material, H);
+    const auto A = whole_tangent(material, F);
+    return {F[2][2], restrict_to_space<2>(A[2][2]) / -A[2][2][2][2]};
   }
 
 

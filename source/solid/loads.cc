@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
 #include <undine/solid/cofactor.h>
 #include <undine/solid/loads.h>
+#include <undine/solid/throw_together.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -40,8 +42,8 @@ namespace undine
     }
 
 
-    /// action(boundary, face values, degrees of freedom of the cell) at the locally owned faces
-    /// with a load of this kind.
+    /// action(body, boundary, face values, degrees of freedom of the cell) at the locally owned
+    /// faces with a load of this kind; errors reach all ranks.
     template <int dim, class Action>
     void
     for_all_faces(const SolidModel<dim>                 &model,
@@ -56,17 +58,36 @@ namespace undine
                                          dealii::update_quadrature_points |
                                          dealii::update_normal_vectors | dealii::update_JxW_values);
       std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
-      for (const auto &face : model.faces())
+      const auto                                   act_on = [&](const LoadedFace<dim> &face) {
+        const auto &body     = model.bodies()[face.body];
+        const auto &boundary = body.boundaries[face.boundary];
+        if (boundary.kind != kind || !face.cell->is_locally_owned())
+          return;
+        const typename dealii::DoFHandler<dim>::active_cell_iterator cell(
+          &model.triangulation(), face.cell->level(), face.cell->index(), &model.dof_handler());
+        values.reinit(cell, face.face);
+        cell->get_dof_indices(dofs);
+        try
+          {
+            action(body, boundary, values, dofs);
+          }
+        catch (const SolveError &error)
+          {
+            throw SolveError("body '" + body.name + "', boundary '" + boundary.name +
+                             "': " + error.what());
+          }
+      };
+      std::string failure;
+      try
         {
-          const auto &boundary = model.bodies()[face.body].boundaries[face.boundary];
-          if (boundary.kind != kind || !face.cell->is_locally_owned())
-            continue;
-          const typename dealii::DoFHandler<dim>::active_cell_iterator cell(
-            &model.triangulation(), face.cell->level(), face.cell->index(), &model.dof_handler());
-          values.reinit(cell, face.face);
-          cell->get_dof_indices(dofs);
-          action(boundary, values, dofs);
+          for (const auto &face : model.faces())
+            act_on(face);
         }
+      catch (const SolveError &error)
+        {
+          failure = error.what();
+        }
+      throw_together(failure, model.communicator());
     }
 
 
@@ -78,7 +99,7 @@ namespace undine
       std::vector<double> local(element.n_dofs_per_cell());
       for_all_faces(model,
                     BodyBoundary<dim>::Kind::traction,
-                    [&](const auto &boundary, const auto &values, const auto &dofs) {
+                    [&](const auto &, const auto &boundary, const auto &values, const auto &dofs) {
                       std::fill(local.begin(), local.end(), 0.);
                       for (const unsigned int q : values.quadrature_point_indices())
                         {
@@ -94,35 +115,69 @@ namespace undine
     }
 
 
-    /// F at the points of a face, from a ghosted displacement.
+    /// H at the points of a face, from a ghosted displacement.
     template <int dim>
     std::vector<dealii::Tensor<2, dim>>
-    deformation_gradients(const dealii::FEFaceValues<dim> &values, const Vector &displacement)
+    displacement_gradients(const dealii::FEFaceValues<dim> &values, const Vector &displacement)
     {
       std::vector<dealii::Tensor<2, dim>> result(values.n_quadrature_points);
       values[dealii::FEValuesExtractors::Vector(0)].get_function_gradients(displacement, result);
-      for (auto &F : result)
-        F += dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
       return result;
     }
 
 
-    /// factor N_i [d(cof F)_ak/dF_bl] n_k dN_j/dx_l dA.
+    template <int dim>
+    dealii::Tensor<2, dim>
+    deformation_gradient(const dealii::Tensor<2, dim> &H)
+    {
+      return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) + H;
+    }
+
+
+    /// F_33 cof(F) n: the deformed normal times the deformed area per area at rest [1].
+    template <int dim>
+    dealii::Tensor<1, dim>
+    deformed_normal(const Body<dim>              &body,
+                    const dealii::Tensor<2, dim> &H,
+                    const dealii::Tensor<1, dim> &normal)
+    {
+      const double stretch = body.kinematics->thickness(*body.material, H).stretch;
+      return stretch * (cofactor(deformation_gradient(H)) * normal);
+    }
+
+
+    /// Its derivative with respect to H [1].
+    template <int dim>
+    dealii::Tensor<3, dim>
+    deformed_normal_derivative(const Body<dim>              &body,
+                               const dealii::Tensor<2, dim> &H,
+                               const dealii::Tensor<1, dim> &normal)
+    {
+      const auto             F          = deformation_gradient(H);
+      const auto             thickness  = body.kinematics->thickness(*body.material, H);
+      const auto             derivative = cofactor_derivative(F);
+      const auto             in_plane   = cofactor(F) * normal;
+      dealii::Tensor<3, dim> result;
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          for (unsigned int k = 0; k < dim; ++k)
+            result[a] += thickness.stretch * normal[k] * derivative[a][k];
+          result[a] += in_plane[a] * thickness.tangent;
+        }
+      return result;
+    }
+
+
+    /// factor N_i [d(F_33 cof F n)_a / dF_bl] dN_j/dx_l dA.
     template <int dim>
     void
-    add_pressure_point(dealii::FullMatrix<double>       &local,
-                       const dealii::FEFaceValues<dim>  &values,
-                       const dealii::FiniteElement<dim> &element,
-                       const unsigned int                q,
-                       const dealii::Tensor<2, dim>     &F,
-                       const double                      factor)
+    add_pressure_point(dealii::FullMatrix<double>      &local,
+                       const dealii::FEFaceValues<dim> &values,
+                       const unsigned int               q,
+                       const dealii::Tensor<3, dim>    &of_normal,
+                       const double                     factor)
     {
-      const auto             derivative = cofactor_derivative(F);
-      const auto            &normal     = values.normal_vector(q);
-      dealii::Tensor<3, dim> of_normal; // d(cof F n)_a / dF_bl
-      for (unsigned int a = 0; a < dim; ++a)
-        for (unsigned int k = 0; k < dim; ++k)
-          of_normal[a] += normal[k] * derivative[a][k];
+      const auto &element = values.get_fe();
       for (unsigned int i = 0; i < local.m(); ++i)
         for (unsigned int j = 0; j < local.n(); ++j)
           {
@@ -168,22 +223,23 @@ namespace undine
     const Vector        ghosted = model.ghosted(displacement);
     std::vector<double> local(element.n_dofs_per_cell());
     Vector              forces = model.vector();
-    for_all_faces(model,
-                  BodyBoundary<dim>::Kind::pressure,
-                  [&](const auto &boundary, const auto &values, const auto &dofs) {
-                    const auto F = deformation_gradients(values, ghosted);
-                    std::fill(local.begin(), local.end(), 0.);
-                    for (const unsigned int q : values.quadrature_point_indices())
-                      {
-                        const double p = boundary.pressure.value(values.quadrature_point(q), time);
-                        const auto   load =
-                          cofactor(F[q]) * values.normal_vector(q) * (-p * values.JxW(q));
-                        for (unsigned int i = 0; i < local.size(); ++i)
-                          local[i] += load[element.system_to_component_index(i).first] *
-                                      values.shape_value(i, q);
-                      }
-                    forces.add(dofs, local);
-                  });
+    for_all_faces(
+      model,
+      BodyBoundary<dim>::Kind::pressure,
+      [&](const auto &body, const auto &boundary, const auto &values, const auto &dofs) {
+        const auto H = displacement_gradients(values, ghosted);
+        std::fill(local.begin(), local.end(), 0.);
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const double p = boundary.pressure.value(values.quadrature_point(q), time);
+            const auto   load =
+              deformed_normal(body, H[q], values.normal_vector(q)) * (-p * values.JxW(q));
+            for (unsigned int i = 0; i < local.size(); ++i)
+              local[i] +=
+                load[element.system_to_component_index(i).first] * values.shape_value(i, q);
+          }
+        forces.add(dofs, local);
+      });
     forces.compress(dealii::VectorOperation::add);
     return forces;
   }
@@ -197,18 +253,23 @@ namespace undine
     const Vector               ghosted = model.ghosted(displacement);
     dealii::FullMatrix<double> local(element.n_dofs_per_cell());
     Matrix                     result = model.matrix();
-    for_all_faces(model,
-                  BodyBoundary<dim>::Kind::pressure,
-                  [&](const auto &boundary, const auto &values, const auto &dofs) {
-                    const auto F = deformation_gradients(values, ghosted);
-                    local        = 0;
-                    for (const unsigned int q : values.quadrature_point_indices())
-                      {
-                        const double p = boundary.pressure.value(values.quadrature_point(q), time);
-                        add_pressure_point(local, values, element, q, F[q], -p * values.JxW(q));
-                      }
-                    result.add(dofs, local);
-                  });
+    for_all_faces(
+      model,
+      BodyBoundary<dim>::Kind::pressure,
+      [&](const auto &body, const auto &boundary, const auto &values, const auto &dofs) {
+        const auto H = displacement_gradients(values, ghosted);
+        local        = 0;
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const double p = boundary.pressure.value(values.quadrature_point(q), time);
+            add_pressure_point(local,
+                               values,
+                               q,
+                               deformed_normal_derivative(body, H[q], values.normal_vector(q)),
+                               -p * values.JxW(q));
+          }
+        result.add(dofs, local);
+      });
     result.compress(dealii::VectorOperation::add);
     return result;
   }

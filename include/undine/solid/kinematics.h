@@ -27,6 +27,14 @@ namespace undine
     dealii::Tensor<4, dim> tangent;
   };
 
+  /// How much thicker a plane body gets.
+  template <int dim>
+  struct Thickness
+  {
+    double                 stretch; ///< F_33, 1 in 3D [1]
+    dealii::Tensor<2, dim> tangent; ///< dF_33 / dH_kl [1]
+  };
+
   /// How the displacement gradient H = du/dX [1] of a body in `dim` dimensions becomes the
   /// deformation gradient F of a material point in three dimensions, and how stress and tangent
   /// come back:
@@ -34,7 +42,8 @@ namespace undine
   ///     3D            F = I + H
   ///     plane strain  F = I + H in the plane, F_33 = 1, F_a3 = F_3a = 0
   ///     plane stress  F = I + H in the plane, F_a3 = F_3a = 0, F_33 from P_33(F) = 0;
-  ///                   A_abcd - A_ab33 A_33cd / A_3333 is the tangent
+  ///                   A_abcd - A_ab33 A_33cd / A_3333 is the tangent,
+  ///                   dF_33/dH_cd = -A_33cd / A_3333
   ///
   /// [Holzapfel, Nonlinear Solid Mechanics, chapter 6; de Souza Neto, Peric, Owen, Computational
   /// Methods for Plasticity, section 9.2 for the plane stress projection].
@@ -66,6 +75,10 @@ namespace undine
     /// Stress alone.
     virtual PointStress<dim>
     stress(const Material &material, const Gradient &displacement_gradient) const = 0;
+
+    /// F_33 and its derivative. Where it is always 1, no H is refused.
+    virtual Thickness<dim>
+    thickness(const Material &material, const Gradient &displacement_gradient) const = 0;
 
     /// Energy density W [J/m^3].
     virtual double

@@ -20,8 +20,10 @@ namespace undine
   bool
   has_pressure_loads(const SolidModel<dim> &model);
 
-  /// f_i(d) = - int p cof(F) n . N_i dA over the boundaries with a follower pressure p [N], with n
-  /// the outward normal at rest.
+  /// f_i(d) = - int p F_33 cof(F) n . N_i dA over the boundaries with a follower pressure p [N],
+  /// with F in the body's dimensions, n the outward normal at rest and F_33 the stretch of a plane
+  /// body's thickness (Kinematics): a sheet in plane stress that gets thinner has a narrower edge.
+  /// Throws SolveError on all ranks where there is no such F_33.
   template <int dim>
   dealii::TrilinosWrappers::MPI::Vector
   pressure_loads(const SolidModel<dim>                       &model,

@@ -181,6 +181,46 @@ TEST_CASE("follower pressure: tangent by differences, work by volume", "[solid][
 }
 
 
+TEST_CASE("follower pressure on a sheet in plane stress acts on its deformed edge", "[solid][mpi]")
+{
+  const std::string sheet = "set Plane state = plane stress";
+  for (const auto &material : Registry<Material>::instance().names())
+    {
+      INFO(material);
+      const Solid<2> bent(
+        block<2>(material, 2, sheet, boundary("wet", "set Kind = pressure\n set Pressure = 2+x")));
+      const auto d = random_field(bent.model, 0.02, 1);
+      const auto a = random_field(bent.model, 1, 2);
+      CHECK(tangent_error(pressure_stiffness(bent.model, d, 0), d, a, [&](const Vector &x) {
+              return pressure_loads(bent.model, x, 0);
+            }) < 1e-7);
+    }
+
+  // Squeezed alike from all sides: the true stress in the sheet is minus the pressure.
+  const double pressure = 3;
+  Solid<2>     squeezed(
+    one_body("set Cells = 2, 1\n set Density = 1\n set Young's modulus = 10\n"
+                 "set Poisson's ratio = 0.3\n" +
+               sheet,
+             boundary("left", "set Sides = left\n set Components = x") +
+               boundary("floor", "set Sides = bottom\n set Components = y") +
+               boundary("wet", "set Kind = pressure\n set Sides = right, top\n set Pressure = 3"),
+             "set Time integrator = static"));
+  const auto &report = squeezed.advance(1);
+  CHECK(report.newton.iterations < 8);
+  const double         stretch = 1 + squeezed.displacement({1, 1})[0];
+  dealii::Tensor<2, 2> H;
+  H[0][0] = H[1][1] = stretch - 1;
+  const auto &body  = squeezed.model.bodies()[0];
+  const auto  point = body.kinematics->stress(*body.material, H);
+  CHECK(stretch < 0.9);
+  CHECK(point.thickness_stretch > 1.05);
+  CHECK(point.stress[0][0] == Approx(-pressure * stretch * point.thickness_stretch));
+  CHECK(squeezed.column("reaction body/left x") ==
+        Approx(pressure * stretch * point.thickness_stretch));
+}
+
+
 TEST_CASE("dead loads add up to weight, load and traction", "[solid][mpi]")
 {
   SolidEnvironment<3> environment;
