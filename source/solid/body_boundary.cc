@@ -46,8 +46,12 @@ namespace undine
 
     template <int dim>
     std::array<bool, dim>
-    read_directions(const Options &options)
+    read_directions(const Options &options, const bool used)
     {
+      if (!options.is_reference() && options.given("Components") && !used)
+        throw options.error("Components",
+                            "is not used by a boundary of this 'Kind'",
+                            "Remove it, or choose the 'Kind' clamp or prescribed motion.");
       const std::vector<std::string> all{"x", "y", "z"};
       std::vector<std::string>       axes(all.begin(), all.begin() + dim);
       const auto                     allowed = Allowed::one_of(axes);
@@ -57,10 +61,37 @@ namespace undine
                   allowed,
                   "Directions in which a clamp or a prescribed motion holds the body; it slides "
                   "freely in the others.");
+      if (axes.empty())
+        throw options.error("Components",
+                            "names no direction",
+                            "Allowed: " + allowed.description +
+                              "; all of them if the key is left out.");
       std::array<bool, dim> result;
       for (unsigned int axis = 0; axis < dim; ++axis)
         result[axis] = std::find(axes.begin(), axes.end(), all[axis]) != axes.end();
       return result;
+    }
+
+
+    /// Declare and read a key that the boundary needs if it is of the kind that uses it, and that
+    /// is refused otherwise.
+    template <class Value>
+    void
+    add_if_used(const Options     &options,
+                const std::string &key,
+                Value             &variable,
+                const std::string &unit,
+                const bool         used,
+                const std::string &help)
+    {
+      if (!options.is_reference() && options.given(key) != used)
+        throw used ? options.error(key,
+                                   "must be given for a boundary of this 'Kind'",
+                                   "Allowed: expressions [" + unit + "]. " + help)
+                   : options.error(key,
+                                   "is not used by a boundary of this 'Kind'",
+                                   "Remove it or choose another 'Kind'.");
+      options.add(key, variable, unit, Allowed::anything(), help);
     }
   } // namespace
 
@@ -71,7 +102,7 @@ namespace undine
     , options(options)
     , where("1")
     , kind(read_kind<dim>(options))
-    , directions(read_directions<dim>(options))
+    , directions(read_directions<dim>(options, fixes_displacement()))
   {
     options.add("Sides",
                 sides,
@@ -84,21 +115,27 @@ namespace undine
                 "1",
                 Allowed::anything(),
                 "Only faces at whose rest centre this is positive.");
-    options.add("Displacement",
+    add_if_used(options,
+                "Displacement",
                 motion,
                 "m",
-                Allowed::anything(),
-                "The prescribed motion of the point that rests at x.");
-    options.add("Traction",
-                traction,
-                "Pa",
-                Allowed::anything(),
-                "Force per area at rest; keeps its direction and size when the body deforms.");
-    options.add("Pressure",
+                kind == Kind::prescribed_motion,
+                "Of the point that rests at x; needed by a prescribed motion, and only there.");
+    add_if_used(
+      options,
+      "Traction",
+      traction,
+      "Pa",
+      kind == Kind::traction,
+      "Force per area at rest; keeps its direction and size when the body deforms. Needed "
+      "by a traction, and only there.");
+    add_if_used(options,
+                "Pressure",
                 pressure,
                 "Pa",
-                Allowed::anything(),
-                "Pushes into the body along the deformed normal, per deformed area.");
+                kind == Kind::pressure,
+                "Pushes into the body along the deformed normal, per deformed area. Needed by a "
+                "pressure, and only there.");
   }
 
 

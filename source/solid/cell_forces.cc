@@ -40,8 +40,7 @@ namespace undine
     cell = new_cell;
     body = &model.bodies()[geometry.body(cell)];
     displacement.extract_subvector_to(geometry.dofs(cell), displacements);
-    if (is_separated())
-      find_dilatation();
+    has_dilatation = false;
   }
 
 
@@ -91,14 +90,17 @@ namespace undine
 
   template <int dim>
   void
-  CellForces<dim>::find_dilatation()
+  CellForces<dim>::prepare_dilatation()
   {
+    if (has_dilatation || !is_separated())
+      return;
     std::vector<double> jacobians(geometry.n_points());
     at_all_points([&](const unsigned int q, const Tensor2 &H) {
       jacobians[q] = determinant(deformation_gradient(H));
       assert_positive_jacobian(jacobians[q]);
     });
     dilatation.reinit(cell, *body->material, jacobians);
+    has_dilatation = true;
   }
 
 
@@ -106,6 +108,7 @@ namespace undine
   const std::vector<double> &
   CellForces<dim>::forces()
   {
+    prepare_dilatation();
     std::fill(local_forces.begin(), local_forces.end(), 0.);
     at_all_points([&](const unsigned int q, const Tensor2 &H) {
       Tensor2 stress = body->kinematics->stress(*body->material, H).stress;
@@ -121,6 +124,7 @@ namespace undine
   const dealii::FullMatrix<double> &
   CellForces<dim>::tangent()
   {
+    prepare_dilatation();
     local_tangent = 0;
     if (is_separated())
       dilatation.start_gradient();
@@ -145,6 +149,7 @@ namespace undine
   double
   CellForces<dim>::energy()
   {
+    prepare_dilatation();
     double sum = 0;
     at_all_points([&](const unsigned int q, const Tensor2 &H) {
       sum += body->kinematics->energy(*body->material, H) * geometry.JxW(cell, q);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/solid/solid_model.h>
+#include <undine/solid/supports.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -51,7 +52,7 @@ namespace undine
     loaded_faces     = select_faces(mesh, all_bodies, sides);
     distribute_dofs();
     collect_nodes();
-    collect_fixed();
+    check_supports(*this, collect_fixed());
     make_sparsity();
     rest = std::make_unique<const RestGeometry<dim>>(straight, dofs);
   }
@@ -92,8 +93,9 @@ namespace undine
   }
 
 
+  /// Returns those of all ranks.
   template <int dim>
-  void
+  std::vector<FixedDof>
   SolidModel<dim>::collect_fixed()
   {
     std::map<Index, FixedDof> all;
@@ -111,13 +113,16 @@ namespace undine
             all.insert({dof, {dof, face.body, face.boundary, axes[dof]}});
       }
     fixed_of_all_ranks.set_size(dofs.n_dofs());
+    std::vector<FixedDof> result;
     for (const auto &entry : all)
       {
+        result.push_back(entry.second);
         fixed_of_all_ranks.add_index(entry.first);
         if (locally_owned().is_element(entry.first))
           owned_fixed.push_back(entry.second);
       }
     fixed_of_all_ranks.compress();
+    return result;
   }
 
 

@@ -13,16 +13,16 @@ namespace undine
 {
   /// Integrals of the material law over one cell. Local vectors and matrices are counted node by
   /// node (node * dim + axis), as RestGeometry::dofs(). Bodies whose law keeps its volumetric part
-  /// apart get the three-field element (MeanDilatation), others the displacement element. All
-  /// functions throw SolveError that names body and place where a point is inverted, on this rank
-  /// only.
+  /// apart get the three-field element (MeanDilatation), others the displacement element. Forces,
+  /// tangent and energy throw SolveError that names body and place where a point is inverted, on
+  /// this rank only.
   template <int dim>
   class CellForces
   {
   public:
     explicit CellForces(const SolidModel<dim> &model);
 
-    /// Choose a cell and its nodal displacements [m], from a ghosted vector.
+    /// Choose a cell and its nodal displacements [m], from a ghosted vector. Throws nothing.
     void
     reinit(unsigned int cell, const dealii::TrilinosWrappers::MPI::Vector &displacement);
 
@@ -51,7 +51,7 @@ namespace undine
     bool
     is_separated() const;
     void
-    find_dilatation();
+    prepare_dilatation();
     void
     add_forces(const Tensor2 &stress, double JxW);
     void
@@ -68,8 +68,9 @@ namespace undine
     const SolidModel<dim>              &model;
     const RestGeometry<dim>            &geometry;
     MeanDilatation<dim>                 dilatation;
-    unsigned int                        cell = 0;
-    const Body<dim>                    *body = nullptr;
+    bool                                has_dilatation = false; ///< of the chosen cell
+    unsigned int                        cell           = 0;
+    const Body<dim>                    *body           = nullptr;
     std::vector<double>                 displacements;
     std::vector<dealii::Tensor<1, dim>> gradients; ///< of the shape functions at the current point
     std::vector<double>                 local_forces;

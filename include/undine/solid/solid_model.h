@@ -117,7 +117,7 @@ namespace undine
     distribute_dofs();
     void
     collect_nodes();
-    void
+    std::vector<FixedDof>
     collect_fixed();
     void
     make_sparsity();

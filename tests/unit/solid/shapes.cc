@@ -190,6 +190,13 @@ TEST_CASE("what the scene says wrongly about bodies is refused with the keys", "
   CHECK_THAT(part("set Where = x - 2"), Catch::Contains("selects no face"));
   CHECK_THAT(part("set Kind = glue"), Catch::Contains("prescribed motion"));
   CHECK_THAT(part("set Components = z"), Catch::Contains("x | y"));
+  CHECK_THAT(part("set Components ="), Catch::Contains("names no direction"));
+  CHECK_THAT(part("set Kind = traction"), Catch::Contains("'Traction': must be given"));
+  CHECK_THAT(part("set Kind = pressure"), Catch::Contains("'Pressure': must be given"));
+  CHECK_THAT(part("set Kind = prescribed motion"), Catch::Contains("'Displacement': must be"));
+  CHECK_THAT(part("set Pressure = 1"), Catch::Contains("'Pressure': is not used"));
+  CHECK_THAT(part("set Kind = pressure\n set Pressure = 1\n set Components = x"),
+             Catch::Contains("'Components': is not used"));
   CHECK_THAT(refusal(one_body("set Shape = blob" + elastic)), Catch::Contains("ball"));
   CHECK_THAT(refusal(one_body("set Lower corner = 2, 0" + elastic)),
              Catch::Contains("Upper corner"));
@@ -197,6 +204,35 @@ TEST_CASE("what the scene says wrongly about bodies is refused with the keys", "
   CHECK_THAT(refusal(one_body("set Size = 1, 1\n set Lower corner = 0, 0" + elastic)),
              Catch::Contains("either"));
   CHECK_THAT(refusal(one_body("set Cells = 2, 2")), Catch::Contains("Density"));
+}
+
+
+TEST_CASE("supports that make no sense are refused", "[solid]")
+{
+  const auto supports = [](const std::string &parts, const std::string &integrator = "theta") {
+    return refusal(
+      one_body("set Cells = 2, 2" + elastic, parts, "set Time integrator = " + integrator));
+  };
+  const auto all = boundary("a", "");
+  CHECK_THAT(supports(all + boundary("b", "set Sides = left")),
+             Catch::Contains("Boundaries/b") && Catch::Contains("not hold already"));
+  CHECK_THAT(supports("", "static"), Catch::Contains("nothing holds the body"));
+  CHECK_THAT(supports(boundary("a", "set Sides = left\n set Components = x"), "static"),
+             Catch::Contains("1 of the 3 rigid motions"));
+  const auto moved = [](const std::string &displacement) {
+    return boundary("a", "set Kind = prescribed motion\n set Displacement = " + displacement);
+  };
+  CHECK_THAT(supports(moved("0; 0.1*cos(t)")),
+             Catch::Contains("Boundaries/a") && Catch::Contains("0.1 m at t = 0 along y") &&
+               Catch::Contains("0 m") && Catch::Contains("body 'body'"));
+  SolidModel<2>(read_scene_text(one_body("set Cells = 2, 2" + elastic,
+                                         moved("0; 0.1*cos(t)"),
+                                         "set Time integrator = static")),
+                MPI_COMM_WORLD);
+  SolidModel<2>(
+    read_scene_text(one_body("set Cells = 2, 2\n set Initial displacement = 0; 0.1" + elastic,
+                             moved("0; 0.1*cos(t)"))),
+    MPI_COMM_WORLD);
 }
 
 
