@@ -55,6 +55,7 @@ namespace undine
         projection.project(state.fluid, fluid.flow.velocity(), fluid.time + fluid.dt, fluid.dt)
           .iterations;
     }
+    fluid.finish();
     report.linear_iterations += fluid.linear_iterations;
     const auto phase = timing.section("measure");
     add_columns(report, state.fluid, fluid.time + fluid.dt);

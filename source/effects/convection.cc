@@ -22,7 +22,7 @@ namespace undine
     void
     check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
     {
-      if (!around.has_fluid)
+      if (!around.fluid)
         throw options.error("",
                             "convection acts on a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");

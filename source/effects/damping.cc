@@ -29,7 +29,7 @@ namespace undine
     void
     check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
     {
-      if (!around.has_solid)
+      if (!around.solid)
         throw options.error("",
                             "damping acts on bodies, but the scene has none",
                             "Remove the section or add a body.");

@@ -33,7 +33,10 @@ namespace undine
                     inflow,
                     "",
                     Allowed::anything(),
-                    "Of fluid that comes in through inflows and openings.");
+                    "Of fluid that comes in through inflows and openings; the initial value if not "
+                    "given.");
+        if (!options.given("Inflow value"))
+          inflow = initial;
         options.add("Diffusivity", diffusivity, "m^2/s", Allowed::not_negative(), "Its own.");
         options.add("Held boundaries",
                     held_boundaries,
@@ -119,7 +122,7 @@ namespace undine
     void
     check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
     {
-      if (!around.has_fluid)
+      if (!around.fluid)
         throw options.error("",
                             "scalar transport needs a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
@@ -127,6 +130,8 @@ namespace undine
         throw options.error("",
                             "names no field to carry",
                             "Add a subsection with the field's name, such as 'subsection smoke'.");
+      for (const auto &field : fields)
+        check_field(options, *field, around.fluid->boundaries().all());
     }
 
     std::string
@@ -152,7 +157,6 @@ namespace undine
     {
       for (const auto &field : fields)
         {
-          check_boundaries(model, *field);
           Field<dim> values(model.grid().cells());
           for_each(values.owned(), [&](const GridIndex<dim> &cell) {
             values(cell) = field->initial.value(values.lattice().point(cell), 0);
@@ -213,23 +217,27 @@ namespace undine
     }
 
   private:
-    void
-    check_boundaries(const FluidModel<dim> &model, const CarriedScalar<dim> &field) const
+    static void
+    check_field(const Options                    &options,
+                const CarriedScalar<dim>         &field,
+                const std::vector<Boundary<dim>> &boundaries)
     {
+      static const std::vector<std::string> taken{"velocity", "pressure", "vorticity_magnitude"};
+      if (std::find(taken.begin(), taken.end(), field.name) != taken.end())
+        throw options.error(field.name,
+                            "is the name of another field of the fluid",
+                            "Choose another name, such as 'smoke'.");
+      std::string known;
+      for (const auto &boundary : boundaries)
+        known += (known.empty() ? "'" : ", '") + boundary.name + "'";
       for (const auto &name : field.held_boundaries)
-        {
-          std::string known;
-          bool        found = false;
-          for (const auto &boundary : model.boundaries().all())
-            {
-              found = found || boundary.name == name;
-              known += (known.empty() ? "'" : ", '") + boundary.name + "'";
-            }
-          if (!found)
-            throw InputError("section 'Effects/scalar transport/" + field.name +
-                             "', key 'Held boundaries': the fluid has no boundary named '" + name +
-                             "'. Allowed: " + known);
-        }
+        if (std::none_of(boundaries.begin(), boundaries.end(), [&](const auto &boundary) {
+              return boundary.name == name;
+            }))
+          throw options.section(field.name)
+            .error("Held boundaries",
+                   "the fluid has no boundary named '" + name + "'",
+                   "Allowed: " + known);
     }
 
     std::unique_ptr<Advection<dim>>                  method;

@@ -63,29 +63,29 @@ namespace undine
       GridIndex<dim> near = index;
       near[side.axis]     = side.end == 0 ? 0 : n - 1;
 
-      const auto entering = [&]() {
-        GridIndex<dim> face = index;
-        face[side.axis]     = side.end == 0 ? 0 : n;
-        const auto &stored  = velocity[side.axis].stored();
+      const auto entering = [&](GridIndex<dim> face) {
+        if (side.end == 1)
+          ++face[side.axis];
+        const auto &stored = velocity[side.axis].stored();
         for (unsigned int d = 0; d < dim; ++d)
           face[d] = std::clamp(face[d], stored.lower[d], stored.upper[d] - 1);
         return side.sign() * velocity[side.axis](face) < 0;
       };
       const auto place = field.lattice().point(index);
       double     value = 0;
-      for_each_boundary_around(model,
-                               field.lattice(),
-                               side,
-                               index,
-                               [&](const Boundary<dim> &boundary, const double fraction) {
-                                 if (condition.holds(boundary))
-                                   value += fraction *
-                                            condition.held_value(boundary, side.axis, place, time);
-                                 else if (boundary.is_open() && entering())
-                                   value += fraction * condition.entering_value(place, time);
-                                 else
-                                   value += fraction * field(near);
-                               });
+      for_each_boundary_around(
+        model,
+        field.lattice(),
+        side,
+        index,
+        [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &cell) {
+          if (condition.holds(boundary))
+            value += fraction * condition.held_value(boundary, side.axis, place, time);
+          else if (boundary.is_open() && entering(cell))
+            value += fraction * condition.entering_value(place, time);
+          else
+            value += fraction * field(near);
+        });
       return value;
     }
   } // namespace

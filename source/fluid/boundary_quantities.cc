@@ -4,6 +4,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <fmt/format.h>
+
 namespace undine
 {
   namespace
@@ -58,6 +60,34 @@ namespace undine
 
 
   template <int dim>
+  std::string
+  net_flux_complaint(const FluidModel<dim> &model, const Velocity<dim> &velocity)
+  {
+    if (model.boundaries().has_opening())
+      return "";
+    const auto  fluxes = boundary_fluxes(model, velocity);
+    double      net    = 0;
+    double      size   = 0;
+    std::string list;
+    for (unsigned int b = 0; b < fluxes.size(); ++b)
+      {
+        net += fluxes[b];
+        size += std::abs(fluxes[b]);
+        if (fluxes[b] != 0)
+          list += fmt::format(
+            "{}'{}' {:.6g}", list.empty() ? "" : ", ", model.boundaries().all()[b].name, fluxes[b]);
+      }
+    if (std::abs(net) <= 1e-10 * size)
+      return "";
+    return fmt::format("the fluid has no outlet, but in sum {:.6g} m^{}/s flow out of it (by "
+                       "boundary, outwards: {})",
+                       net,
+                       dim,
+                       list);
+  }
+
+
+  template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   pressure_forces(const FluidModel<dim> &model, const FluidState<dim> &state)
   {
@@ -103,20 +133,20 @@ namespace undine
               area *= d == axis ? grid.dual_width(d, point[d]) : grid.cell_width(d, point[d]);
           const double distance = grid.cell_width(side.axis, point[side.axis]) / 2;
           const auto   on_wall  = moved<dim>(point, side.axis, side.sign());
-          for_each_boundary_around(model,
-                                   lattice,
-                                   side,
-                                   on_wall,
-                                   [&](const Boundary<dim> &boundary, const double fraction) {
-                                     if (!boundary.holds_tangential_velocity())
-                                       return;
-                                     const double slip =
-                                       state.velocity[axis](point) -
-                                       boundary.velocity_along(
-                                         axis, side.axis, lattice.point(on_wall), time);
-                                     forces[&boundary - model.boundaries().all().data()][axis] +=
-                                       dynamic_viscosity * slip / distance * area * fraction;
-                                   });
+          for_each_boundary_around(
+            model,
+            lattice,
+            side,
+            on_wall,
+            [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
+              if (!boundary.holds_tangential_velocity())
+                return;
+              const double slip =
+                state.velocity[axis](point) -
+                boundary.velocity_along(axis, side.axis, lattice.point(on_wall), time);
+              forces[&boundary - model.boundaries().all().data()][axis] +=
+                dynamic_viscosity * slip / distance * area * fraction;
+            });
         });
     return sum_over_ranks(forces, grid.communicator());
   }
@@ -140,13 +170,14 @@ namespace undine
   }
 
 
-#define INSTANTIATE(dim)                                                                        \
-  template std::vector<double> boundary_fluxes(const FluidModel<dim> &, const Velocity<dim> &); \
-  template std::vector<dealii::Tensor<1, dim>> pressure_forces(const FluidModel<dim> &,         \
-                                                               const FluidState<dim> &);        \
-  template std::vector<dealii::Tensor<1, dim>> viscous_forces(                                  \
-    const FluidModel<dim> &, const FluidState<dim> &, const double, const double);              \
-  template Columns force_columns(                                                               \
+#define INSTANTIATE(dim)                                                                           \
+  template std::vector<double> boundary_fluxes(const FluidModel<dim> &, const Velocity<dim> &);    \
+  template std::string         net_flux_complaint(const FluidModel<dim> &, const Velocity<dim> &); \
+  template std::vector<dealii::Tensor<1, dim>> pressure_forces(const FluidModel<dim> &,            \
+                                                               const FluidState<dim> &);           \
+  template std::vector<dealii::Tensor<1, dim>> viscous_forces(                                     \
+    const FluidModel<dim> &, const FluidState<dim> &, const double, const double);                 \
+  template Columns force_columns(                                                                  \
     const std::string &, const FluidModel<dim> &, const std::vector<dealii::Tensor<1, dim>> &);
 
   INSTANTIATE(2)

@@ -107,17 +107,23 @@ namespace undine
 
   template <int dim>
   double
-  courant_rate(const FluidModel<dim> &model, const Velocity<dim> &velocity)
+  flux_area(const MacGrid<dim> &grid, const GridIndex<dim> &cell)
   {
-    const auto known   = with_ghosts(velocity);
-    double     largest = 0;
+    double width = grid.cell_width(0, cell[0]);
+    for (unsigned int d = 1; d < dim; ++d)
+      width = std::min(width, grid.cell_width(d, cell[d]));
+    return grid.cell_volume(cell) / width;
+  }
+
+
+  template <int dim>
+  double
+  largest_divergence(const FluidModel<dim> &model, const std::vector<double> &fluxes)
+  {
+    double      largest = 0;
+    std::size_t k       = 0;
     for_each(model.grid().cells()->owned(), [&](const GridIndex<dim> &cell) {
-      double rate = 0;
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        rate +=
-          std::max(std::abs(known[axis](cell)), std::abs(known[axis](moved<dim>(cell, axis, 1)))) /
-          model.grid().cell_width(axis, cell[axis]);
-      largest = std::max(largest, rate);
+      largest = std::max(largest, std::abs(fluxes[k++]) / flux_area(model.grid(), cell));
     });
     return dealii::Utilities::MPI::max(largest, model.grid().communicator());
   }
@@ -127,17 +133,7 @@ namespace undine
   double
   largest_divergence(const FluidModel<dim> &model, const Velocity<dim> &velocity)
   {
-    const auto &grid    = model.grid();
-    const auto  fluxes  = divergence(model, with_ghosts(velocity));
-    double      largest = 0;
-    std::size_t k       = 0;
-    for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-      double width = grid.cell_width(0, cell[0]);
-      for (unsigned int d = 1; d < dim; ++d)
-        width = std::min(width, grid.cell_width(d, cell[d]));
-      largest = std::max(largest, std::abs(fluxes[k++]) * width / grid.cell_volume(cell));
-    });
-    return dealii::Utilities::MPI::max(largest, grid.communicator());
+    return largest_divergence(model, divergence(model, with_ghosts(velocity)));
   }
 
 
@@ -182,7 +178,8 @@ namespace undine
   template dealii::Tensor<1, dim> largest_components(const FluidModel<dim> &,                     \
                                                      const Velocity<dim> &);                      \
   template double                 largest_speed(const FluidModel<dim> &, const Velocity<dim> &);  \
-  template double                 courant_rate(const FluidModel<dim> &, const Velocity<dim> &);   \
+  template double                 flux_area(const MacGrid<dim> &, const GridIndex<dim> &);        \
+  template double  largest_divergence(const FluidModel<dim> &, const std::vector<double> &);      \
   template double  largest_divergence(const FluidModel<dim> &, const Velocity<dim> &);            \
   template double  integral(const FluidModel<dim> &, const Field<dim> &);                         \
   template Columns fluid_columns(const FluidModel<dim> &, const FluidState<dim> &);

@@ -143,14 +143,15 @@ namespace undine
             }
         }
       else if (what == Beyond::boundary)
-        for_each_boundary_around(model,
-                                 *lattice,
-                                 {direction, step < 0 ? 0u : 1u},
-                                 other,
-                                 [&](const Boundary<dim> &boundary, const double fraction) {
-                                   if (condition.holds(boundary))
-                                     row.values[0] += fraction * value;
-                                 });
+        for_each_boundary_around(
+          model,
+          *lattice,
+          {direction, step < 0 ? 0u : 1u},
+          other,
+          [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
+            if (condition.holds(boundary))
+              row.values[0] += fraction * value;
+          });
     });
   }
 
@@ -177,9 +178,38 @@ namespace undine
       matrix.add(row.columns[0], row.columns.size(), row.columns.data(), row.values.data(), false);
     });
     matrix.compress(dealii::VectorOperation::add);
-    preconditioner = std::make_unique<dealii::TrilinosWrappers::PreconditionSSOR>();
-    preconditioner->initialize(matrix);
+    set_up_preconditioner(dt);
     assembled_dt = dt;
+  }
+
+
+  template <int dim>
+  void
+  ImplicitDiffusion<dim>::set_up_preconditioner(const double dt)
+  {
+    namespace Trilinos = dealii::TrilinosWrappers;
+    double reach       = 0; // h nu / dx^2
+    for_each(lattice->owned(), [&](const GridIndex<dim> &index) {
+      for (unsigned int d = 0; d < dim; ++d)
+        reach =
+          std::max(reach, dt * diffusivity / std::pow(extent(model.grid(), *lattice, d, index), 2));
+    });
+    // Friction that reaches over a few cells in a step is cheaper to solve for without a hierarchy.
+    if (dealii::Utilities::MPI::max(reach, model.grid().communicator()) < 30)
+      {
+        auto relaxation = std::make_unique<Trilinos::PreconditionSSOR>();
+        relaxation->initialize(matrix);
+        preconditioner = std::move(relaxation);
+        return;
+      }
+    auto multigrid = std::make_unique<Trilinos::PreconditionAMG>();
+    Trilinos::PreconditionAMG::AdditionalData data;
+    data.elliptic              = true;
+    data.aggregation_threshold = 0.02;
+    data.smoother_type         = "Chebyshev";
+    data.smoother_sweeps       = 2;
+    multigrid->initialize(matrix, data);
+    preconditioner = std::move(multigrid);
   }
 
 
@@ -204,16 +234,16 @@ namespace undine
           if (what == Beyond::neighbour)
             sum += factor * field(other);
           else
-            for_each_boundary_around(model,
-                                     *lattice,
-                                     {direction, step < 0 ? 0u : 1u},
-                                     other,
-                                     [&](const Boundary<dim> &boundary, const double fraction) {
-                                       if (condition.holds(boundary))
-                                         sum += fraction * factor *
-                                                condition.held_value(
-                                                  boundary, direction, lattice->point(other), time);
-                                     });
+            for_each_boundary_around(
+              model,
+              *lattice,
+              {direction, step < 0 ? 0u : 1u},
+              other,
+              [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
+                if (condition.holds(boundary))
+                  sum += fraction * factor *
+                         condition.held_value(boundary, direction, lattice->point(other), time);
+              });
         });
       result.push_back(sum);
     });

@@ -222,18 +222,6 @@ namespace undine
   }
 
 
-  template <int dim>
-  double
-  MacGrid<dim>::smallest_width() const
-  {
-    double smallest = cell_width(0, 0);
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      for (int i = 0; i < cells_along()[axis]; ++i)
-        smallest = std::min(smallest, cell_width(axis, i));
-    return smallest;
-  }
-
-
   template class MacGrid<2>;
   template class MacGrid<3>;
 } // namespace undine

@@ -17,25 +17,12 @@ namespace undine
   {
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-    /// V_c / dx_c with the smallest width of the cell: a flux of U times this is a dimensionless
-    /// divergence of 1.
-    template <int dim>
-    double
-    flux_area(const MacGrid<dim> &grid, const GridIndex<dim> &cell)
-    {
-      double width = grid.cell_width(0, cell[0]);
-      for (unsigned int d = 1; d < dim; ++d)
-        width = std::min(width, grid.cell_width(d, cell[d]));
-      return grid.cell_volume(cell) / width;
-    }
-
-
     /// The smallest flux_area() of all cells.
     template <int dim>
     double
     smallest_flux_area(const MacGrid<dim> &grid)
     {
-      double smallest = flux_area(grid, grid.cells()->owned().lower);
+      double smallest = flux_area<dim>(grid, grid.cells()->owned().lower);
       for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
         smallest = std::min(smallest, flux_area(grid, cell));
       });
@@ -43,47 +30,16 @@ namespace undine
     }
 
 
-    /// Throw unless what flows into a domain without opening flows out elsewhere.
     template <int dim>
     void
-    check_net_flux(const FluidModel<dim> &model, const Velocity<dim> &velocity)
+    check_net_flux(const FluidModel<dim> &model, const Velocity<dim> &velocity, const double time)
     {
-      const auto  fluxes = boundary_fluxes(model, velocity);
-      double      net    = 0;
-      double      size   = 0;
-      std::string list;
-      for (unsigned int b = 0; b < fluxes.size(); ++b)
-        {
-          net += fluxes[b];
-          size += std::abs(fluxes[b]);
-          if (fluxes[b] != 0)
-            list += fmt::format("{}'{}' {:.6g}",
-                                list.empty() ? "" : ", ",
-                                model.boundaries().all()[b].name,
-                                fluxes[b]);
-        }
-      if (std::abs(net) > 1e-10 * size)
-        throw InputError(fmt::format(
-          "The fluid has no outlet, but in sum {:.6g} m^{}/s flow out of it (by boundary, "
-          "outwards: {}). Make one boundary an 'outflow' or of the kind 'pressure', or "
-          "balance the inflows.",
-          net,
-          dim,
-          list));
-    }
-
-
-    /// max over cells of |flux_c| dx_c / V_c [m/s], from the result of divergence().
-    template <int dim>
-    double
-    largest_divergence(const MacGrid<dim> &grid, const std::vector<double> &fluxes)
-    {
-      double      result = 0;
-      std::size_t k      = 0;
-      for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-        result = std::max(result, std::abs(fluxes[k++]) / flux_area(grid, cell));
-      });
-      return dealii::Utilities::MPI::max(result, grid.communicator());
+      const auto complaint = net_flux_complaint(model, velocity);
+      if (!complaint.empty())
+        throw InputError(fmt::format("At {:.6g} s {}. Make one boundary an 'outflow' or of the "
+                                     "kind 'pressure', or balance the inflows.",
+                                     time,
+                                     complaint));
     }
 
 
@@ -173,7 +129,7 @@ namespace undine
         exchange(velocity);
 
         const auto   fluxes     = divergence(model, velocity);
-        const double divergence = largest_divergence(grid, fluxes);
+        const double divergence = largest_divergence(model, fluxes);
         const double speed      = largest_components(model, velocity).norm();
         report.divergence       = divergence == 0 ? 0. : divergence / speed;
         // Below 1e-4 of the speeds that cancelled there is nothing but rounding.
@@ -219,8 +175,7 @@ namespace undine
   {
     set_boundary_velocity(state.velocity, model, time);
     const bool closed = !model.boundaries().has_opening();
-    if (closed)
-      check_net_flux(model, state.velocity);
+    check_net_flux(model, state.velocity, time);
     auto openings = open_faces(model, carrying, time);
     for (auto &open : openings)
       open.pressure *= dt;
@@ -240,8 +195,7 @@ namespace undine
   Projection<dim>::make_divergence_free(FluidState<dim> &state, const double time)
   {
     set_boundary_velocity(state.velocity, model, time);
-    if (!model.boundaries().has_opening())
-      check_net_flux(model, state.velocity);
+    check_net_flux(model, state.velocity, time);
     auto openings = open_faces(model, state.velocity, time);
     for (auto &open : openings)
       open.pressure = 0;

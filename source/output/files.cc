@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <system_error>
@@ -177,5 +178,18 @@ namespace undine
     if (!in)
       throw FileError("cannot read '" + path.string() + "'");
     return text.str();
+  }
+
+
+  double
+  leading_number(const std::string &line, const fs::path &path)
+  {
+    char        *end    = nullptr;
+    const double number = std::strtod(line.c_str(), &end);
+    if (end == line.c_str())
+      throw FileError("'" + path.string() + "' was not written by this program or is damaged: '" +
+                      line.substr(0, 40) +
+                      "' is no number. Remove the line or the file and try again.");
+    return number;
   }
 } // namespace undine

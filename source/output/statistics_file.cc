@@ -68,14 +68,14 @@ namespace undine
 
 
     Kept
-    keep(const std::string &text, const unsigned int last_step)
+    keep(const std::string &text, const unsigned int last_step, const std::filesystem::path &path)
     {
       Kept               kept;
       std::istringstream lines(text);
       for (std::string line; std::getline(lines, line) && !lines.eof();)
         if (line.rfind("#", 0) == 0)
           kept.header += line + "\n";
-        else if (std::stod(line) <= last_step)
+        else if (leading_number(line, path) <= last_step)
           kept.rows += line + "\n";
       return kept;
     }
@@ -91,7 +91,7 @@ namespace undine
     on_first_rank(communicator, [&] {
       Kept kept;
       if (last_step > 0 && std::filesystem::exists(path))
-        kept = keep(read_file(path), last_step);
+        kept = keep(read_file(path), last_step, path);
       header = kept.header;
       write_file(path, kept.header + kept.rows);
     });

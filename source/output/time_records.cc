@@ -16,7 +16,9 @@ namespace undine
 
 
     std::map<double, std::string>
-    read_records(const std::string &text, const std::string &tail)
+    read_records(const std::string           &text,
+                 const std::string           &tail,
+                 const std::filesystem::path &path)
     {
       std::map<double, std::string> records;
       const std::string             body = text.substr(0, text.rfind(tail));
@@ -24,7 +26,7 @@ namespace undine
       std::string                  *current = nullptr;
       for (std::string line; std::getline(lines, line);)
         if (line.rfind(mark, 0) == 0)
-          current = &records[std::stod(line.substr(mark.size()))];
+          current = &records[leading_number(line.substr(mark.size()), path)];
         else if (current != nullptr)
           *current += line + "\n";
       return records;
@@ -42,7 +44,7 @@ namespace undine
   {
     on_first_rank(communicator, [&] {
       if (clock.step > 0 && std::filesystem::exists(path))
-        for (const auto &record : read_records(read_file(path), frame.tail))
+        for (const auto &record : read_records(read_file(path), frame.tail, path))
           if (has_passed(clock, record.first))
             records.insert(record);
       write();

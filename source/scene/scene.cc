@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/boundary_condition.h>
+#include <undine/fluid/fluid_quantities.h>
 #include <undine/scene/scene.h>
 
 #include <algorithm>
@@ -68,13 +70,38 @@ namespace undine
     check_effects(const Scene<dim> &scene, const Options &options)
     {
       typename Effect<dim>::Surroundings surroundings{
-        scene.models.fluid != nullptr, scene.models.solid != nullptr, scene.effect_names, {}};
+        scene.models.fluid.get(), scene.models.solid.get(), scene.effect_names, {}};
       for (const auto &effect : scene.models.effects)
         for (const auto &scalar : effect->scalars())
           surroundings.scalars.push_back(scalar);
       for (unsigned int e = 0; e < scene.models.effects.size(); ++e)
         scene.models.effects[e]->check(options.section("Effects").section(scene.effect_names[e]),
                                        surroundings);
+    }
+
+
+    /// What the boundaries of the fluid must fit: the effects and, at the start, each other.
+    template <int dim>
+    void
+    check_boundaries(const Scene<dim> &scene, const Options &options)
+    {
+      const auto &model      = *scene.models.fluid;
+      const auto  boundaries = options.section("Fluid").section("Boundaries");
+      const auto &names      = scene.effect_names;
+      const auto  wall       = model.boundaries().wall_that_needs_viscosity();
+      if (!wall.empty() && std::find(names.begin(), names.end(), "viscosity") == names.end())
+        throw boundaries.section(wall).error(
+          "Kind",
+          "fluid without viscosity does not stick to a wall",
+          "Try: 'slip wall', or add a subsection 'viscosity' to 'Effects'.");
+      auto velocity = model.initial_state().velocity;
+      set_boundary_velocity(velocity, model, 0.);
+      const auto complaint = net_flux_complaint(model, velocity);
+      if (!complaint.empty())
+        throw boundaries.error(
+          "",
+          complaint,
+          "Try: make one boundary an 'outflow' or of the kind 'pressure', or balance the inflows.");
     }
 
 
@@ -186,6 +213,8 @@ namespace undine
                           "of this version",
                           "Try: remove the subsection 'Fluid' or the subsection 'Bodies'.");
     check_effects(scene, options);
+    if (scene.models.fluid)
+      check_boundaries(scene, options);
     const auto probes      = options.section("Probes");
     const auto probe_names = probes.named_sections("probe");
     for (unsigned int p = 0; p < scene.probes.size(); ++p)

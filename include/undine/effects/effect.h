@@ -13,6 +13,9 @@
 
 namespace undine
 {
+  template <int dim>
+  class SolidModel;
+
   /// One physical effect. A scene calls for it by a subsection of its name in `Effects`; nothing
   /// else switches it on, and an effect that is off does not exist during the run. A new effect is
   /// one new .cc file that overrides what it needs and registers itself.
@@ -23,8 +26,8 @@ namespace undine
     /// What the effect may ask about the rest of the scene.
     struct Surroundings
     {
-      bool                     has_fluid;
-      bool                     has_solid;
+      const FluidModel<dim>   *fluid;   ///< nullptr: none
+      const SolidModel<dim>   *solid;   ///< nullptr: none
       std::vector<std::string> effects; ///< names of those that the scene calls for
       std::vector<std::string> scalars; ///< names of the scalar fields that are carried
     };

@@ -65,9 +65,10 @@ namespace undine
     unsigned int axis;
   };
 
-  /// Call `action(boundary, fraction)` for the boundary faces around the boundary point `index` of
-  /// a lattice on `side`; the fractions of the point's share add up to one. A tangential face has
-  /// half of its share on either of two boundary faces.
+  /// Call `action(boundary, fraction, cell)` for the boundary faces around the boundary point
+  /// `index` of a lattice on `side`, with the cell that touches the face; the fractions of the
+  /// point's share add up to one. A tangential face has half of its share on either of two boundary
+  /// faces.
   template <int dim, class Action>
   void
   for_each_boundary_around(const FluidModel<dim> &model,
@@ -77,20 +78,21 @@ namespace undine
                            Action               &&action)
   {
     const auto     cells = model.grid().cells_along();
-    GridIndex<dim> face  = index;
+    GridIndex<dim> cell  = index;
     for (unsigned int d = 0; d < dim; ++d)
       if (!model.grid().periodic(d))
-        face[d] = std::clamp(face[d], 0, cells[d] - 1);
+        cell[d] = std::clamp(cell[d], 0, cells[d] - 1);
     const unsigned int axis = lattice.normal_axis();
     if (axis == Lattice<dim>::no_axis || model.grid().at_boundary(axis, index))
       {
-        action(model.boundaries().at(side, face), 1.);
+        action(model.boundaries().at(side, cell), 1., cell);
         return;
       }
-    const double above = model.grid().cell_width(axis, index[axis]) / 2;
-    const double below = model.grid().cell_width(axis, index[axis] - 1) / 2;
-    action(model.boundaries().at(side, moved<dim>(face, axis, -1)), below / (below + above));
-    action(model.boundaries().at(side, face), above / (below + above));
+    const auto   before = moved<dim>(cell, axis, -1);
+    const double above  = model.grid().cell_width(axis, index[axis]) / 2;
+    const double below  = model.grid().cell_width(axis, index[axis] - 1) / 2;
+    action(model.boundaries().at(side, before), below / (below + above), before);
+    action(model.boundaries().at(side, cell), above / (below + above), cell);
   }
 
   /// Give the stored boundary points of `field` their values at `time`: held, entering with the

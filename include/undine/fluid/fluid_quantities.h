@@ -35,12 +35,18 @@ namespace undine
   double
   largest_speed(const FluidModel<dim> &model, const Velocity<dim> &velocity);
 
-  /// max over cells of sum_d |v_d| / dx_d, [1/s]: the Courant number of a step h is h times this.
+  /// V_c / dx_c [m^(dim-1)] with the smallest width of the cell: a flux of U times this is a
+  /// dimensionless divergence of 1.
   template <int dim>
   double
-  courant_rate(const FluidModel<dim> &model, const Velocity<dim> &velocity);
+  flux_area(const MacGrid<dim> &grid, const GridIndex<dim> &cell);
 
-  /// max over cells of |(D v)_c| dx_c / V_c, [m/s], dx_c the smallest width of the cell.
+  /// max over cells of |(D v)_c| / flux_area, [m/s], from the result of divergence().
+  template <int dim>
+  double
+  largest_divergence(const FluidModel<dim> &model, const std::vector<double> &fluxes);
+
+  /// The same for a velocity.
   template <int dim>
   double
   largest_divergence(const FluidModel<dim> &model, const Velocity<dim> &velocity);
@@ -49,6 +55,11 @@ namespace undine
   template <int dim>
   std::vector<double>
   boundary_fluxes(const FluidModel<dim> &model, const Velocity<dim> &velocity);
+
+  /// What is wrong with the fluxes through the boundaries of a domain without opening, or "".
+  template <int dim>
+  std::string
+  net_flux_complaint(const FluidModel<dim> &model, const Velocity<dim> &velocity);
 
   /// Integral of p n over each boundary, n out of the fluid: the force of the (reduced) pressure on
   /// it, [N]. The pressure is continued linearly from the two nearest cells.

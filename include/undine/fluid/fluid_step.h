@@ -24,15 +24,16 @@ namespace undine
   ///
   /// First order in time: forces act at t^{n+1} as a whole, which damps, and pressure is one
   /// impulse h p. Steady flows, however, hardly depend on h, by two corrections of higher order:
-  ///  - The old pressure gradient that 3 borrows and gives back lets friction see the flow that
-  ///  will
-  ///    be left after 4, not one that still slips along walls: the incremental pressure correction
-  ///    in its rotational form (Guermond, Minev & Shen 2006). q is the state's pressure.
-  ///  - The share c of the parcels' acceleration a is carried along in 1. In a steady flow c = 1/2
-  ///    would be the trapezoidal rule along their paths: v + h a / 2 at the foot is v - h a / 2 at
-  ///    the head. A force -lambda v then multiplies v by (A - (A - 1) c z) / (1 + z) in a step,
-  ///    z = h lambda: up to 2 c for stiff friction and A = -1. c = 0.45 keeps that below one and
-  ///    takes away nine tenths of the error of first order in h.
+  ///
+  /// Friction sees the flow that will be left after 4, not one that still slips along walls: step 3
+  /// borrows the old pressure gradient and gives it back, the incremental pressure correction in
+  /// its rotational form (Guermond, Minev & Shen 2006). q is the state's pressure.
+  ///
+  /// The share c of the parcels' acceleration a is carried along in 1. In a steady flow c = 1/2
+  /// would be the trapezoidal rule along their paths: v + h a / 2 at the foot is v - h a / 2 at the
+  /// head. A force -lambda v then multiplies v by (A - (A - 1) c z) / (1 + z) in a step, z = h
+  /// lambda: up to 2 c for stiff friction and A = -1. c = 0.45 keeps that below one and takes away
+  /// nine tenths of the error of first order in h.
   template <int dim>
   struct FluidStep
   {

@@ -48,6 +48,10 @@ namespace undine
     void
     assemble(const double dt);
 
+    /// Relaxation, or multigrid where a step reaches over many cells.
+    void
+    set_up_preconditioner(const double dt);
+
     /// V s* + h nu k_b s_b, in the order of Field::owned_values(). One ghost layer must be up to
     /// date.
     std::vector<double>
@@ -59,7 +63,7 @@ namespace undine
     double                                                      diffusivity;
     double                                                      assembled_dt = 0; ///< [s]
     dealii::TrilinosWrappers::SparseMatrix                      matrix;
-    std::unique_ptr<dealii::TrilinosWrappers::PreconditionSSOR> preconditioner;
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionBase> preconditioner;
   };
 } // namespace undine
 

@@ -110,18 +110,6 @@ namespace undine
     }
 
     IndexBox
-    shifted(const GridIndex<dim> &distance) const
-    {
-      IndexBox result = *this;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          result.lower[d] += distance[d];
-          result.upper[d] += distance[d];
-        }
-      return result;
-    }
-
-    IndexBox
     intersection(const IndexBox &other) const
     {
       IndexBox result;

@@ -91,9 +91,6 @@ namespace undine
     GridIndex<dim>
     planes_crossed(const dealii::Tensor<1, dim> &distance) const;
 
-    double
-    smallest_width() const;
-
   private:
     Planes                                               plane_positions;
     dealii::Point<dim>                                   lower_corner, upper_corner;

@@ -71,6 +71,10 @@ namespace undine
   std::string
   read_file(const std::filesystem::path &path);
 
+  /// The number that a line of the file at `path` begins with. Throws FileError if there is none.
+  double
+  leading_number(const std::string &line, const std::filesystem::path &path);
+
   /// A file that all ranks write at places of their own, each for itself. (MPI's files are no help
   /// here: Open MPI says nothing of a write that a full disk cut short.)
   class SharedFile

@@ -12,8 +12,8 @@ namespace undine
   ///     s1 = A(s^n),  s0 = A^-1(s1),  s^{n+1} = s1 + (s^n - s0) / 2
   ///
   /// for fields with a maximum principle limited to the bounds of the samples that made s1. Second
-  /// order in space (Selle, Fedkiw, Kim,
-  /// Liu, Rossignac 2008). Plain semi-Lagrangian where a path ends at an opening or inflow.
+  /// order in space (Selle, Fedkiw, Kim, Liu, Rossignac 2008). Plain semi-Lagrangian where a path
+  /// ends at an opening or inflow.
   template <int dim>
   class MacCormack : public Advection<dim>
   {

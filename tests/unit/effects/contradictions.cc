@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/solid/solid_model.h>
+
 #include <catch2/catch.hpp>
 #include <effects/flow_run.h>
 
@@ -6,6 +8,14 @@ using namespace undine_tests;
 
 namespace
 {
+  const std::string body =
+    section("Bodies",
+            section("block",
+                    "set Shape = box\nset Lower corner = 0, 0\nset Upper corner = 1, 1\n"
+                    "set Cells = 1, 1\nset Density = 1\nset Material = linear elastic\n"
+                    "set Young's modulus = 1\nset Poisson's ratio = 0.3"));
+
+
   /// What check() of the effect `name` says when the scene's effects are `text`.
   std::string
   complaint(const std::string &name,
@@ -13,12 +23,16 @@ namespace
             const bool         has_fluid,
             const bool         has_solid)
   {
-    const auto options = read_scene_text(section("Effects", text));
+    const auto options =
+      read_scene_text(std::string(FluidText{"4, 4"}) + body + section("Effects", text));
     return message_of([&] {
       const auto              effects = make_effects<2>(options);
-      Effect<2>::Surroundings around{has_fluid, has_solid, {}, {}};
-      const Effect<2>        *asked = nullptr;
-      auto                    names = options.section("Effects").named_sections("effect");
+      const FluidModel<2>     fluid(options, MPI_COMM_WORLD);
+      const SolidModel<2>     solid(options, MPI_COMM_WORLD);
+      Effect<2>::Surroundings around{
+        has_fluid ? &fluid : nullptr, has_solid ? &solid : nullptr, {}, {}};
+      const Effect<2> *asked = nullptr;
+      auto             names = options.section("Effects").named_sections("effect");
       std::sort(names.begin(), names.end());
       for (unsigned int e = 0; e < effects.size(); ++e)
         {
@@ -64,6 +78,18 @@ TEST_CASE("effects that contradict the scene are refused with a hint", "[effects
   check_contains(complaint("scalar transport", section("scalar transport", ""), true, false),
                  "no field to carry",
                  "subsection");
+  check_contains(
+    complaint("scalar transport",
+              section("scalar transport", section("heat", "set Held boundaries = lid")),
+              true,
+              false),
+    "no boundary named 'lid'",
+    "'other sides'");
+  check_contains(
+    complaint(
+      "scalar transport", section("scalar transport", section("pressure", "")), true, false),
+    "another field",
+    "'smoke'");
   check_contains(complaint("damping", section("damping", "set Mass coefficient = 1"), true, false),
                  "bodies",
                  "Remove");
@@ -87,13 +113,6 @@ TEST_CASE("keys without a sensible default must be given", "[effects]")
   check_contains(why(section("scalar transport", section("heat", "set Held value = 1"))),
                  "no boundary",
                  "'Held boundaries'");
-  check_contains(message_of([] {
-                   FlowRun<2>(
-                     FluidText{"4, 4"},
-                     section("scalar transport", section("heat", "set Held boundaries = lid")));
-                 }),
-                 "no boundary named 'lid'",
-                 "'other sides'");
 }
 
 
