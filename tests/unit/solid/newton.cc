@@ -112,19 +112,31 @@ TEST_CASE("Newton's method converges quadratically on bodies", "[solid]")
       INFO(material);
       SolidEnvironment<2> gravity;
       gravity.gravity[1] = -0.1;
-      Solid<2>    solid(one_body("set Upper corner = 2, 1\n set Cells = 4, 2\n set Density = 1\n"
-                                 "set Young's modulus = 10\n set Poisson's ratio = 0.3\n"
-                                 "set Material = " +
+      Solid<2>   solid(one_body("set Upper corner = 2, 1\n set Cells = 4, 2\n set Density = 1\n"
+                                "set Young's modulus = 10\n set Poisson's ratio = 0.3\n"
+                                "set Material = " +
                                 material,
                               boundary("root", "set Sides = left"),
                               "set Time integrator = static"),
                      gravity);
-      const auto &residuals = solid.advance(1).newton.residuals;
-      REQUIRE(residuals.size() >= 2);
+      const auto residuals = solid.advance(1).newton.residuals;
       CHECK(residuals.size() <= 9);
-      // Of the last correction before rounding: |r_k+1| <= C |r_k|^2 with C of order one here.
-      const double last = residuals.back(), before = residuals[residuals.size() - 2];
-      CHECK(last <= std::max(100 * before * before, 1e-13));
+      if (material == "linear elastic")
+        {
+          CHECK(residuals.size() == 2);
+          continue;
+        }
+      // |r_k+1| <= C |r_k|^2 with C = 50 / N as soon as |r_k| < 0.3 N, down to rounding. A tangent
+      // that is wrong by a thousandth misses this at |r_k| = 1e-6 N by a factor of twenty.
+      unsigned int corrections = 0;
+      for (unsigned int k = 1; k + 1 < residuals.size(); ++k)
+        if (residuals[k] < 0.3)
+          {
+            INFO(residuals[k] << " -> " << residuals[k + 1]);
+            CHECK(residuals[k + 1] <= std::max(50 * residuals[k] * residuals[k], 1e-13));
+            ++corrections;
+          }
+      CHECK(corrections >= 3);
     }
 }
 
