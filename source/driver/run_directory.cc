@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/version.h>
 #include <undine/driver/run_directory.h>
+#include <undine/solid/locking.h>
 
 #include <algorithm>
 #include <fstream>
@@ -134,6 +135,9 @@ namespace undine
       log.print("bodies: {} elements, {} velocity unknowns",
                 scene.models.solid->triangulation().n_global_active_cells(),
                 scene.models.solid->dof_handler().n_dofs());
+    if (scene.models.solid)
+      for (const auto &warning : locking_warnings(*scene.models.solid))
+        log.print("warning: {}", warning);
     if (scene.models.fluid)
       log.print("fluid: {} cells", scene.models.fluid->grid().n_cells());
   }
