@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace undine
 {
@@ -30,7 +32,8 @@ namespace undine
   ///  3. fluid: projection; v* becomes v^{n+1}, p
   ///
   /// A step that fails is redone from the saved state with half its length, a stated number of
-  /// times.
+  /// times. The next step has the length that went well, and those after it double it up to the
+  /// length asked for; a resumed run begins with the latter.
   template <int dim>
   class Simultaneous : public Scheme<dim>
   {
@@ -57,7 +60,7 @@ namespace undine
 
       Report report;
       if (solid)
-        solid->initialize(state, report);
+        solid->initialize(state, choose_dt(state), report);
       if (fluid)
         fluid->initialize(state, report);
       return report;
@@ -66,7 +69,7 @@ namespace undine
     double
     choose_dt(const State<dim> &state) const override
     {
-      return state.clock.land(asked_step);
+      return state.clock.land(std::min(asked_step, allowed_step));
     }
 
     Report
@@ -82,6 +85,7 @@ namespace undine
             if (fluid)
               fluid->step(state, report);
             assert_finite(report.columns);
+            allowed_step = report.cuts > 0 ? report.dt : 2 * allowed_step;
             return report;
           }
         catch (const SolveError &error)
@@ -102,6 +106,7 @@ namespace undine
   private:
     double                           asked_step   = 0.01; // [s]
     unsigned int                     maximum_cuts = 3;
+    double                           allowed_step = std::numeric_limits<double>::infinity(); // [s]
     std::unique_ptr<SolidAlone<dim>> solid;
     std::unique_ptr<FluidAlone<dim>> fluid;
   };

@@ -26,18 +26,17 @@ namespace undine
 
   template <int dim>
   void
-  SolidAlone<dim>::initialize(State<dim> &state, Report &report) const
+  SolidAlone<dim>::initialize(State<dim> &state, const double dt, Report &report) const
   {
-    state.solid = solid_step.initialize(environment, state.clock.time);
-    append(report.columns,
-           solid_columns(
-             model, solid_step.mass(), environment, state.solid, state.clock.time, model.vector()));
+    const double time = state.clock.time;
+    state.solid       = solid_step.initialize(environment, time, dt);
+    append(report.columns, solid_columns(model, solid_step, environment, state.solid, time));
   }
 
 
   template <int dim>
   void
-  SolidAlone<dim>::step(State<dim> &state, Report &report) const
+  SolidAlone<dim>::step(State<dim> &state, Report &report)
   {
     const double time  = state.clock.time;
     const auto   solid = solid_step.step(state.solid, environment, time, report.dt, timing);
@@ -48,10 +47,8 @@ namespace undine
     if (!residuals.empty() && residuals.front() > 0)
       report.newton_reduction = residuals.back() / residuals.front();
     const auto measured = timing.section("measure");
-    append(
-      report.columns,
-      solid_columns(
-        model, solid_step.mass(), environment, state.solid, time + report.dt, solid.reactions));
+    append(report.columns,
+           solid_columns(model, solid_step, environment, state.solid, time + report.dt, solid));
   }
 
 

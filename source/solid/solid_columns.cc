@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace undine
 {
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
@@ -179,30 +181,65 @@ namespace undine
 
 
   template <int dim>
+  std::vector<double>
+  maximum_speeds(const SolidModel<dim> &model, const Vector &velocity)
+  {
+    const auto         &geometry = model.geometry();
+    const Vector        ghosted  = model.ghosted(velocity);
+    std::vector<double> u(geometry.n_nodes() * dim);
+    std::vector<double> result(model.bodies().size(), 0.);
+    for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
+      {
+        ghosted.extract_subvector_to(geometry.dofs(cell), u);
+        double &largest = result[geometry.body(cell)];
+        for (unsigned int node = 0; node < geometry.n_nodes(); ++node)
+          {
+            dealii::Tensor<1, dim> at_node;
+            for (unsigned int axis = 0; axis < dim; ++axis)
+              at_node[axis] = u[node * dim + axis];
+            largest = std::max(largest, at_node.norm());
+          }
+      }
+    for (auto &largest : result)
+      largest = dealii::Utilities::MPI::max(largest, model.communicator());
+    return result;
+  }
+
+
+  template <int dim>
   Columns
   solid_columns(const SolidModel<dim>       &model,
-                const Matrix                &mass,
+                const SolidStep<dim>        &step,
                 const SolidEnvironment<dim> &environment,
                 const SolidState            &state,
                 const double                 time,
-                const Vector                &reactions)
+                const SolidReport           &report)
   {
-    Columns columns;
-    columns.push_back({"solid kinetic energy", "J", kinetic_energy(model, mass, state.velocity)});
-    columns.push_back({"solid elastic energy", "J", elastic_energy(model, state.displacement)});
-    columns.push_back(
-      {"solid load potential", "J", load_potential(model, environment, state.displacement, time)});
+    Columns    columns;
+    const auto add = [&](const std::string &name, const std::string &unit, const double value) {
+      columns.push_back({name, unit, value});
+    };
+    add("solid kinetic energy", "J", kinetic_energy(model, step.mass(), state.velocity));
+    add("solid elastic energy", "J", elastic_energy(model, state.displacement));
+    add("solid load potential", "J", load_potential(model, environment, state.displacement, time));
     add_vector(columns, "solid momentum", "kg m/s", linear_momentum(model, state.velocity));
     const auto measures = measure_bodies(model, state.displacement);
-    const auto supports = support_forces(model, reactions);
+    const auto speeds   = maximum_speeds(model, state.velocity);
+    const auto supports = support_forces(model, report.reactions);
     for (unsigned int b = 0; b < model.bodies().size(); ++b)
       {
-        const auto &body = model.bodies()[b];
-        columns.push_back({"volume " + body.name, fmt::format("m^{}", dim), measures[b].volume});
+        const auto  &body   = model.bodies()[b];
+        const double volume = measures[b].volume;
+        add("volume " + body.name, fmt::format("m^{}", dim), volume);
+        add("volume drift " + body.name, "1", volume / step.initial_volumes()[b] - 1);
         add_vector<dim>(columns,
                         "centre of mass " + body.name,
                         "m",
                         dealii::Tensor<1, dim>(measures[b].centre_of_mass));
+        add("max speed " + body.name, "m/s", speeds[b]);
+        add("momentum residual " + body.name,
+            "1",
+            report.momentum_residuals.empty() ? 0 : report.momentum_residuals[b]);
         for (unsigned int boundary = 0; boundary < body.boundaries.size(); ++boundary)
           if (body.boundaries[boundary].fixes_displacement())
             add_vector(columns,
@@ -222,12 +259,13 @@ namespace undine
   template dealii::Tensor<1, 3>   angular_momentum(                                               \
       const SolidModel<dim> &, const Vector &, const Vector &);                                   \
   template std::vector<BodyMeasure<dim>> measure_bodies(const SolidModel<dim> &, const Vector &); \
+  template std::vector<double>           maximum_speeds(const SolidModel<dim> &, const Vector &); \
   template Columns                       solid_columns(const SolidModel<dim> &,                   \
-                                                       const Matrix &,                            \
+                                                       const SolidStep<dim> &,                    \
                                                        const SolidEnvironment<dim> &,             \
                                                        const SolidState &,                        \
                                                        double,                                    \
-                                                       const Vector &);
+                                                       const SolidReport &);
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

@@ -32,6 +32,7 @@ namespace undine
     , coefficients(model.numerics().integrator->coefficients(dt))
     , has_pressure(has_pressure_loads(model))
     , own_rounding(rounding_of_forces(model, old_state.displacement))
+    , dead(model.vector())
     , known(model.vector())
   {
     const auto timed = timing.section("assemble forces");
@@ -65,6 +66,20 @@ namespace undine
   SolidEquations<dim>::note_size(const Vector &term, const double factor)
   {
     largest_term = std::max(largest_term, std::abs(factor) * term.l2_norm());
+  }
+
+
+  /// M (m u + m_u u^n + m_a a^n).
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::inertia(const Vector &velocity) const
+  {
+    Vector change = model.vector(), result = model.vector();
+    change.add(coefficients.mass, velocity, coefficients.mass_old_velocity, old_state.velocity);
+    if (coefficients.mass_old_acceleration != 0)
+      change.add(coefficients.mass_old_acceleration, old_state.acceleration);
+    mass.vmult(result, change);
+    return result;
   }
 
 
@@ -113,30 +128,23 @@ namespace undine
   SolidEquations<dim>::find_known_forces()
   {
     if (coefficients.mass != 0)
-      {
-        Vector velocity = model.vector();
-        velocity.add(coefficients.mass_old_velocity, old_state.velocity);
-        if (coefficients.mass_old_acceleration != 0)
-          velocity.add(coefficients.mass_old_acceleration, old_state.acceleration);
-        mass.vmult(known, velocity);
-        note_size(known, 1);
-        own_rounding += std::numeric_limits<double>::epsilon() * known.l2_norm();
-      }
+      own_rounding += std::numeric_limits<double>::epsilon() * inertia(model.vector()).l2_norm();
     if (coefficients.damping_old_velocity != 0)
       add_damping(known, old_state.velocity, coefficients.damping_old_velocity);
     for (const auto &stage : coefficients.stages)
       {
         const Vector loads = dead_loads(model, environment, time + stage.position * dt);
         note_size(loads, stage.weight);
-        known.add(-stage.weight, loads);
+        dead.add(stage.weight, loads);
         if (stage.position == 0)
           add_stage(known, stage, old_state.displacement);
       }
     if (nodal_forces.size() > 0)
       {
         note_size(nodal_forces, 1);
-        known.add(-1., nodal_forces);
+        dead.add(1., nodal_forces);
       }
+    known.add(-1., dead);
     largest_known = largest_term;
   }
 
@@ -208,10 +216,9 @@ namespace undine
     largest_term      = largest_known;
     if (coefficients.mass != 0)
       {
-        Vector inertia = model.vector();
-        mass.vmult(inertia, velocity);
-        note_size(inertia, coefficients.mass);
-        result.add(coefficients.mass, inertia);
+        const Vector change = inertia(velocity);
+        note_size(change, 1);
+        result.add(1., change);
       }
     if (coefficients.damping != 0)
       add_damping(result, velocity, coefficients.damping);

@@ -5,9 +5,9 @@
 #include <undine/solid/mass_matrix.h>
 #include <undine/solid/mass_solve.h>
 #include <undine/solid/prescribed_motion.h>
+#include <undine/solid/solid_columns.h>
 #include <undine/solid/solid_equations.h>
 #include <undine/solid/solid_step.h>
-#include <undine/solid/tangent_solver.h>
 
 namespace undine
 {
@@ -20,12 +20,16 @@ namespace undine
     public:
       using Unknown = typename SolidModel<dim>::Vector;
 
-      StepProblem(const SolidModel<dim> &model, SolidEquations<dim> &equations, TimingTree &timing)
+      StepProblem(SolidEquations<dim> &equations,
+                  TangentSolver<dim>  &solver,
+                  const double         tolerance,
+                  TimingTree          &timing)
         : equations(equations)
-        , solver(model)
-        , tolerance(model.numerics().newton.relative_tolerance)
+        , solver(solver)
+        , tolerance(tolerance)
         , timing(timing)
       {
+        solver.start_counting();
       }
 
       double
@@ -73,15 +77,9 @@ namespace undine
         return solver.iterations();
       }
 
-      const std::string &
-      note() const
-      {
-        return solver.note();
-      }
-
     private:
       SolidEquations<dim> &equations;
-      TangentSolver<dim>   solver;
+      TangentSolver<dim>  &solver;
       const double         tolerance;
       TimingTree          &timing;
       Unknown              residual;
@@ -177,7 +175,12 @@ namespace undine
   SolidStep<dim>::SolidStep(const SolidModel<dim> &model)
     : model(model)
     , mass_matrix(undine::mass_matrix(model))
+    , solver(model)
   {
+    SolidState start{model.vector(), model.vector(), model.vector()};
+    set_initial(start, model);
+    for (const auto &body : measure_bodies(model, start.displacement))
+      volumes.push_back(body.volume);
   }
 
 
@@ -190,17 +193,26 @@ namespace undine
 
 
   template <int dim>
-  SolidState
-  SolidStep<dim>::initialize(const SolidEnvironment<dim> &environment, const double time) const
+  const std::vector<double> &
+  SolidStep<dim>::initial_volumes() const
   {
-    const double instant = 1e-3; // [s], for the derivatives of prescribed motions at the start
-    SolidState   state{model.vector(), model.vector(), model.vector()};
+    return volumes;
+  }
+
+
+  template <int dim>
+  SolidState
+  SolidStep<dim>::initialize(const SolidEnvironment<dim> &environment,
+                             const double                 time,
+                             const double                 dt) const
+  {
+    SolidState state{model.vector(), model.vector(), model.vector()};
     set_initial(state, model);
-    prescribe_velocity(state.velocity, model, time, instant);
+    prescribe_velocity(state.velocity, model, time, dt);
     if (model.numerics().integrator->uses_acceleration())
       {
         auto fixed = model.vector();
-        prescribe_acceleration(fixed, model, time, instant);
+        prescribe_acceleration(fixed, model, time, dt);
         state.acceleration =
           solve_mass(model,
                      mass_matrix,
@@ -218,19 +230,20 @@ namespace undine
                        const double                 time,
                        const double                 dt,
                        TimingTree                  &timing,
-                       const Vector                &nodal_forces) const
+                       const Vector                &nodal_forces)
   {
     const auto          timed = timing.section("solid");
     SolidEquations<dim> equations(
       model, mass_matrix, state, environment, time, dt, timing, nodal_forces);
-    StepProblem<dim> problem(model, equations, timing);
+    StepProblem<dim> problem(equations, solver, model.numerics().newton.relative_tolerance, timing);
     auto             velocity = model.vector();
 
     SolidReport report;
-    report.newton    = solve_step(velocity, problem, equations, model.numerics().newton);
-    report.reactions = equations.reactions(velocity);
-    report.note      = problem.note();
-    state            = equations.end_state(velocity);
+    report.newton             = solve_step(velocity, problem, equations, model.numerics().newton);
+    report.reactions          = equations.reactions(velocity);
+    report.note               = solver.note();
+    report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
+    state                     = equations.end_state(velocity);
     return report;
   }
 

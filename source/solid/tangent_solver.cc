@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/errors.h>
 #include <undine/solid/loads.h>
 #include <undine/solid/rigid_motions.h>
+#include <undine/solid/sparse.h>
 #include <undine/solid/tangent_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_solver.h>
 
-#include <Amesos.h>
 #include <Teuchos_ParameterList.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace undine
 {
   namespace
   {
-    /// Smoothed aggregation for the symmetric part of A.
+    /// Smoothed aggregation. A has to live as long as the result.
     template <int dim>
     void
     initialize_multigrid(dealii::TrilinosWrappers::PreconditionAMG    &multigrid,
@@ -42,35 +41,6 @@ namespace undine
       parameters.set("null space: vectors", motions.Values());
       parameters.set("null space: add default vectors", false);
       multigrid.initialize(A, parameters);
-    }
-
-
-    template <class Solver, int dim>
-    unsigned int
-    iterate(typename SolidModel<dim>::Vector                &x,
-            const dealii::TrilinosWrappers::SparseMatrix    &A,
-            const typename SolidModel<dim>::Vector          &b,
-            const SolidModel<dim>                           &model,
-            const dealii::TrilinosWrappers::PreconditionAMG &multigrid,
-            const double                                     negligible,
-            const typename Solver::AdditionalData           &data = {})
-    {
-      const unsigned int    maximum_iterations = 300;
-      dealii::SolverControl control(
-        maximum_iterations, std::max(negligible, model.numerics().linear_tolerance * b.l2_norm()));
-      Solver(control, data).solve(A, x, b, multigrid);
-      return control.last_step();
-    }
-
-
-    /// KLU has the smaller overhead, MUMPS works on blocks.
-    dealii::TrilinosWrappers::SolverDirect::AdditionalData
-    factorisation(const unsigned int n_unknowns)
-    {
-      const unsigned int few   = 2000;
-      const bool         mumps = n_unknowns > few && Amesos().Query("Amesos_Mumps");
-      return dealii::TrilinosWrappers::SolverDirect::AdditionalData(
-        false, mumps ? "Amesos_Mumps" : "Amesos_Klu");
     }
   } // namespace
 
@@ -107,48 +77,90 @@ namespace undine
                             const Vector &displacement,
                             const double  negligible)
   {
-    if (is_direct())
-      return solve_directly(A, b);
-    auto                                      motions = rigid_motions(model, displacement);
-    dealii::TrilinosWrappers::PreconditionAMG multigrid;
-    initialize_multigrid(multigrid, A, model, motions);
-    using ConjugateGradients = dealii::SolverCG<Vector>;
-    using GMRES              = dealii::SolverGMRES<Vector>;
-    const typename GMRES::AdditionalData true_residual(100, true); // preconditioned from the right
-    Vector                               x = model.vector();
-    try
+    if (!is_direct())
       {
-        all_iterations += symmetric
-                            ? iterate<ConjugateGradients>(x, A, b, model, multigrid, negligible)
-                            : iterate<GMRES>(x, A, b, model, multigrid, negligible, true_residual);
-        return x;
-      }
-    catch (const dealii::SolverControl::NoConvergence &failure)
-      {
-        all_iterations += failure.last_step;
+        // First with the hierarchy of an earlier matrix, if there is one.
+        Vector x = model.vector();
+        if (multigrid && iterate(x, A, b, negligible))
+          return x;
+        renew_multigrid(A, displacement);
+        x = 0;
+        if (multigrid && iterate(x, A, b, negligible))
+          return x;
+        multigrid.reset();
         all_notes = "multigrid did not converge (the tangent is indefinite, or cells are badly "
                     "shaped): solved directly";
-        return solve_directly(A, b);
       }
+    factorisation.factorise(A);
+    return factorisation.solve(b);
+  }
+
+
+  /// Leaves no hierarchy if none can be made.
+  template <int dim>
+  void
+  TangentSolver<dim>::renew_multigrid(const Matrix &A, const Vector &displacement)
+  {
+    bool failed = false;
+    try
+      {
+        multigrid = std::make_unique<Multigrid>();
+        multigrid->matrix.reinit(A);
+        add_matrix(multigrid->matrix, 1, A);
+        auto motions = rigid_motions(model, displacement);
+        failed       = !std::isfinite(A.frobenius_norm());
+        if (!failed)
+          initialize_multigrid(multigrid->hierarchy, multigrid->matrix, model, motions);
+      }
+    catch (const std::exception &)
+      {
+        failed = true;
+      }
+    if (dealii::Utilities::MPI::max(int(failed), model.communicator()) > 0)
+      multigrid.reset();
   }
 
 
   template <int dim>
-  typename TangentSolver<dim>::Vector
-  TangentSolver<dim>::solve_directly(const Matrix &A, const Vector &b) const
+  bool
+  TangentSolver<dim>::iterate(Vector &x, const Matrix &A, const Vector &b, const double negligible)
   {
-    dealii::SolverControl control;
-    Vector                x = model.vector();
+    const unsigned int    maximum_iterations = 300;
+    const double          relative           = model.numerics().linear_tolerance;
+    const double          tolerance          = std::max(negligible, relative * b.l2_norm());
+    dealii::SolverControl control(maximum_iterations, tolerance);
+    bool                  failed = false;
     try
       {
-        dealii::TrilinosWrappers::SolverDirect(control, factorisation(A.m())).solve(A, x, b);
+        using GMRES = dealii::SolverGMRES<Vector>;
+        if (symmetric)
+          dealii::SolverCG<Vector>(control).solve(A, x, b, multigrid->hierarchy);
+        else
+          GMRES(control, typename GMRES::AdditionalData(100, true)) // preconditioned from the right
+            .solve(A, x, b, multigrid->hierarchy);
       }
-    catch (const dealii::ExceptionBase &)
+    catch (const std::exception &)
       {
-        throw SolveError("the matrix of the bodies is singular or not a number. Try: clamps that "
-                         "leave no rigid motion (static), or a smaller step.");
+        failed = true;
       }
-    return x;
+    all_iterations += control.last_step();
+    if (dealii::Utilities::MPI::max(int(failed), model.communicator()) > 0)
+      return false;
+    unsigned int &first = multigrid->first_iterations;
+    if (first == 0)
+      first = std::max(control.last_step(), 1u);
+    else if (control.last_step() > first + first / 2 + 2)
+      multigrid.reset();
+    return true;
+  }
+
+
+  template <int dim>
+  void
+  TangentSolver<dim>::start_counting()
+  {
+    all_iterations = 0;
+    all_notes.clear();
   }
 
 

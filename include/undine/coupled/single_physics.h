@@ -19,12 +19,13 @@ namespace undine
     /// The references must outlive it. Collective.
     SolidAlone(const Models<dim> &models, TimingTree &timing);
 
+    /// `dt` [s] is the length of the first step.
     void
-    initialize(State<dim> &state, Report &report) const;
+    initialize(State<dim> &state, double dt, Report &report) const;
 
     /// A step of report.dt [s]. Throws SolveError; the state may then be half advanced.
     void
-    step(State<dim> &state, Report &report) const;
+    step(State<dim> &state, Report &report);
 
   private:
     const SolidModel<dim> &model;

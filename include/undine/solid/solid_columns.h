@@ -6,6 +6,7 @@
 #include <undine/solid/solid_environment.h>
 #include <undine/solid/solid_model.h>
 #include <undine/solid/solid_state.h>
+#include <undine/solid/solid_step.h>
 
 #include <vector>
 
@@ -52,24 +53,31 @@ namespace undine
     dealii::Point<dim> centre_of_mass; ///< deformed [m]
   };
 
-  /// One for each body.
+  /// One for each body. Throws nothing, whatever the displacement.
   template <int dim>
   std::vector<BodyMeasure<dim>>
   measure_bodies(const SolidModel<dim>                       &model,
                  const dealii::TrilinosWrappers::MPI::Vector &displacement);
+
+  /// The largest |u| of the nodes of each body [m/s].
+  template <int dim>
+  std::vector<double>
+  maximum_speeds(const SolidModel<dim>                       &model,
+                 const dealii::TrilinosWrappers::MPI::Vector &velocity);
   /// @}
 
-  /// Energies, momenta, volume and centre of mass of every body, and the force of every support
-  /// ("reaction beam/root x") from SolidReport::reactions, zero if that is empty. In 2D energies
-  /// and forces are those of 1 m of depth. Collective.
+  /// Energies and momentum; volume, its drift (V / V(t = 0) - 1), centre of mass, largest speed and
+  /// balance of momentum of every body; and the force of every support ("reaction beam/root x").
+  /// `report` is that of the step that led to `state`: without one, balances and reactions are
+  /// zero. In 2D energies and forces are those of 1 m of depth. Collective.
   template <int dim>
   Columns
-  solid_columns(const SolidModel<dim>                        &model,
-                const dealii::TrilinosWrappers::SparseMatrix &mass,
-                const SolidEnvironment<dim>                  &environment,
-                const SolidState                             &state,
-                double                                        time,
-                const dealii::TrilinosWrappers::MPI::Vector  &reactions);
+  solid_columns(const SolidModel<dim>       &model,
+                const SolidStep<dim>        &step,
+                const SolidEnvironment<dim> &environment,
+                const SolidState            &state,
+                double                       time,
+                const SolidReport           &report = {});
 } // namespace undine
 
 #endif

@@ -68,6 +68,12 @@ namespace undine
     Vector
     reactions(const Vector &velocity);
 
+    /// For each body |sum over its degrees of freedom of M (m u + m_u u^n + m_a a^n) +
+    /// alpha M (c u + c_u u^n) - loads - supports| / scale [1]: the balance of linear momentum, in
+    /// which inner forces cancel. `reactions` are those of the same u.
+    std::vector<double>
+    momentum_residuals(const Vector &velocity, const Vector &reactions) const;
+
     /// d residual / du [kg/s], with a diagonal of its own size at fixed degrees of freedom.
     Matrix
     jacobian(const Vector &velocity) const;
@@ -101,6 +107,8 @@ namespace undine
     full_residual(const Vector &velocity);
     Vector
     stage_displacement(const Vector &end_displacement, double position) const;
+    Vector
+    inertia(const Vector &velocity) const;
     void
     add_damping(Vector &forces, const Vector &velocity, double factor) const;
     void
@@ -130,7 +138,8 @@ namespace undine
     double                       largest_known = 0; ///< size of the terms without u [N]
     double                       largest_term  = 0; ///< of all terms [N]
     double                       own_rounding;      ///< [N]
-    Vector                       known;             ///< terms of the residual without u [N]
+    Vector                       dead;              ///< loads that do not depend on u, weighted [N]
+    Vector                       known; ///< terms of the residual without u, but for inertia [N]
   };
 } // namespace undine
 

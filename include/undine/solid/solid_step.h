@@ -7,6 +7,7 @@
 #include <undine/solid/solid_environment.h>
 #include <undine/solid/solid_model.h>
 #include <undine/solid/solid_state.h>
+#include <undine/solid/tangent_solver.h>
 
 #include <string>
 
@@ -20,6 +21,10 @@ namespace undine
     /// Forces of supports on the bodies [N] at fixed degrees of freedom, at the time level at which
     /// the integrator balances forces; zero elsewhere.
     dealii::TrilinosWrappers::MPI::Vector reactions;
+
+    /// For each body the force that the balance of its linear momentum over the step lacks [1], of
+    /// the size of the forces by which Newton's method is stopped (SolidEquations::scale).
+    std::vector<double> momentum_residuals;
 
     /// What was unusual: "the tangent is indefinite: solved directly". Empty if nothing was.
     std::string note;
@@ -37,9 +42,10 @@ namespace undine
     explicit SolidStep(const SolidModel<dim> &model);
 
     /// The state at `time` [s]: displacements and velocities from the scene's expressions, and for
-    /// the integrators that use it the acceleration that the loads give. Collective.
+    /// the integrators that use it the acceleration that the loads give. `dt` [s] is the step that
+    /// will follow: prescribed motions are differentiated within it. Collective.
     SolidState
-    initialize(const SolidEnvironment<dim> &environment, double time) const;
+    initialize(const SolidEnvironment<dim> &environment, double time, double dt) const;
 
     /// From `time` to `time + dt` [s]. `nodal_forces` [N], if not empty, act during the whole step
     /// (SolidEquations). Collective. Throws SolveError; the state is then unchanged.
@@ -54,15 +60,21 @@ namespace undine
          double                       time,
          double                       dt,
          TimingTree                  &timing,
-         const Vector                &nodal_forces = {}) const;
+         const Vector                &nodal_forces = {});
 
     /// M [kg].
     const Matrix &
     mass() const;
 
+    /// Of each body at t = 0 [m^dim].
+    const std::vector<double> &
+    initial_volumes() const;
+
   private:
     const SolidModel<dim> &model;
     const Matrix           mass_matrix;
+    std::vector<double>    volumes; ///< at t = 0
+    TangentSolver<dim>     solver;
   };
 } // namespace undine
 

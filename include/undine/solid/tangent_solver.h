@@ -2,17 +2,23 @@
 #ifndef undine_solid_tangent_solver_h
 #define undine_solid_tangent_solver_h
 
+#include <undine/solid/factorisation.h>
 #include <undine/solid/solid_model.h>
 
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <memory>
 #include <string>
 
 namespace undine
 {
   /// Solves linear systems with the Jacobian of the bodies' equations, as `Linear solver` says: by
-  /// factorisation (MUMPS or KLU through Amesos), or by conjugate gradients with smoothed
-  /// aggregation (ML) that knows the rigid-body motions. Where the tangent is not positive
-  /// definite, or where follower pressures make it unsymmetric, the second gives way to GMRES and
-  /// then to the first.
+  /// factorisation, or by conjugate gradients with smoothed aggregation (ML) that knows the
+  /// rigid-body motions. Where follower pressures make the tangent unsymmetric, GMRES takes the
+  /// place of conjugate gradients. An iteration that does not converge, as when the tangent is not
+  /// positive definite, gives way to the factorisation. The analysis of the sparsity pattern and
+  /// the multigrid hierarchy are kept from one system to the next; the hierarchy is renewed when
+  /// the number of iterations has grown by half.
   template <int dim>
   class TangentSolver
   {
@@ -24,29 +30,47 @@ namespace undine
     explicit TangentSolver(const SolidModel<dim> &model);
 
     /// A^{-1} b, or if A is solved iteratively, up to a residual |A x - b| that is `negligible`
-    /// [N]. `displacement` [m] says where the bodies are. Collective. Throws SolveError if A is
-    /// singular.
+    /// [N]. `displacement` [m] says where the bodies are. Collective. Throws SolveError on all
+    /// ranks if A is singular or not a number.
     Vector
     solve(const Matrix &A, const Vector &b, const Vector &displacement, double negligible = 0);
 
-    /// Of the iterative solver, so far.
+    /// Forget iterations() and note(), but not what helps to solve the next system.
+    void
+    start_counting();
+
+    /// Of the iterative solver, since start_counting().
     unsigned int
     iterations() const;
 
-    /// What was unusual so far; empty if nothing was.
+    /// What was unusual since then; empty if nothing was.
     const std::string &
     note() const;
 
   private:
+    /// A preconditioner, and the matrix that it was made for.
+    struct Multigrid
+    {
+      Matrix                                    matrix;
+      dealii::TrilinosWrappers::PreconditionAMG hierarchy;
+      unsigned int first_iterations = 0; ///< when it was new; 0: is new
+    };
+
     bool
     is_direct() const;
-    Vector
-    solve_directly(const Matrix &A, const Vector &b) const;
+    void
+    renew_multigrid(const Matrix &A, const Vector &displacement);
 
-    const SolidModel<dim> &model;
-    const bool             symmetric;
-    unsigned int           all_iterations = 0;
-    std::string            all_notes;
+    /// Improve x. False, on all ranks, if the iteration does not converge.
+    bool
+    iterate(Vector &x, const Matrix &A, const Vector &b, double negligible);
+
+    const SolidModel<dim>     &model;
+    const bool                 symmetric;
+    Factorisation              factorisation;
+    std::unique_ptr<Multigrid> multigrid;
+    unsigned int               all_iterations = 0;
+    std::string                all_notes;
   };
 } // namespace undine
 

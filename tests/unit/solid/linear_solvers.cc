@@ -17,26 +17,31 @@ namespace
 {
   template <int dim>
   std::string
-  beam(const std::string &solver, const unsigned int cells, const std::string &sides = "left")
+  beam(const std::string &solver, const unsigned int cells, const std::string &modulus = "1000")
   {
     return one_body(
       fmt::format("set Upper corner = {}\n set Cells = {}\n set Density = 1\n"
-                  "set Young's modulus = 1000\n set Poisson's ratio = 0.3",
+                  "set Young's modulus = {}\n set Poisson's ratio = 0.3",
                   plane_or_space<dim>("4, 1", "4, 1, 1"),
                   plane_or_space<dim>(fmt::format("{}, {}", 4 * cells, cells),
-                                      fmt::format("{}, {}, {}", 4 * cells, cells, cells))),
-      boundary("root", "set Sides = " + sides),
+                                      fmt::format("{}, {}, {}", 4 * cells, cells, cells)),
+                  modulus),
+      boundary("root", "set Sides = left"),
       "set Time integrator = static\n set Linear solver = " + solver);
   }
 
 
   template <int dim>
   dealii::Tensor<1, dim>
-  sag(const std::string &solver, const unsigned int cells, unsigned int &iterations)
+  sag(const std::string &solver,
+      const unsigned int cells,
+      unsigned int      &iterations,
+      const std::string &modulus = "1000",
+      const double       weight  = 1)
   {
     SolidEnvironment<dim> gravity;
-    gravity.gravity[1] = -1;
-    Solid<dim>         solid(beam<dim>(solver, cells), gravity);
+    gravity.gravity[1] = -weight;
+    Solid<dim>         solid(beam<dim>(solver, cells, modulus), gravity);
     const auto         report = solid.advance(1);
     dealii::Point<dim> tip;
     tip[0]     = 4;
@@ -56,6 +61,20 @@ TEST_CASE("multigrid and factorisation agree; multigrid knows rotations", "[soli
   CHECK(few < 60); // with translations alone several times as many
   CHECK((sag<3>("direct", 2, none) - sag<3>("multigrid", 2, few)).norm() < 1e-9);
   CHECK(few < 60);
+}
+
+
+TEST_CASE("steel: stiffness is no matter of units for the solvers", "[solid][mpi]")
+{
+  unsigned int none, few;
+  for (const double weight : {2e8, 10.}) // bent strongly, and hardly at all
+    {
+      const auto direct = sag<2>("direct", 12, none, "2e11", weight);
+      CHECK((direct - sag<2>("multigrid", 12, few, "2e11", weight)).norm() < 1e-8 * direct.norm());
+      CHECK(few < 60);
+      if (weight > 1e8) // as the beam of 1000 Pa under a weight of 1
+        CHECK((direct - sag<2>("direct", 12, none)).norm() < 1e-8 * direct.norm());
+    }
 }
 
 

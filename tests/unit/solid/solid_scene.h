@@ -64,11 +64,12 @@ namespace undine_tests
   struct Solid
   {
     explicit Solid(const std::string           &text,
-                   const SolidEnvironment<dim> &environment = SolidEnvironment<dim>())
+                   const SolidEnvironment<dim> &environment = SolidEnvironment<dim>(),
+                   const double                 first_step  = 0.01)
       : model(read_scene_text(text), MPI_COMM_WORLD)
       , stepper(model)
       , environment(environment)
-      , state(stepper.initialize(environment, 0))
+      , state(stepper.initialize(environment, 0, first_step))
     {
     }
 
@@ -83,7 +84,7 @@ namespace undine_tests
     Columns
     columns() const
     {
-      return solid_columns(model, stepper.mass(), environment, state, time, report.reactions);
+      return solid_columns(model, stepper, environment, state, time, report);
     }
 
     double

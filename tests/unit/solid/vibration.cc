@@ -2,6 +2,8 @@
 #include "reference_table.h"
 #include "solid_scene.h"
 
+#include <undine/solid/solid_equations.h>
+
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -213,6 +215,130 @@ TEST_CASE("prescribed motion is met exactly and does not ring", "[solid]")
           CHECK(u[0] == Approx(0.6 * t * (1 - t)).margin(1e-8));
           CHECK(u[1] == Approx(0.6 * std::cos(3 * t)).margin(1e-8));
         }
+    }
+}
+
+
+TEST_CASE("a prescribed motion may be as fast as the step resolves", "[solid]")
+{
+  // 1/12 of a period a step.
+  const double rate = 2e6, step = 2.5e-7, amplitude = 1e-6;
+  for (const auto &integrator : Registry<TimeIntegrator>::instance().names())
+    {
+      INFO(integrator);
+      Solid<2>   solid(swinging(integrator,
+                              "",
+                              boundary("root",
+                                       "set Sides = left\n set Kind = prescribed motion\n"
+                                         "set Displacement = 1e-6*(1-cos(2e6*t)); 1e-6*sin(2e6*t)")),
+                     {},
+                     step);
+      const auto check = [&]() {
+        const double angle = rate * solid.time;
+        const auto   d = solid.displacement({0, 0.1}), u = solid.velocity({0, 0.1});
+        CHECK(d[0] == Approx(amplitude * (1 - std::cos(angle))).margin(1e-18));
+        CHECK(d[1] == Approx(amplitude * std::sin(angle)).margin(1e-18));
+        CHECK(u[0] == Approx(amplitude * rate * std::sin(angle)).margin(1e-6));
+        CHECK(u[1] == Approx(amplitude * rate * std::cos(angle)).margin(1e-6));
+      };
+      check();
+      if (solid.model.numerics().integrator->uses_acceleration())
+        {
+          SolidPoint<2> root(solid.model, "body", {0, 0.1});
+          CHECK(root.value(solid.state.acceleration)[0] ==
+                Approx(amplitude * rate * rate).epsilon(1e-3));
+        }
+      for (unsigned int n = 0; n < 24; ++n)
+        {
+          solid.advance(step);
+          check();
+        }
+    }
+}
+
+
+TEST_CASE("the balance of momentum closes in every step", "[solid][mpi]")
+{
+  SolidEnvironment<2> environment;
+  environment.gravity[1]        = -5;
+  environment.mass_damping      = 1;
+  environment.stiffness_damping = 0.01;
+  const auto ends =
+    boundary("root",
+             "set Sides = left\n set Kind = prescribed motion\n"
+             "set Displacement = 0.1*(1-cos(10*t)); 0.05*sin(5*t)") +
+    boundary("tip", "set Sides = right\n set Kind = traction\n set Traction = 0; 3*sin(8*t)") +
+    boundary("roof", "set Sides = top\n set Kind = pressure\n set Pressure = 2*sin(6*t)^2");
+  for (const auto &integrator : Registry<TimeIntegrator>::instance().names())
+    {
+      INFO(integrator);
+      Solid<2> solid(swinging(integrator, "", ends), environment);
+      for (unsigned int step = 0; step < 5; ++step)
+        {
+          const auto start = solid.state;
+          solid.advance(0.02);
+          CHECK(solid.column("momentum residual body") < 1e-9);
+
+          // It can fail: a velocity that is not the solution's.
+          TimingTree        timing;
+          SolidEquations<2> equations(
+            solid.model, solid.stepper.mass(), start, environment, solid.time - 0.02, 0.02, timing);
+          auto velocity = solid.state.velocity;
+          equations.residual(velocity);
+          velocity.add(0.1);
+          CHECK((equations.is_static() ||
+                 equations.momentum_residuals(velocity, solid.report.reactions)[0] > 1e-4));
+        }
+    }
+
+  // The trapezoid's momentum, reaction and weight as columns.
+  SolidEnvironment<2> gravity;
+  gravity.gravity[1] = -5;
+  Solid<2>     heavy(swinging("newmark"), gravity);
+  const double before = heavy.column("solid momentum y");
+  heavy.advance(0.02);
+  heavy.advance(0.02);
+  const double between = heavy.column("solid momentum y");
+  heavy.advance(0.02);
+  CHECK(before == 0);
+  CHECK((heavy.column("solid momentum y") - between) / 0.02 ==
+        Approx(heavy.column("reaction body/root y") - 5 * 0.2).epsilon(1e-8));
+}
+
+
+TEST_CASE("columns of speed and volume", "[solid][mpi]")
+{
+  Solid<2> solid(swinging("newmark",
+                          "set Initial displacement = 0.1*x; 0\n"
+                          "set Initial velocity = 3*x^2; 4*x^2\n"));
+  CHECK(solid.column("max speed body") == Approx(5));
+  CHECK(solid.column("volume body") == Approx(0.22));
+  CHECK(std::abs(solid.column("volume drift body")) < 1e-14);
+  solid.advance(0.01);
+  CHECK(solid.column("volume drift body") == Approx(solid.column("volume body") / 0.22 - 1));
+  CHECK(std::abs(solid.column("volume drift body")) > 1e-4);
+}
+
+
+TEST_CASE("a load that stops being a number is an error, the state stays", "[solid][mpi]")
+{
+  for (const auto &integrator : Registry<TimeIntegrator>::instance().names())
+    {
+      INFO(integrator);
+      Solid<2> solid(swinging(integrator,
+                              "",
+                              boundary("root", "set Sides = left") +
+                                boundary("tip",
+                                         "set Sides = right\n set Kind = traction\n"
+                                         "set Traction = 0; sqrt(0.055-t)")));
+      for (unsigned int step = 0; step < 5; ++step)
+        solid.advance(0.01);
+      const auto before = solid.state.displacement;
+      CHECK_THROWS_WITH(solid.advance(0.02), Catch::Contains("not finite"));
+      auto change = solid.state.displacement;
+      change.add(-1., before);
+      CHECK(change.l2_norm() == 0);
+      CHECK(before.l2_norm() > 0);
     }
 }
 
