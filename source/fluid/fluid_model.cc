@@ -6,11 +6,12 @@ namespace undine
   void
   PressureSolverSettings::add_options(const Options &options)
   {
-    options.add("Divergence tolerance",
-                divergence_tolerance,
-                "",
-                Allowed::between(1e-14, 1e-2),
-                "Largest |div v| dx / max |v| in any cell after a step.");
+    options.add(
+      "Divergence tolerance",
+      divergence_tolerance,
+      "",
+      Allowed::between(1e-14, 1e-2),
+      "Largest |div v| dx in any cell after a step, over the largest speed in the fluid.");
     options.add("Maximum iterations",
                 maximum_iterations,
                 "",
