@@ -16,9 +16,9 @@ namespace undine
   /// factorisation, or by conjugate gradients with smoothed aggregation (ML) that knows the
   /// rigid-body motions. Where follower pressures make the tangent unsymmetric, GMRES takes the
   /// place of conjugate gradients. An iteration that does not converge, as when the tangent is not
-  /// positive definite, gives way to the factorisation. The analysis of the sparsity pattern and
-  /// the multigrid hierarchy are kept from one system to the next; the hierarchy is renewed when
-  /// the number of iterations has grown by half.
+  /// positive definite, gives way to the factorisation, with `auto` for good. The analysis of the
+  /// sparsity pattern and the multigrid hierarchy are kept from one system to the next; the
+  /// hierarchy is renewed when the number of iterations has grown by half.
   template <int dim>
   class TangentSolver
   {
@@ -69,6 +69,7 @@ namespace undine
     const bool                 symmetric;
     Factorisation              factorisation;
     std::unique_ptr<Multigrid> multigrid;
+    bool                       gave_up        = false; ///< the iteration did not converge once
     unsigned int               all_iterations = 0;
     std::string                all_notes;
   };
