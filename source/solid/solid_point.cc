@@ -74,7 +74,7 @@ namespace undine
         for (unsigned int axis = 0; axis < dim; ++axis)
           place += fmt::format("{}{:g}", axis == 0 ? "" : ", ", position[axis]);
         throw InputError("the point (" + place + ") is not in the body '" + body +
-                         "' at rest. Try: a point of its mesh, whose curved sides are polygons.");
+                         "' at rest. Try: a point of its mesh, whose curved sides are polygons");
       }
     owner = location.cell->subdomain_id();
     if (!location.cell->is_locally_owned())

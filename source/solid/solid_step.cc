@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/solid/cell_forces.h>
 #include <undine/solid/internal_forces.h>
 #include <undine/solid/loads.h>
 #include <undine/solid/mass_matrix.h>
@@ -8,6 +9,9 @@
 #include <undine/solid/solid_columns.h>
 #include <undine/solid/solid_equations.h>
 #include <undine/solid/solid_step.h>
+#include <undine/solid/throw_together.h>
+
+#include <fmt/format.h>
 
 namespace undine
 {
@@ -106,6 +110,42 @@ namespace undine
         }
       state.displacement.compress(dealii::VectorOperation::insert);
       state.velocity.compress(dealii::VectorOperation::insert);
+    }
+
+
+    /// Throws InputError on all ranks if the initial displacement inverts a body whose law does not
+    /// tolerate that.
+    template <int dim>
+    void
+    assert_not_inverted(const typename SolidModel<dim>::Vector &displacement,
+                        const SolidModel<dim>                  &model)
+    {
+      const auto     &geometry = model.geometry();
+      const auto      ghosted  = model.ghosted(displacement);
+      CellForces<dim> cell_forces(model);
+      std::string     failure;
+      for (unsigned int cell = 0; cell < geometry.n_cells() && failure.empty(); ++cell)
+        {
+          const auto &body = model.bodies()[geometry.body(cell)];
+          cell_forces.reinit(cell, ghosted);
+          for (unsigned int q = 0; q < geometry.n_points() && failure.empty(); ++q)
+            if (const double J = cell_forces.stretched_volume(q);
+                !(J > 0) && !body.material->tolerates_inversion())
+              failure = body.options
+                          .error("Initial displacement",
+                                 fmt::format("leaves the body inverted (det F = {:g})", J),
+                                 "Try: one that keeps the orientation of every part of body '" +
+                                   body.name + "'.")
+                          .what();
+        }
+      try
+        {
+          throw_together(failure, model.communicator());
+        }
+      catch (const SolveError &error)
+        {
+          throw InputError(error.what());
+        }
     }
 
 
@@ -208,6 +248,7 @@ namespace undine
   {
     SolidState state{model.vector(), model.vector(), model.vector()};
     set_initial(state, model);
+    assert_not_inverted(state.displacement, model);
     prescribe_velocity(state.velocity, model, time, dt);
     if (model.numerics().integrator->uses_acceleration())
       {

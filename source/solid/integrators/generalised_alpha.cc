@@ -11,8 +11,8 @@ namespace undine
   ///     M [(1-alpha_m) a^{n+1} + alpha_m a^n] + C u_f + K(d_f) - f(t_f) = 0,
   ///         x_f = (1-alpha_f) x^{n+1} + alpha_f x^n  for d, u and t
   ///     u^{n+1} = u^n + h [(1-gamma) a^n + gamma a^{n+1}] + M^{-1} h J p
-  ///     d^{n+1} = d^n + h u^n + h^2 (1/2-beta) a^n + h (beta/gamma) (u^{n+1} - u^n - h (1-gamma)
-  ///     a^n)
+  ///     d^{n+1} = d^n + h u^n + h^2 (1/2-beta) a^n
+  ///             + h (beta/gamma) (u^{n+1} - u^n - h (1-gamma) a^n)
   ///
   /// The impulse h J p of a fluid's pressure is added once and is no part of a. Eliminating a^{n+1}
   /// and scaling by gamma / (1-alpha_m) gives the form of StepCoefficients. Second order, with K'

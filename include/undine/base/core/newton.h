@@ -42,14 +42,14 @@ namespace undine
   public:
     /// `Problem` provides
     ///
-    ///     using Unknown               with add(double, const Unknown &)
-    ///     double  evaluate(x)         norm of r(x), which it keeps; SolveError if x is
-    ///     inadmissible Unknown correction(x)       -r'(x)^{-1} r(x) for the x evaluated last
-    ///     double  scale()             size of the terms whose sum is r
-    ///     double  rounding()          the norm that rounding alone gives r
-    ///     unsigned int linear_iterations()    so far
+    ///     using Unknown          with add(double, const Unknown &)
+    ///     double evaluate(x)     norm of r(x), which it keeps; SolveError where r makes no sense
+    ///     Unknown correction(x)  -r'(x)^{-1} r(x) for the x evaluated last
+    ///     double scale()         size of the terms whose sum is r
+    ///     double rounding()      the norm that rounding alone gives r
+    ///     unsigned int linear_iterations()  so far
     ///
-    /// All in one unit.
+    /// Norms are all in one unit.
     Newton(Problem &problem, const NewtonOptions &options);
 
     /// Improve x until |r| <= max(relative tolerance * scale, rounding). Throws SolveError with the
@@ -145,8 +145,10 @@ namespace undine
     // Rounding may stop the descent somewhat above the estimate of its size.
     const double stagnation = 100 * problem.rounding();
     if (options.fixed_iterations == 0 && !converged(residual) && !(residual <= stagnation))
-      throw SolveError("Newton's method does not converge. " + history() + last_refusal +
-                       "Try a smaller step, a finer mesh, or more iterations.");
+      throw SolveError("Newton's method does not converge. " + history() +
+                       (last_refusal.empty() ? // else it says what to try
+                          "Try a smaller step, a finer mesh, or more iterations."
+                                             : last_refusal));
     return report;
   }
 
@@ -162,7 +164,7 @@ namespace undine
       }
     catch (const SolveError &error)
       {
-        last_refusal = std::string("Last refused: ") + error.what() + " ";
+        last_refusal = std::string("Last refused: ") + error.what();
         return std::numeric_limits<double>::infinity();
       }
   }
