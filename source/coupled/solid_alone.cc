@@ -30,7 +30,9 @@ namespace undine
   {
     const double time = state.clock.time;
     state.solid       = solid_step.initialize(environment, time, dt);
-    append(report.columns, solid_columns(model, solid_step, environment, state.solid, time));
+    const SolidReport no_step;
+    append(report.columns,
+           solid_columns(model, solid_step, environment, state.solid, time, no_step));
   }
 
 

@@ -68,7 +68,7 @@ namespace undine
 
   /// Energies and momentum; volume, its drift (V / V(t = 0) - 1), centre of mass, largest speed and
   /// balance of momentum of every body; and the force of every support ("reaction beam/root x").
-  /// `report` is that of the step that led to `state`: without one, balances and reactions are
+  /// `report` is that of the step that led to `state`: with an empty one, balances and reactions are
   /// zero. In 2D energies and forces are those of 1 m of depth. Collective.
   template <int dim>
   Columns
@@ -77,7 +77,7 @@ namespace undine
                 const SolidEnvironment<dim> &environment,
                 const SolidState            &state,
                 double                       time,
-                const SolidReport           &report = {});
+                const SolidReport           &report);
 } // namespace undine
 
 #endif
