@@ -7,6 +7,25 @@ namespace undine
 {
   namespace
   {
+    template <int dim>
+    double
+    negligible(const CutCells<dim> &cut, const GridIndex<dim> &cell)
+    {
+      return std::max(negligible_size, 2 * cut.block.rounding(cell));
+    }
+
+
+    template <int dim>
+    bool
+    is_negligible(const CutCells<dim> &cut, const typename CutCells<dim>::Piece &piece)
+    {
+      const auto &face     = cut.faces[piece.face];
+      auto        cell     = face.index; // the last face belongs to the last cell
+      cell[face.axis]      = std::min(cell[face.axis], cut.block.planes().n_cells(face.axis) - 1);
+      return piece.area < negligible(cut, cell) * cut.block.face_area(face.axis, cell);
+    }
+
+
     /// Tell pieces whose neighbour is not cut what it is instead.
     template <int dim>
     void
@@ -35,23 +54,23 @@ namespace undine
     std::vector<char>
     find_negligible_components(const CutCells<dim> &cut)
     {
-      std::vector<char> negligible(cut.components.size());
-      for (std::size_t c = 0; c < negligible.size(); ++c)
+      std::vector<char> result(cut.components.size());
+      for (std::size_t c = 0; c < result.size(); ++c)
         {
           const auto &component = cut.components[c];
           negligible[c]         = std::abs(component.volume) <
-                          negligible_size * cut.block.cell_volume(cut.cells[component.cell].index);
+                          negligible(cut, cut.cells[component.cell].index) *
+              cut.block.cell_volume(cut.cells[component.cell].index);
         }
       for (const auto &piece : cut.pieces)
         {
-          const auto &face = cut.faces[piece.face];
-          if (piece.area < negligible_size * cut.block.face_area(face.axis, face.index))
+          if (is_negligible(cut, piece))
             continue;
           for (const int c : piece.components)
             if (c >= 0)
-              negligible[c] = false;
+              result[c] = false;
         }
-      return negligible;
+      return result;
     }
 
 
@@ -108,15 +127,10 @@ namespace undine
   {
     std::vector<char> closed(cut.pieces.size(), false);
     find_uncut_neighbours(cut, closed);
-    const auto negligible = find_negligible_components(cut);
+    const auto dropped = find_negligible_components(cut);
     for (std::size_t p = 0; p < cut.pieces.size(); ++p)
-      {
-        const auto &piece = cut.pieces[p];
-        const auto &face  = cut.faces[piece.face];
-        closed[p] =
-          closed[p] || piece.area < negligible_size * cut.block.face_area(face.axis, face.index);
-      }
-    remove_components(cut, negligible);
+      closed[p] = closed[p] || is_negligible(cut, cut.pieces[p]);
+    remove_components(cut, dropped);
     remove_pieces(cut, closed);
   }
 

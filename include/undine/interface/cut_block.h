@@ -6,8 +6,9 @@
 
 namespace undine
 {
-  /// Components and pieces smaller than this, in units of a cell or face, take no part in the flow.
-  constexpr double negligible_size = 1e-12;
+  /// Components and pieces smaller than this, in units of a cell or face, take no part in the flow;
+  /// nor do those below twice the rounding level, which is higher on grids of more than 50 cells.
+  constexpr double negligible_size = 1e-13;
 
   /// Cut the cells of cut.block, which spans the domain along axis 0, by a surface. Overwrites
   /// `cut`; `work` keeps memory from one call to the next.
