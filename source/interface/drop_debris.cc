@@ -58,7 +58,7 @@ namespace undine
       for (std::size_t c = 0; c < result.size(); ++c)
         {
           const auto &component = cut.components[c];
-          negligible[c]         = std::abs(component.volume) <
+          result[c]         = std::abs(component.volume) <
                           negligible(cut, cut.cells[component.cell].index) *
               cut.block.cell_volume(cut.cells[component.cell].index);
         }
