@@ -80,7 +80,7 @@ namespace undine
         }
       else
         {
-          vertex.position[d] = interpolate(from.position[d], to.position[d], fraction);
+          vertex.position[d]              = interpolate(from.position[d], to.position[d], fraction);
           const std::pair<int, int> slabs = std::minmax({from.slabs[d], to.slabs[d]});
           vertex.slabs[d] =
             slabs.first == slabs.second

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
 #include <undine/interface/component_finder.h>
 #include <undine/interface/cut_block.h>
 #include <undine/interface/cut_flags.h>
 #include <undine/interface/facet_splitter.h>
 #include <undine/interface/sampled_regions.h>
+#include <undine/solid/throw_together.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace undine
 {
   namespace
   {
+    constexpr double largest_coordinate = 1e100; // of which differences and quotients stay finite
+
+
     /// The keys of the cells that hold parts of the surface. @{
     std::vector<std::int64_t>
     keys_of_cut_cells(const SplitSurface<2> &split)
@@ -62,6 +68,19 @@ namespace undine
     }
 
 
+    /// What makes positions unfit for splitting; empty if nothing.
+    template <int dim>
+    std::string
+    find_wrong_position(const std::vector<dealii::Point<dim>> &positions)
+    {
+      for (const auto &position : positions)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!(std::abs(position[d]) < largest_coordinate))
+            return "A position on the boundary of a body is not a number. Try a smaller time step.";
+      return "";
+    }
+
+
     /// All that follows once crossings have been summed up.
     template <int dim>
     void
@@ -106,6 +125,9 @@ namespace undine
   void
   cut_block(CutCells<dim> &cut, CutWorkspace<dim> &work, const PlacedSurface<dim> &placed)
   {
+    const auto wrong = find_wrong_position(placed.positions);
+    if (!wrong.empty())
+      throw SolveError(wrong);
     cut.clear();
     work.clear();
     split_surface(work.split, cut.windings, cut.block, placed.surface, placed.positions);
@@ -121,6 +143,7 @@ namespace undine
             const PlacedSurface<dim> &placed,
             const Blocks<dim>        &blocks)
   {
+    throw_together(find_wrong_position(placed.positions), blocks.communicator());
     cut.clear();
     work.clear();
     split_surface(work.split, cut.windings, cut.block, placed.surface, placed.positions);

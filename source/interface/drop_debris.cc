@@ -19,9 +19,9 @@ namespace undine
     bool
     is_negligible(const CutCells<dim> &cut, const typename CutCells<dim>::Piece &piece)
     {
-      const auto &face     = cut.faces[piece.face];
-      auto        cell     = face.index; // the last face belongs to the last cell
-      cell[face.axis]      = std::min(cell[face.axis], cut.block.planes().n_cells(face.axis) - 1);
+      const auto &face = cut.faces[piece.face];
+      auto        cell = face.index; // the last face belongs to the last cell
+      cell[face.axis]  = std::min(cell[face.axis], cut.block.planes().n_cells(face.axis) - 1);
       return piece.area < negligible(cut, cell) * cut.block.face_area(face.axis, cell);
     }
 
@@ -58,9 +58,9 @@ namespace undine
       for (std::size_t c = 0; c < result.size(); ++c)
         {
           const auto &component = cut.components[c];
-          result[c]         = std::abs(component.volume) <
-                          negligible(cut, cut.cells[component.cell].index) *
-              cut.block.cell_volume(cut.cells[component.cell].index);
+          result[c] =
+            std::abs(component.volume) < negligible(cut, cut.cells[component.cell].index) *
+                                           cut.block.cell_volume(cut.cells[component.cell].index);
         }
       for (const auto &piece : cut.pieces)
         {

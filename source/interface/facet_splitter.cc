@@ -49,6 +49,33 @@ namespace undine
   }
 
 
+  namespace
+  {
+    /// The nodes as vertices of the split surface.
+    template <int dim>
+    void
+    add_nodes(SplitSurface<dim>                     &split,
+              const GridBlock<dim>                  &block,
+              const std::vector<dealii::Point<dim>> &positions)
+    {
+      CutVertex<dim> vertex;
+      vertex.parameters = {};
+      vertex.ridge      = -1;
+      vertex.plane      = 0;
+      vertex.axis       = -1;
+      vertex.kind       = CutVertex<dim>::Kind::node;
+      split.vertices.reserve(4 * positions.size());
+      for (const auto &position : positions)
+        {
+          vertex.position = position;
+          for (unsigned int d = 0; d < dim; ++d)
+            vertex.slabs[d] = block.clamped(d, block.planes().slab(d, position[d]));
+          split.vertices.push_back(vertex);
+        }
+    }
+  } // namespace
+
+
   template <int dim>
   void
   split_surface(SplitSurface<dim>                     &split,
@@ -59,20 +86,7 @@ namespace undine
   {
     split.clear();
     windings.reset(block);
-    CutVertex<dim> vertex;
-    vertex.parameters = {};
-    vertex.ridge      = -1;
-    vertex.plane      = 0;
-    vertex.axis       = -1;
-    vertex.kind       = CutVertex<dim>::Kind::node;
-    split.vertices.reserve(4 * positions.size());
-    for (const auto &position : positions)
-      {
-        vertex.position = position;
-        for (unsigned int d = 0; d < dim; ++d)
-          vertex.slabs[d] = block.clamped(d, block.planes().slab(d, position[d]));
-        split.vertices.push_back(vertex);
-      }
+    add_nodes(split, block, positions);
     ChordSplitter<dim> chord_splitter(block, surface, split, windings);
     FacetSplitter<dim> facet_splitter(block, surface, split, windings);
     for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
@@ -81,16 +95,32 @@ namespace undine
   }
 
 
-  template void
-  split_surface(SplitSurface<2> &,
-                NodeWindings<2> &,
-                const GridBlock<2> &,
-                const Surface<2> &,
-                const std::vector<dealii::Point<2>> &);
-  template void
-  split_surface(SplitSurface<3> &,
-                NodeWindings<3> &,
-                const GridBlock<3> &,
-                const Surface<3> &,
-                const std::vector<dealii::Point<3>> &);
+  template <int dim>
+  std::vector<unsigned int>
+  facets_near(const GridBlock<dim>                  &block,
+              const Surface<dim>                    &surface,
+              const std::vector<dealii::Point<dim>> &positions)
+  {
+    SplitSurface<dim> split;
+    NodeWindings<dim> windings;
+    add_nodes(split, block, positions);
+    const ChordSplitter<dim>  chord_splitter(block, surface, split, windings);
+    std::vector<unsigned int> result;
+    for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
+      if (comes_near<dim>(surface.facets()[facet], split.vertices, chord_splitter))
+        result.push_back(facet);
+    return result;
+  }
+
+
+  // clang-format off
+#define INSTANTIATE(dim)                                                                           \
+  template void split_surface(SplitSurface<dim> &, NodeWindings<dim> &, const GridBlock<dim> &,    \
+                              const Surface<dim> &, const std::vector<dealii::Point<dim>> &);      \
+  template std::vector<unsigned int> facets_near(const GridBlock<dim> &, const Surface<dim> &,     \
+                                                 const std::vector<dealii::Point<dim>> &);
+  // clang-format on
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace undine

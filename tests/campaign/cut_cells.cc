@@ -46,7 +46,9 @@ namespace
 
   template <int dim>
   bool
-  regions_differ(const CutCells<dim> &cut, const Configuration<dim> &configuration, const double unit)
+  regions_differ(const CutCells<dim>      &cut,
+                 const Configuration<dim> &configuration,
+                 const double              unit)
   {
     const double negligible = 1e-13 * unit;
     auto         found      = fluid_regions(cut, negligible);
@@ -75,16 +77,16 @@ namespace
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < count; ++i)
       {
-        Random       random(seed * 1000003 + i);
-        auto         configuration = kind.make(random);
-        auto        &bodies        = configuration.bodies;
-        const auto   stretched     = make_planes(bodies, grid, random);
-        const auto   surface       = bodies.surface();
+        Random     random(seed * 1000003 + i);
+        auto       configuration = kind.make(random);
+        auto      &bodies        = configuration.bodies;
+        const auto stretched     = make_planes(bodies, grid, random);
+        const auto surface       = bodies.surface();
         check_closed(surface, bodies.nodes);
-        const auto cut     = cut_all<dim>(stretched.planes, surface, bodies.nodes);
-        const auto defects = check_cut(cut, bodies, surface, random);
-        const double unit  = stretched.volume;
-        const bool   wrong = regions_differ(cut, configuration, unit);
+        const auto   cut     = cut_all<dim>(stretched.planes, surface, bodies.nodes);
+        const auto   defects = check_cut(cut, bodies, surface, random);
+        const double unit    = stretched.volume;
+        const bool   wrong   = regions_differ(cut, configuration, unit);
         int          flagged = 0;
         for (const auto &cell : cut.cells)
           flagged += cell.flags != 0;
@@ -101,22 +103,46 @@ namespace
         one.flagged       = flagged;
         one.wrong_regions = wrong;
         if (!one.good())
-          std::printf("  %s #%d: closure %.1e linear %.1e volume %.1e moment %.1e facets %.1e leaks %d "
-                      "flagged %d regions %zu of %d reordered %d\n",
-                      kind.name.c_str(), i, defects.closure, defects.linear, defects.volume,
-                      defects.moment, defects.facets, defects.leaks, flagged,
-                      fluid_regions(cut, 1e-13 * unit).size(), configuration.n_regions,
-                      cut.counts.reordered_edges);
+          std::printf(
+            "  %s #%d: closure %.1e linear %.1e volume %.1e moment %.1e facets %.1e leaks %d "
+            "flagged %d regions %zu of %d reordered %d\n",
+            kind.name.c_str(),
+            i,
+            defects.closure,
+            defects.linear,
+            defects.volume,
+            defects.moment,
+            defects.facets,
+            defects.leaks,
+            flagged,
+            fluid_regions(cut, 1e-13 * unit).size(),
+            configuration.n_regions,
+            cut.counts.reordered_edges);
       }
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-    std::printf("%dD %-7s%-16s n %6d closure %.1e (%.1e) linear %.1e volume %.1e moment %.1e facets "
-                "%.1e smallest %.1e | flagged %d sampled %d leaks %d wrong regions %d | reordered %d "
-                "debris %d %.1f s%s\n",
-                dim, grid == Grid::unit ? "unit" : "graded", kind.name.c_str(), totals.n,
-                totals.worst.closure, totals.closure, totals.worst.linear, totals.worst.volume,
-                totals.worst.moment, totals.worst.facets, totals.worst.smallest, totals.flagged,
-                totals.sampled, totals.worst.leaks, totals.wrong_regions, totals.reordered,
-                totals.debris, time.count(), totals.good() ? "" : "  BAD");
+    std::printf(
+      "%dD %-7s%-16s n %6d closure %.1e (%.1e) linear %.1e volume %.1e moment %.1e facets "
+      "%.1e smallest %.1e | flagged %d sampled %d leaks %d wrong regions %d | reordered %d "
+      "debris %d %.1f s%s\n",
+      dim,
+      grid == Grid::unit ? "unit" : "graded",
+      kind.name.c_str(),
+      totals.n,
+      totals.worst.closure,
+      totals.closure,
+      totals.worst.linear,
+      totals.worst.volume,
+      totals.worst.moment,
+      totals.worst.facets,
+      totals.worst.smallest,
+      totals.flagged,
+      totals.sampled,
+      totals.worst.leaks,
+      totals.wrong_regions,
+      totals.reordered,
+      totals.debris,
+      time.count(),
+      totals.good() ? "" : "  BAD");
     std::fflush(stdout);
     return totals.good();
   }
@@ -147,23 +173,29 @@ namespace
           for (auto &p : planes)
             for (int i = 0; i <= n; ++i)
               p.push_back(i);
-          const auto   surface = body.surface();
-          const auto   grid    = std::make_shared<const GridPlanes<3>>(planes);
-          CutCells<3>  cut(GridBlock<3>(grid, all_cells(*grid), 0));
+          const auto      surface = body.surface();
+          const auto      grid    = std::make_shared<const GridPlanes<3>>(planes);
+          CutCells<3>     cut(GridBlock<3>(grid, all_cells(*grid), 0));
           CutWorkspace<3> work;
-          double       best = 1e9;
+          double          best = 1e9;
           for (int repeat = 0; repeat < 5; ++repeat)
             {
               const auto start = std::chrono::steady_clock::now();
               cut_block(cut, work, {surface, body.nodes});
               const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-              best = std::min(best, time.count());
+              best                                     = std::min(best, time.count());
             }
-          std::printf("n=%3d triangles %6zu cut cells %6zu fragments %6zu: %.1f ms = %.2f us/triangle, "
-                      "%.2f us/cut cell, %.2f us/fragment\n",
-                      n, surface.facets().size(), cut.cells.size(), cut.fragments.size(), 1e3 * best,
-                      1e6 * best / surface.facets().size(), 1e6 * best / cut.cells.size(),
-                      1e6 * best / cut.fragments.size());
+          std::printf(
+            "n=%3d triangles %6zu cut cells %6zu fragments %6zu: %.1f ms = %.2f us/triangle, "
+            "%.2f us/cut cell, %.2f us/fragment\n",
+            n,
+            surface.facets().size(),
+            cut.cells.size(),
+            cut.fragments.size(),
+            1e3 * best,
+            1e6 * best / surface.facets().size(),
+            1e6 * best / cut.cells.size(),
+            1e6 * best / cut.fragments.size());
         }
   }
 } // namespace

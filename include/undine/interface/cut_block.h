@@ -11,14 +11,14 @@ namespace undine
   constexpr double negligible_size = 1e-13;
 
   /// Cut the cells of cut.block, which spans the domain along axis 0, by a surface. Overwrites
-  /// `cut`; `work` keeps memory from one call to the next.
+  /// `cut`; `work` keeps memory from one call to the next. Throws SolveError if a position is not
+  /// finite; overlaps and the like are flagged instead, see CutReport.
   template <int dim>
   void
   cut_block(CutCells<dim> &cut, CutWorkspace<dim> &work, const PlacedSurface<dim> &placed);
 
   /// The same for the block of this rank, cut.block.owned() being its cells in `blocks`. All facets
-  /// that come near cut.block must be given, and, to the rank at the domain's lower side of axis 0,
-  /// those before it; more do no harm. Collective.
+  /// that facets_near() names must be given; more do no harm. Collective.
   template <int dim>
   void
   cut_block(CutCells<dim>            &cut,

@@ -98,7 +98,8 @@ namespace undine
 
 
   /// Split all facets of `surface` that come near `block`. `split` and `windings` (crossings only,
-  /// not summed up) are overwritten. Positions far outside the grid are welcome.
+  /// not summed up) are overwritten. Positions far outside the grid are welcome,
+  /// but must be finite.
   template <int dim>
   void
   split_surface(SplitSurface<dim>                     &split,
@@ -106,6 +107,13 @@ namespace undine
                 const GridBlock<dim>                  &block,
                 const Surface<dim>                    &surface,
                 const std::vector<dealii::Point<dim>> &positions);
+
+  /// The facets that a block needs to know, ascending.
+  template <int dim>
+  std::vector<unsigned int>
+  facets_near(const GridBlock<dim>                  &block,
+              const Surface<dim>                    &surface,
+              const std::vector<dealii::Point<dim>> &positions);
 } // namespace undine
 
 #endif

@@ -21,7 +21,8 @@ namespace undine_tests
   public:
     explicit Random(const std::uint64_t seed)
       : engine(seed)
-    {}
+    {
+    }
 
     double
     between(const double lower, const double upper)
@@ -220,13 +221,16 @@ namespace undine_tests
   }
 
   inline void
-  add_side(Bodies<3> &bodies, const std::array<unsigned, 4> &c, const Part part, const bool diagonal)
+  add_side(Bodies<3>                     &bodies,
+           const std::array<unsigned, 4> &c,
+           const Part                     part,
+           const bool                     diagonal)
   {
-    bodies.add_facet(diagonal ? std::array<unsigned, 3>{{c[1], c[2], c[3]}} :
-                                std::array<unsigned, 3>{{c[0], c[1], c[2]}},
+    bodies.add_facet(diagonal ? std::array<unsigned, 3>{{c[1], c[2], c[3]}}
+                              : std::array<unsigned, 3>{{c[0], c[1], c[2]}},
                      part);
-    bodies.add_facet(diagonal ? std::array<unsigned, 3>{{c[1], c[3], c[0]}} :
-                                std::array<unsigned, 3>{{c[0], c[2], c[3]}},
+    bodies.add_facet(diagonal ? std::array<unsigned, 3>{{c[1], c[3], c[0]}}
+                              : std::array<unsigned, 3>{{c[0], c[2], c[3]}},
                      part);
   }
   /// @}
@@ -241,7 +245,7 @@ namespace undine_tests
     constexpr int                                n_corners = 1 << (dim - 1);
     Bodies<dim>                                  result;
     std::map<std::array<int, dim>, unsigned int> numbers;
-    const auto node = [&](const std::array<int, dim> &index) {
+    const auto                                   node = [&](const std::array<int, dim> &index) {
       const auto inserted = numbers.emplace(index, result.nodes.size());
       if (inserted.second)
         {
@@ -256,11 +260,11 @@ namespace undine_tests
       for (int side = 0; side < 2; ++side)
         {
           std::array<int, dim> index{};
-          index[axis]       = side * cells[axis];
-          const Part part   = axis < dim - 1 ? Part::rim : side == 0 ? Part::lower : Part::upper;
-          const int  u      = (axis + 1) % dim;
-          const int  v      = (axis + 2) % dim; // in 2D the axis itself
-          const int  n_v    = dim == 3 ? cells[v] : 1;
+          index[axis]     = side * cells[axis];
+          const Part part = axis < dim - 1 ? Part::rim : side == 0 ? Part::lower : Part::upper;
+          const int  u    = (axis + 1) % dim;
+          const int  v    = (axis + 2) % dim; // in 2D the axis itself
+          const int  n_v  = dim == 3 ? cells[v] : 1;
           for (int i = 0; i < cells[u]; ++i)
             for (int j = 0; j < n_v; ++j)
               {
@@ -321,12 +325,22 @@ namespace undine_tests
   {
     const double g = (1 + std::sqrt(5.)) / 2;
     Bodies<3>    result;
-    result.nodes   = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                      {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-    result.facets = {{{0, 11, 5}}, {{0, 5, 1}}, {{0, 1, 7}}, {{0, 7, 10}}, {{0, 10, 11}},
-                     {{1, 5, 9}}, {{5, 11, 4}}, {{11, 10, 2}}, {{10, 7, 6}}, {{7, 1, 8}},
-                     {{3, 9, 4}}, {{3, 4, 2}}, {{3, 2, 6}}, {{3, 6, 8}}, {{3, 8, 9}},
-                     {{4, 9, 5}}, {{2, 4, 11}}, {{6, 2, 10}}, {{8, 6, 7}}, {{9, 8, 1}}};
+    result.nodes  = {{-1, g, 0},
+                     {1, g, 0},
+                     {-1, -g, 0},
+                     {1, -g, 0},
+                     {0, -1, g},
+                     {0, 1, g},
+                     {0, -1, -g},
+                     {0, 1, -g},
+                     {g, 0, -1},
+                     {g, 0, 1},
+                     {-g, 0, -1},
+                     {-g, 0, 1}};
+    result.facets = {{{0, 11, 5}}, {{0, 5, 1}},  {{0, 1, 7}},   {{0, 7, 10}}, {{0, 10, 11}},
+                     {{1, 5, 9}},  {{5, 11, 4}}, {{11, 10, 2}}, {{10, 7, 6}}, {{7, 1, 8}},
+                     {{3, 9, 4}},  {{3, 4, 2}},  {{3, 2, 6}},   {{3, 6, 8}},  {{3, 8, 9}},
+                     {{4, 9, 5}},  {{2, 4, 11}}, {{6, 2, 10}},  {{8, 6, 7}},  {{9, 8, 1}}};
     for (int l = 0; l < level; ++l)
       {
         std::map<std::pair<unsigned, unsigned>, unsigned> middles;
@@ -343,7 +357,8 @@ namespace undine_tests
         for (const auto &t : result.facets)
           {
             const auto a = middle(t[0], t[1]), b = middle(t[1], t[2]), c = middle(t[2], t[0]);
-            finer.insert(finer.end(), {{{t[0], a, c}}, {{t[1], b, a}}, {{t[2], c, b}}, {{a, b, c}}});
+            finer.insert(finer.end(),
+                         {{{t[0], a, c}}, {{t[1], b, a}}, {{t[2], c, b}}, {{a, b, c}}});
           }
         result.facets.swap(finer);
       }

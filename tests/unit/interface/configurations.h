@@ -35,10 +35,22 @@ namespace undine_tests
   inline double
   offset(Random &random)
   {
-    const double whole      = random.below(3);
-    const double fractions[] = {0,      0,     0,      1e-16, -1e-16, 4e-15,
-                                -4e-15, 1e-12, -1e-12, 1e-9,  -1e-9,  .5,
-                                .25,    random.between(0, 1), random.between(0, 1)};
+    const double whole       = random.below(3);
+    const double fractions[] = {0,
+                                0,
+                                0,
+                                1e-16,
+                                -1e-16,
+                                4e-15,
+                                -4e-15,
+                                1e-12,
+                                -1e-12,
+                                1e-9,
+                                -1e-9,
+                                .5,
+                                .25,
+                                random.between(0, 1),
+                                random.between(0, 1)};
     return whole + fractions[random.below(15)];
   }
 
@@ -46,8 +58,8 @@ namespace undine_tests
   inline double
   thickness(Random &random)
   {
-    const double choices[] = {1e-12, 1e-12, 1e-11, 1e-9, 1e-6, 1e-3, random.power(-12, .3),
-                              random.power(-12, .3), 1, 2};
+    const double choices[] = {
+      1e-12, 1e-12, 1e-11, 1e-9, 1e-6, 1e-3, random.power(-12, .3), random.power(-12, .3), 1, 2};
     return choices[random.below(10)];
   }
 
@@ -81,9 +93,9 @@ namespace undine_tests
   Bodies<dim>
   sheet_along(const Curve &curve, const int n_along, const double w, Random &random)
   {
-    auto cells     = random_cells<dim>(random, 9);
-    cells[0]       = n_along;
-    cells[dim - 1] = 1;
+    auto cells         = random_cells<dim>(random, 9);
+    cells[0]           = n_along;
+    cells[dim - 1]     = 1;
     const double width = random.between(.5, 4);
     return lattice<dim>(cells, [&](const dealii::Point<dim> &x) {
       const auto         at = curve(x[0]); // place, normal
@@ -110,10 +122,11 @@ namespace undine_tests
     const double amplitude = random.between(.1, .8), frequency = random.between(.5, 2);
     return sheet_along<dim>(
       [&](const double s) {
-        const double t = length * (s - .5);
+        const double t     = length * (s - .5);
         const double slope = amplitude * frequency * std::cos(frequency * t);
         const double size  = std::hypot(1, slope);
-        return PlaceAndNormal{{{t, amplitude * std::sin(frequency * t)}, {-slope / size, 1 / size}}};
+        return PlaceAndNormal{
+          {{t, amplitude * std::sin(frequency * t)}, {-slope / size, 1 / size}}};
       },
       20 + random.below(30),
       w,
@@ -150,14 +163,14 @@ namespace undine_tests
   Bodies<dim>
   spiral(Random &random)
   {
-    const double w     = std::min(thickness(random), 1e-3);
-    const double pitch = random.between(.03, .12) + w;
+    const double w      = std::min(thickness(random), 1e-3);
+    const double pitch  = random.between(.03, .12) + w;
     auto         result = sheet_along<dim>(
       [&](const double s) {
         const double turns = 7 * s, angle = 2 * M_PI * turns;
         const double r = .15 + 2 * pitch * turns;
-        return PlaceAndNormal{{{r * std::cos(angle), r * std::sin(angle)},
-                               {std::cos(angle), std::sin(angle)}}};
+        return PlaceAndNormal{
+          {{r * std::cos(angle), r * std::sin(angle)}, {std::cos(angle), std::sin(angle)}}};
       },
       7 * 24,
       w,
@@ -172,9 +185,9 @@ namespace undine_tests
   Bodies<dim>
   egg_box(Random &random, const int n_layers)
   {
-    auto cells     = random_cells<dim>(random, 4);
-    cells[0]       = 2 + random.below(5);
-    cells[dim - 1] = 1;
+    auto cells           = random_cells<dim>(random, 4);
+    cells[0]             = 2 + random.below(5);
+    cells[dim - 1]       = 1;
     const double units[] = {1, .5, .25, 1e-13};
     const double unit = units[random.below(4)], step = random.below(3) > 0 ? 1. : .5;
     const double w = std::min(thickness(random), .1), gap = random.power(-10, -2);

@@ -79,8 +79,8 @@ namespace undine_tests
           const Surface<dim>                    &surface,
           const std::vector<dealii::Point<dim>> &positions)
   {
-    const auto    grid = std::make_shared<const GridPlanes<dim>>(planes);
-    CutCells<dim> cut(GridBlock<dim>(grid, all_cells(*grid), 0));
+    const auto        grid = std::make_shared<const GridPlanes<dim>>(planes);
+    CutCells<dim>     cut(GridBlock<dim>(grid, all_cells(*grid), 0));
     CutWorkspace<dim> work;
     cut_block(cut, work, {surface, positions});
     return cut;
@@ -122,8 +122,8 @@ namespace undine_tests
   std::vector<double>
   fluid_regions(const CutCells<dim> &cut, const double negligible)
   {
-    const int n_components = cut.components.size();
-    Joined    joined(n_components + cut.block.cells().size());
+    const int  n_components = cut.components.size();
+    Joined     joined(n_components + cut.block.cells().size());
     const auto uncut = [&](const GridIndex<dim> &cell) {
       return n_components + static_cast<int>(cut.block.cells().position(cell));
     };
@@ -137,9 +137,9 @@ namespace undine_tests
         bool        inside = true;
         for (const int end : {0, 1})
           {
-            sides[end] = piece.components[end] == cut.uncut ?
-                           uncut(moved(face.index, face.axis, end - 1)) :
-                           piece.components[end];
+            sides[end] = piece.components[end] == cut.uncut
+                           ? uncut(moved(face.index, face.axis, end - 1))
+                           : piece.components[end];
             inside     = inside && sides[end] >= 0;
           }
         if (inside)
@@ -171,13 +171,13 @@ namespace undine_tests
   /// Worst defects of the identities that cut cells must fulfil, in units of a cell or a face.
   struct Defects
   {
-    double closure     = 0; ///< sum a n + sum N of a component
-    double linear      = 0; ///< flux of a linear field minus its divergence times volume
-    double volume      = 0; ///< of all fluid, in units of the box
-    double moment      = 0; ///< first moments of all fluid, in units of the box
-    double facets      = 0; ///< integrals of 1, f, f g over facets, in units of their area
-    double smallest    = 0; ///< most negative volume or area
-    int    leaks       = 0; ///< components on both sides of a sheet without its rim in their cell
+    double closure  = 0; ///< sum a n + sum N of a component
+    double linear   = 0; ///< flux of a linear field minus its divergence times volume
+    double volume   = 0; ///< of all fluid, in units of the box
+    double moment   = 0; ///< first moments of all fluid, in units of the box
+    double facets   = 0; ///< integrals of 1, f, f g over facets, in units of their area
+    double smallest = 0; ///< most negative volume or area
+    int    leaks    = 0; ///< components on both sides of a sheet without its rim in their cell
   };
 
 
@@ -197,12 +197,12 @@ namespace undine_tests
     std::vector<dealii::Tensor<1, dim>> closure(cut.components.size());
     std::vector<double>                 flux(cut.components.size(), 0.);
     std::vector<double>                 scale(cut.components.size(), 0.);
-    const auto velocity = [&](const int c, const dealii::Point<dim> &x) {
+    const auto                          velocity = [&](const int c, const dealii::Point<dim> &x) {
       const auto            &cell = cut.cells[cut.components[c].cell].index;
       dealii::Tensor<1, dim> scaled; // in widths of the cell, so that all axes count alike
       for (unsigned int d = 0; d < dim; ++d)
-        scaled[d] = (x[d] - cut.block.planes().position(d, cell[d])) /
-                    cut.block.planes().width(d, cell[d]);
+        scaled[d] =
+          (x[d] - cut.block.planes().position(d, cell[d])) / cut.block.planes().width(d, cell[d]);
       auto result = gradient * scaled;
       for (unsigned int d = 0; d < dim; ++d)
         result[d] *= cut.block.planes().width(d, cell[d]);
@@ -233,9 +233,8 @@ namespace undine_tests
         for (unsigned int d = 0; d < dim; ++d)
           defects.closure =
             std::max(defects.closure, std::abs(closure[c][d]) / cut.block.face_area(d, cell));
-        defects.linear = std::max(defects.linear,
-                                  std::abs(flux[c] - trace(gradient) * cut.components[c].volume) /
-                                    volume);
+        defects.linear = std::max(
+          defects.linear, std::abs(flux[c] - trace(gradient) * cut.components[c].volume) / volume);
         defects.smallest = std::min(defects.smallest, cut.components[c].volume / volume);
       }
   }
@@ -249,9 +248,9 @@ namespace undine_tests
                const Surface<dim>                    &surface,
                const std::vector<dealii::Point<dim>> &positions)
   {
-    dealii::Point<dim> middle;
-    double             box = 1;
-    const auto        &planes = cut.block.planes();
+    dealii::Point<dim>     middle;
+    double                 box    = 1;
+    const auto            &planes = cut.block.planes();
     dealii::Tensor<1, dim> size;
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -262,7 +261,7 @@ namespace undine_tests
       }
     long double                  volume = -box; // of fluid and bodies minus the box
     std::array<long double, dim> moment{};      // around the middle
-    const auto add = [&](const double v, const dealii::Point<dim> &centre) {
+    const auto                   add = [&](const double v, const dealii::Point<dim> &centre) {
       volume += v;
       for (unsigned int d = 0; d < dim; ++d)
         moment[d] += v * (centre[d] - middle[d]);
@@ -307,9 +306,9 @@ namespace undine_tests
                const std::vector<dealii::Point<dim>> &positions)
   {
     using Vector = dealii::Tensor<1, dim>;
-    std::vector<Vector>                                        areas(surface.facets().size());
-    std::vector<std::array<Vector, dim>>                       means(areas.size());
-    std::vector<std::array<std::array<Vector, dim>, dim>>      products(areas.size());
+    std::vector<Vector>                                   areas(surface.facets().size());
+    std::vector<std::array<Vector, dim>>                  means(areas.size());
+    std::vector<std::array<std::array<Vector, dim>, dim>> products(areas.size());
     for (const auto &fragment : cut.fragments)
       {
         const auto &n = fragment.area_vector;
@@ -323,8 +322,8 @@ namespace undine_tests
       }
     for (unsigned int f = 0; f < areas.size(); ++f)
       {
-        const auto   exact = -area_vector(surface, f, positions);
-        double       size  = 0; // differences of coordinates carry their rounding
+        const auto exact = -area_vector(surface, f, positions);
+        double     size  = 0; // differences of coordinates carry their rounding
         for (unsigned int d = 0; d < dim; ++d)
           size = std::max(size, cut.block.face_area(d, cut.block.cells().lower));
         size              = std::max(size, exact.norm());
@@ -349,7 +348,7 @@ namespace undine_tests
   {
     for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
       {
-        std::map<unsigned, bool>                      rims;  // by body
+        std::map<unsigned, bool>                     rims;  // by body
         std::map<std::pair<int, unsigned>, unsigned> sides; // by component and body
         for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
           {
@@ -358,7 +357,9 @@ namespace undine_tests
             const auto  part     = bodies.parts[fragment.facet];
             rims[body]           = rims[body] || part == Part::rim;
             if (fragment.component >= 0)
-              sides[{fragment.component, body}] |= part == Part::lower ? 1 : part == Part::upper ? 2 : 0;
+              sides[{fragment.component, body}] |= part == Part::lower   ? 1
+                                                   : part == Part::upper ? 2
+                                                                         : 0;
           }
         for (const auto &side : sides)
           if (side.second == 3 && !rims[side.first.second])
@@ -381,7 +382,8 @@ namespace undine_tests
       for (unsigned int d = 0; d < dim; ++d)
         {
           const auto &planes = cut.block.planes();
-          inside = inside && x[d] > planes.position(d, 0) && x[d] < planes.position(d, planes.n_cells(d));
+          inside =
+            inside && x[d] > planes.position(d, 0) && x[d] < planes.position(d, planes.n_cells(d));
         }
     if (inside)
       {

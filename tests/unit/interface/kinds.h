@@ -10,7 +10,7 @@ namespace undine_tests
   template <int dim>
   struct Kind
   {
-    std::string                                name;
+    std::string                                 name;
     std::function<Configuration<dim>(Random &)> make;
   };
 
@@ -67,15 +67,15 @@ namespace undine_tests
     dealii::Point<dim>   half = all_equal<dim>(1.);
     std::array<int, dim> cells;
     cells.fill(2);
-    half[0]     = 2;
-    cells[0]    = 4;
-    auto bodies = box<dim>(-half, half, cells, &random).without_parts();
+    half[0]          = 2;
+    cells[0]         = 4;
+    auto      bodies = box<dim>(-half, half, cells, &random).without_parts();
     const int a = random.below(dim), b = (a + 1) % dim;
     for (auto &x : bodies.nodes)
       {
         const double u = x[a], v = x[b];
-        x[a]           = u - v;
-        x[b]           = u + v;
+        x[a] = u - v;
+        x[b] = u + v;
       }
     return {bodies.orient().shift(all_equal<dim>(5.) - dealii::Point<dim>()), {}, 1};
   }
@@ -94,9 +94,9 @@ namespace undine_tests
       {
         const double r = random.between(.02, .17);
         auto         body =
-          random.below(2) == 0 ?
-                    ball<dim>(random.below(2), r) :
-                    box<dim>(all_equal<dim>(-r / 2), all_equal<dim>(r / 2), random_cells<dim>(random, 2));
+          random.below(2) == 0
+                    ? ball<dim>(random.below(2), r)
+                    : box<dim>(all_equal<dim>(-r / 2), all_equal<dim>(r / 2), random_cells<dim>(random, 2));
         if (random.below(2) == 1)
           body.rotate(random);
         dealii::Tensor<1, dim> distance;
@@ -117,10 +117,9 @@ namespace undine_tests
     const double w = std::min(thickness(random), .1), gap = random.power(-10, -1);
     const int    n = 1 + random.below(3), type = random.below(3);
     double       radius = type == 2 ? 1 + random.below(2) : random.between(.2, 1.5);
-    auto         base   = type == 0 ? ball<dim>(random.below(4), 1.) :
-                                      box<dim>(all_equal<dim>(-1.),
-                                               all_equal<dim>(1.),
-                                               random_cells<dim>(random, 5));
+    auto         base   = type == 0
+                            ? ball<dim>(random.below(4), 1.)
+                            : box<dim>(all_equal<dim>(-1.), all_equal<dim>(1.), random_cells<dim>(random, 5));
     base.without_parts();
     if (type != 2)
       base.rotate(random);
@@ -205,10 +204,11 @@ namespace undine_tests
     const double pitch  = (dim == 3 ? .9 : 1.1) * radius / m;
     for (int i = 0; i < std::lround(std::pow(m, dim)); ++i)
       {
-        const double r    = pitch * random.between(.05, .45);
-        auto         body = random.below(2) == 0 ?
-                              ball<dim>(random.below(2), r) :
-                              box<dim>(all_equal<dim>(-r / 2), all_equal<dim>(r / 2), random_cells<dim>(random, 1));
+        const double r = pitch * random.between(.05, .45);
+        auto         body =
+          random.below(2) == 0
+                    ? ball<dim>(random.below(2), r)
+                    : box<dim>(all_equal<dim>(-r / 2), all_equal<dim>(r / 2), random_cells<dim>(random, 1));
         dealii::Tensor<1, dim> distance;
         for (int d = 0, rest = i; d < dim; ++d, rest /= m)
           distance[d] = (rest % m - .5 * (m - 1)) * pitch;
@@ -227,7 +227,7 @@ namespace undine_tests
     result.regions.push_back(inside);
     for (int side = 0; side < 2 * dim; ++side)
       {
-        auto body = ball<dim>(random.below(2), .12 * outer_radius);
+        auto                   body = ball<dim>(random.below(2), .12 * outer_radius);
         dealii::Tensor<1, dim> distance;
         distance[side / 2] = (side % 2 == 0 ? -1.15 : 1.15) * outer_radius;
         result.bodies.append(body.rotate(random).shift(distance));
@@ -259,7 +259,8 @@ namespace undine_tests
   /// Kinds that only one dimension has. @{
   inline void
   add_kinds(std::vector<Kind<2>> &)
-  {}
+  {
+  }
 
   inline void
   add_kinds(std::vector<Kind<3>> &kinds)
@@ -297,9 +298,14 @@ namespace undine_tests
       {"tiny bodies", tiny_bodies<dim>},
       {"shells", shells<dim>},
       {"parallel sheets", parallel_sheets<dim>},
-      {"egg box", [](Random &r) { return Configuration<dim>{egg_box<dim>(r, 1), {}, 1}; }},
+      {"egg box",
+       [](Random &r) {
+         return Configuration<dim>{egg_box<dim>(r, 1), {}, 1};
+       }},
       {"egg boxes",
-       [](Random &r) { return Configuration<dim>{egg_box<dim>(r, 2 + r.below(3)), {}, 1}; }},
+       [](Random &r) {
+         return Configuration<dim>{egg_box<dim>(r, 2 + r.below(3)), {}, 1};
+       }},
       {"snapped star",
        [](Random &r) {
          Configuration<dim> result{snapped_star<dim>(r), {}, 1};
