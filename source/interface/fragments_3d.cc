@@ -38,6 +38,21 @@ namespace undine
                b.coordinates[i] * b.coordinates[j] + c.coordinates[i] * c.coordinates[j]) /
               12;
       }
+
+      /// The means of a fragment; `plain_mean` if it has no area.
+      CutCells<3>::Fragment
+      fragment(const std::array<double, 3> &plain_mean) const
+      {
+        CutCells<3>::Fragment result;
+        result.component = CutCells<3>::no_component;
+        for (unsigned int k = 0; k < 3; ++k)
+          result.mean[k] = area > 0 ? mean[k] / area : plain_mean[k];
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int j = i + 1; j < 3; ++j)
+            result.products[i + j - 1] =
+              area > 0 ? products[i + j - 1] / area : result.mean[i] * result.mean[j];
+        return result;
+      }
     };
   } // namespace
 
@@ -105,17 +120,11 @@ namespace undine
         previous = next;
       }
 
-    CutCells<3>::Fragment result;
-    result.component   = cut.no_component;
+    for (double &coordinate : plain_mean)
+      coordinate /= fragment.end - fragment.begin;
+    auto result        = means.fragment(plain_mean);
     result.facet       = fragment.facet;
     result.area_vector = -area;
-    const int n        = fragment.end - fragment.begin;
-    for (unsigned int k = 0; k < 3; ++k)
-      result.mean[k] = means.area > 0 ? means.mean[k] / means.area : plain_mean[k] / n;
-    for (unsigned int i = 0; i < 2; ++i)
-      for (unsigned int j = i + 1; j < 3; ++j)
-        result.products[i + j - 1] =
-          means.area > 0 ? means.products[i + j - 1] / means.area : result.mean[i] * result.mean[j];
     cut.fragments.push_back(result);
     cut.corners.first.push_back(cut.corners.points.size());
     elements.push_back(element);

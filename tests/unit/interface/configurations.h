@@ -2,7 +2,7 @@
 #ifndef undine_tests_interface_configurations_h
 #define undine_tests_interface_configurations_h
 
-#include <interface/bodies.h>
+#include <interface/balls.h>
 
 #include <algorithm>
 #include <string>
