@@ -41,6 +41,8 @@ namespace undine
     elements.clear();
     uses.clear();
     add_fragments(cut, work, placed);
+    if (flags & cut_needs_sampling)
+      return flags; // the pieces of a sampled face have no edges: the cell is sampled too
     add_pieces(cut, work);
     flags |= unite();
     sum_up(cut, work);
@@ -76,9 +78,6 @@ namespace undine
             element.sums.moment[axis] = cut.pieces[p].area * height * height / 2;
             elements.push_back(element);
           }
-        // After sampling regions and pieces have nothing in common; the cell is sampled too.
-        if (record.flags & cut_needs_sampling)
-          continue;
         for (int i = record.first_planar; i < record.end_planar; ++i)
           {
             const auto      &edge = work.planar_edges[i];

@@ -22,7 +22,7 @@ namespace undine
       const auto &face = cut.faces[piece.face];
       auto        cell = face.index; // the last face belongs to the last cell
       cell[face.axis]  = std::min(cell[face.axis], cut.block.planes().n_cells(face.axis) - 1);
-      return piece.area < negligible(cut, cell) * cut.block.face_area(face.axis, cell);
+      return std::abs(piece.area) < negligible(cut, cell) * cut.block.face_area(face.axis, cell);
     }
 
 

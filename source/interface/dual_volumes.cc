@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/interface/dual_volumes.h>
 
+#include <cmath>
+
 namespace undine
 {
   namespace
@@ -14,7 +16,7 @@ namespace undine
       for (const auto &piece : cut.pieces)
         for (const int c : piece.components)
           if (c >= 0)
-            result[c][cut.faces[piece.face].axis] += piece.area;
+            result[c][cut.faces[piece.face].axis] += std::abs(piece.area);
       return result;
     }
 
@@ -45,6 +47,7 @@ namespace undine
       {
         const auto        &face   = cut.faces[piece.face];
         const unsigned int axis   = face.axis;
+        const double       area   = std::abs(piece.area);
         double             volume = 0, distance = 0;
         for (const int end : {0, 1})
           {
@@ -54,10 +57,9 @@ namespace undine
               continue;
             const double width = cut.block.planes().width(axis, cell);
             distance += width / 2;
-            volume +=
-              piece.area * (c == cut.uncut ? width / 2 : share(cut, c, axis, areas[c][axis]));
+            volume += area * (c == cut.uncut ? width / 2 : share(cut, c, axis, areas[c][axis]));
           }
-        const double least = DualVolumes<dim>::smallest_volume * piece.area * distance;
+        const double least = DualVolumes<dim>::smallest_volume * area * distance;
         result.added[axis] += std::max(0., least - volume);
         result.volumes.push_back(std::max(volume, least));
       }

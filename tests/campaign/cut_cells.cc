@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Random configurations of bodies that cut a grid. Exit code 1 if anything is wrong.
-//   campaign_cut_cells COUNT SEED [KIND]   COUNT of every kind, in 2D and 3D, on unit and graded grids
-//   campaign_cut_cells blocks COUNT SEED   blocks against the whole, bit by bit; on several ranks
-//   campaign_cut_cells wrong COUNT SEED    overlapping, folded, inverted and exploded bodies
+//   campaign_cut_cells COUNT SEED [KIND]   COUNT of every kind, in 2D and 3D, on unit and graded
+//   grids campaign_cut_cells blocks COUNT SEED   blocks against the whole, bit by bit; on several
+//   ranks campaign_cut_cells wrong COUNT SEED    overlapping, folded, inverted and exploded bodies
 //   campaign_cut_cells time                microseconds for a ball, as triangles and cells grow
 #include <interface/block_checks.h>
 #include <interface/trial.h>
@@ -157,8 +157,10 @@ main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
 
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const auto argument = [&](const std::size_t i) { return i < arguments.size() ? arguments[i] : ""; };
-  const auto number   = [&](const std::size_t i, const int otherwise) {
+  const auto                     argument = [&](const std::size_t i) {
+    return i < arguments.size() ? arguments[i] : "";
+  };
+  const auto number = [&](const std::size_t i, const int otherwise) {
     return i < arguments.size() ? std::stoi(arguments[i]) : otherwise;
   };
   bool good = true;

@@ -60,8 +60,9 @@ namespace undine
     /// A connected open part of a face: one velocity unknown.
     struct Piece
     {
-      int                face;
-      double             area;     ///< a_f [m^(dim-1)]
+      int    face;
+      double area; ///< a_f [m^(dim-1)]; below 0 where bodies overlap a little, so that
+                   ///< closure stays exact: the cells there are flagged
       dealii::Point<dim> centroid; ///< [m]
       /// Below and above the face: a component, `uncut` or `outside`.
       std::array<int, 2> components;

@@ -18,7 +18,8 @@ namespace undine
     cut_splitting_failed = 256  ///< a facet could not be split (never seen)
   };
 
-  /// Flags after which a face or cell is sampled instead; with the others closure is still exact.
+  /// Flags after which a face or cell is sampled instead. With the others closure is still exact:
+  /// an overlap of bodies without a node of the grid in it counts as fluid of negative volume.
   constexpr unsigned int cut_needs_sampling =
     cut_winding | cut_loop | cut_pairing | cut_nesting | cut_closure;
 

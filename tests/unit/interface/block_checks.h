@@ -51,8 +51,8 @@ namespace undine_tests
             const GridPlanes<dim>           &grid)
   {
     const auto &x = block.cells[a], &y = whole.cells[b];
-    const int   n = block.end_component(a) - x.first_component;
-    const int   m = block.end_fragment(a) - x.first_fragment;
+    const int   n    = block.end_component(a) - x.first_component;
+    const int   m    = block.end_fragment(a) - x.first_fragment;
     bool        same = x.flags == y.flags && n == whole.end_component(b) - y.first_component &&
                 m == whole.end_fragment(b) - y.first_fragment;
     for (int i = 0; i < n && same; ++i)
@@ -65,8 +65,8 @@ namespace undine_tests
       {
         const auto &c = block.fragments[x.first_fragment + i];
         const auto &d = whole.fragments[y.first_fragment + i];
-        same          = facets[c.facet] == d.facet && c.area_vector == d.area_vector &&
-               c.mean == d.mean && c.products == d.products &&
+        same = facets[c.facet] == d.facet && c.area_vector == d.area_vector && c.mean == d.mean &&
+               c.products == d.products &&
                name_of(block, c.component, grid) == name_of(whole, d.component, grid);
       }
     return same;
@@ -105,8 +105,8 @@ namespace undine_tests
             else
               for (int i = 0; i < n; ++i)
                 {
-                  const auto &p = block.pieces[block.faces[f].first_piece + i];
-                  const auto &q = whole.pieces[whole.faces[g].first_piece + i];
+                  const auto &p    = block.pieces[block.faces[f].first_piece + i];
+                  const auto &q    = whole.pieces[whole.faces[g].first_piece + i];
                   bool        same = p.area == q.area && p.centroid == q.centroid;
                   for (const int side : {0, 1})
                     same = same && name_of(block, p.components[side], grid) ==
@@ -137,8 +137,8 @@ namespace undine_tests
 
     const auto        grid = std::make_shared<const GridPlanes<dim>>(stretched.planes);
     const Blocks<dim> blocks(communicator, all_cells(*grid).upper, {});
-    CutCells<dim> cut(GridBlock<dim>(grid, blocks.cells_of_rank(blocks.rank()), 1));
-    const auto    facets = facets_near(cut.block, surface, bodies.nodes);
+    CutCells<dim>     cut(GridBlock<dim>(grid, blocks.cells_of_rank(blocks.rank()), 1));
+    const auto        facets = facets_near(cut.block, surface, bodies.nodes);
 
     std::vector<std::array<unsigned, dim>> near;
     std::vector<unsigned>                  body_of_facet;
