@@ -48,10 +48,11 @@ namespace undine
 
   template <int dim>
   double
-  closure_defect(const CutCells<dim> &cut, const CutWorkspace<dim> &work)
+  closure_defect(CutWorkspace<dim> &work, const CutCells<dim> &cut)
   {
-    const auto                         &cell = cut.cells.back();
-    std::vector<dealii::Tensor<1, dim>> sums(cut.components.size() - cell.first_component);
+    const auto &cell = cut.cells.back();
+    auto       &sums = work.closure;
+    sums.assign(cut.components.size() - cell.first_component, dealii::Tensor<1, dim>());
     for (int f = cell.first_fragment; f < static_cast<int>(cut.fragments.size()); ++f)
       sums[cut.fragments[f].component - cell.first_component] += cut.fragments[f].area_vector;
     dealii::Tensor<1, dim> areas;
@@ -77,7 +78,7 @@ namespace undine
   template struct PartSums<2>;
   template struct PartSums<3>;
   template double
-  closure_defect(const CutCells<2> &, const CutWorkspace<2> &);
+  closure_defect(CutWorkspace<2> &, const CutCells<2> &);
   template double
-  closure_defect(const CutCells<3> &, const CutWorkspace<3> &);
+  closure_defect(CutWorkspace<3> &, const CutCells<3> &);
 } // namespace undine

@@ -56,7 +56,7 @@ namespace undine
         flags |= cut_splitting_failed;
       if (!(flags & cut_needs_sampling))
         {
-          const double defect = closure_defect(cut, work);
+          const double defect = closure_defect(work, cut);
           if (defect > reported_closure)
             flags |= cut_closure;
           else if (flags == 0)
@@ -122,6 +122,18 @@ namespace undine
 
 
   template <int dim>
+  GridBlock<dim>
+  block_of_rank(const MacGrid<dim> &grid)
+  {
+    std::array<std::vector<double>, dim> planes;
+    for (unsigned int d = 0; d < dim; ++d)
+      planes[d] = grid.planes(d);
+    return GridBlock<dim>(
+      std::make_shared<const GridPlanes<dim>>(planes), grid.cells()->owned(), 1);
+  }
+
+
+  template <int dim>
   void
   cut_block(CutCells<dim> &cut, CutWorkspace<dim> &work, const PlacedSurface<dim> &placed)
   {
@@ -156,6 +168,7 @@ namespace undine
   // clang-format off
 #define INSTANTIATE(dim)                                                                           \
   template struct CutCells<dim>;                                                                   \
+  template GridBlock<dim> block_of_rank(const MacGrid<dim> &);                                     \
   template void cut_block(CutCells<dim> &, CutWorkspace<dim> &, const PlacedSurface<dim> &);       \
   template void cut_block(CutCells<dim> &, CutWorkspace<dim> &, const PlacedSurface<dim> &,        \
                           const Blocks<dim> &);

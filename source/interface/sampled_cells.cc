@@ -28,23 +28,6 @@ namespace undine
     /// @}
 
 
-    template <int dim>
-    SampledRegions<dim>
-    sample_regions(const CutCells<dim>                                      &cut,
-                   const GridIndex<dim>                                     &cell,
-                   const std::vector<typename SampledRegions<dim>::Simplex> &simplices)
-    {
-      dealii::Point<dim>     lower;
-      dealii::Tensor<1, dim> widths;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d]  = cut.block.planes().position(d, cell[d]);
-          widths[d] = cut.block.planes().width(d, cell[d]);
-        }
-      return SampledRegions<dim>(lower, widths, cut.windings[cut.block.key(cell)], simplices);
-    }
-
-
     /// A place on the fluid's side of a fragment, as far from it as samples are from each other.
     template <int dim>
     dealii::Point<dim>
@@ -62,6 +45,25 @@ namespace undine
       return centre;
     }
   } // namespace
+
+
+  template <int dim>
+  SampledRegions<dim>
+  sample_fluid(const CutCells<dim> &cut, const int cell)
+  {
+    std::vector<typename SampledRegions<dim>::Simplex> simplices;
+    for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
+      add_simplices(simplices, cut.corners.points, cut.corners.first[f], cut.corners.first[f + 1]);
+    const auto            &index = cut.cells[cell].index;
+    dealii::Point<dim>     lower;
+    dealii::Tensor<1, dim> widths;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d]  = cut.block.planes().position(d, index[d]);
+        widths[d] = cut.block.planes().width(d, index[d]);
+      }
+    return SampledRegions<dim>(lower, widths, cut.windings[cut.block.key(index)], simplices);
+  }
 
 
   void
@@ -101,12 +103,9 @@ namespace undine
   void
   sample_cell(CutCells<dim> &cut, const CutWorkspace<dim> &work)
   {
-    const int                                          number = cut.cells.size() - 1;
-    const auto                                        &cell   = cut.cells.back();
-    std::vector<typename SampledRegions<dim>::Simplex> simplices;
-    for (int f = cell.first_fragment; f < cut.end_fragment(number); ++f)
-      add_simplices(simplices, cut.corners.points, cut.corners.first[f], cut.corners.first[f + 1]);
-    const auto sampled = sample_regions<dim>(cut, cell.index, simplices);
+    const int   number  = cut.cells.size() - 1;
+    const auto &cell    = cut.cells.back();
+    const auto  sampled = sample_fluid(cut, number);
 
     cut.components.resize(cell.first_component);
     for (const auto &region : sampled.regions())
@@ -136,6 +135,10 @@ namespace undine
   }
 
 
+  template SampledRegions<2>
+  sample_fluid(const CutCells<2> &, const int);
+  template SampledRegions<3>
+  sample_fluid(const CutCells<3> &, const int);
   template void
   sample_cell(CutCells<2> &, const CutWorkspace<2> &);
   template void

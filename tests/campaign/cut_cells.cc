@@ -112,40 +112,43 @@ namespace
   }
 
 
+  template <int dim>
   void
-  measure_time()
+  measure_time(const int n, const int level)
   {
-    for (const int n : {64, 128})
-      for (const int level : {4, 5, 6})
-        {
-          auto body = ball<3>(level, n * .35);
-          body.shift(dealii::Tensor<1, 3>({n * .5 + .01, n * .5 + .02, n * .5 + .03}));
-          Planes<3> planes;
-          for (auto &p : planes)
-            for (int i = 0; i <= n; ++i)
-              p.push_back(i);
-          const auto      surface = body.surface();
-          const auto      grid    = std::make_shared<const GridPlanes<3>>(planes);
-          CutCells<3>     cut(GridBlock<3>(grid, all_cells(*grid), 0));
-          CutWorkspace<3> work;
-          double          best = 1e9;
-          for (int repeat = 0; repeat < 5; ++repeat)
-            {
-              const Stopwatch stopwatch;
-              cut_block(cut, work, {surface, body.nodes});
-              best = std::min(best, stopwatch.seconds());
-            }
-          std::printf("n=%3d triangles %6zu cut cells %6zu fragments %6zu: %.1f ms = %.2f "
-                      "us/triangle, %.2f us/cut cell, %.2f us/fragment\n",
-                      n,
-                      surface.facets().size(),
-                      cut.cells.size(),
-                      cut.fragments.size(),
-                      1e3 * best,
-                      1e6 * best / surface.facets().size(),
-                      1e6 * best / cut.cells.size(),
-                      1e6 * best / cut.fragments.size());
-        }
+    auto                   body = ball<dim>(level, n * .35);
+    dealii::Tensor<1, dim> distance;
+    Planes<dim>            planes;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        distance[d] = n * .5 + .01 * (d + 1);
+        for (int i = 0; i <= n; ++i)
+          planes[d].push_back(i);
+      }
+    body.shift(distance);
+    const auto        surface = body.surface();
+    const auto        grid    = std::make_shared<const GridPlanes<dim>>(planes);
+    CutCells<dim>     cut(GridBlock<dim>(grid, all_cells(*grid), 0));
+    CutWorkspace<dim> work;
+    double            best = 1e9;
+    for (int repeat = 0; repeat < 7; ++repeat)
+      {
+        const Stopwatch stopwatch;
+        cut_block(cut, work, {surface, body.nodes});
+        best = std::min(best, stopwatch.seconds());
+      }
+    std::printf(
+      "%dD n=%3d facets %6zu cut cells %6zu fragments %6zu: %.2f ms = %.2f us/facet, %.2f "
+      "us/cut cell, %.2f us/fragment\n",
+      dim,
+      n,
+      surface.facets().size(),
+      cut.cells.size(),
+      cut.fragments.size(),
+      1e3 * best,
+      1e6 * best / surface.facets().size(),
+      1e6 * best / cut.cells.size(),
+      1e6 * best / cut.fragments.size());
   }
 } // namespace
 
@@ -165,7 +168,13 @@ main(int argc, char **argv)
   };
   bool good = true;
   if (argument(0) == "time")
-    measure_time();
+    {
+      for (const int level : {6, 8, 10})
+        measure_time<2>(256, level);
+      for (const int n : {64, 128})
+        for (const int level : {4, 5, 6})
+          measure_time<3>(n, level);
+    }
   else if (argument(0) == "blocks")
     {
       good = run_blocks<2>(number(1, 20), number(2, 1));

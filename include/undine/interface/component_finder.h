@@ -133,7 +133,7 @@ namespace undine
   /// area of a face normal to it.
   template <int dim>
   double
-  closure_defect(const CutCells<dim> &cut, const CutWorkspace<dim> &work);
+  closure_defect(CutWorkspace<dim> &work, const CutCells<dim> &cut);
 } // namespace undine
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef undine_interface_cut_block_h
 #define undine_interface_cut_block_h
 
+#include <undine/fluid/mac_grid.h>
 #include <undine/interface/cut_workspace.h>
 
 namespace undine
@@ -9,6 +10,12 @@ namespace undine
   /// Components and pieces smaller than this, in units of a cell or face, take no part in the flow;
   /// nor do those below twice the rounding level, which is higher on grids of more than 50 cells.
   constexpr double negligible_size = 1e-13;
+
+  /// The cells of this rank and a halo of one layer, which both sides of all owned faces need. What
+  /// lies beyond periodic sides is not part of it: bodies must not reach through them.
+  template <int dim>
+  GridBlock<dim>
+  block_of_rank(const MacGrid<dim> &grid);
 
   /// Cut the cells of cut.block, which spans the domain along axis 0, by a surface. Overwrites
   /// `cut`; `work` keeps memory from one call to the next. Throws SolveError if a position is not

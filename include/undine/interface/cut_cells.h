@@ -154,7 +154,7 @@ namespace undine
     void
     clear();
 
-    const GridBlock<dim>   block;
+    GridBlock<dim>         block;
     std::vector<Cell>      cells; ///< the first direction running fastest
     std::vector<Component> components;
     std::vector<Face>      faces;

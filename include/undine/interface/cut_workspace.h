@@ -31,12 +31,13 @@ namespace undine
       debris_piece.clear();
     }
 
-    SplitSurface<dim>       split;
-    GridEdges<dim>          grid_edges;
-    PlanarProblem           planar;
-    std::vector<PlanarEdge> planar_edges; ///< of all faces in 3D
-    std::vector<FaceRecord> face_records;
-    std::vector<char>       debris_piece; ///< of each piece: PlanarRegion::debris
+    SplitSurface<dim>                   split;
+    GridEdges<dim>                      grid_edges;
+    PlanarProblem                       planar;
+    std::vector<PlanarEdge>             planar_edges; ///< of all faces in 3D
+    std::vector<FaceRecord>             face_records;
+    std::vector<char>                   debris_piece; ///< of each piece: PlanarRegion::debris
+    std::vector<dealii::Tensor<1, dim>> closure;      ///< of each component of one cell
   };
 
 

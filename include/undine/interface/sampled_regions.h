@@ -55,13 +55,19 @@ namespace undine
     void
     flood(const GridIndex<dim> &start, const int region);
 
-    dealii::Point<dim>          lower;
-    dealii::Tensor<1, dim>      widths;
-    const std::vector<Simplex> &simplices;
-    IndexBox<dim>               samples;
-    std::vector<int>            region_of; ///< of each sample; -1 solid, -2 not yet known
-    std::vector<Region>         all_regions;
+    dealii::Point<dim>     lower;
+    dealii::Tensor<1, dim> widths;
+    std::vector<Simplex>   simplices;
+    IndexBox<dim>          samples;
+    std::vector<int>       region_of; ///< of each sample; -1 solid, -2 not yet known
+    std::vector<Region>    all_regions;
   };
+
+
+  /// Sample the fluid in cell number `cell` of cut.cells, given its fragments.
+  template <int dim>
+  SampledRegions<dim>
+  sample_fluid(const CutCells<dim> &cut, const int cell);
 
 
   /// Append the pieces of the last face by sampling.

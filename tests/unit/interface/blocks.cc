@@ -23,6 +23,19 @@ namespace
 } // namespace
 
 
+TEST_CASE("The block of a rank has a halo inside the domain", "[interface][mpi]")
+{
+  const MacGrid<2> grid(MPI_COMM_WORLD, {{{0., 1., 2., 3., 4.}, {0., .5, 1.5, 3.}}}, {});
+  const auto       block = block_of_rank(grid);
+  CHECK(block.owned() == grid.cells()->owned());
+  for (unsigned int d = 0; d < 2; ++d)
+    {
+      CHECK(block.cells().lower[d] == std::max(0, block.owned().lower[d] - 1));
+      CHECK(block.cells().upper[d] == std::min(grid.cells_along()[d], block.owned().upper[d] + 1));
+    }
+}
+
+
 TEST_CASE("Blocks agree with the whole to the bit", "[interface][mpi]")
 {
   compare_all_kinds<2>(5);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/interface/dual_volumes.h>
+#include <undine/interface/sampled_regions.h>
 
 #include <catch2/catch.hpp>
 #include <interface/trial.h>
@@ -238,6 +239,41 @@ TEST_CASE("Dual volumes add up to the fluid", "[interface]")
   check_dual_volumes<2>("hairpin", .049, 4);
   check_dual_volumes<3>("wave", .049, 4);
   check_dual_volumes<3>("aligned box", .049, 4);
+}
+
+
+TEST_CASE("Samples agree with exact volumes", "[interface]")
+{
+  // What wrong bodies fall back on, on right ones: an independent count of the fluid.
+  for (const std::string name : {"torus", "nested bodies", "hairpin"})
+    for (const auto &kind : kinds<3>())
+      if (kind.name == name)
+        {
+          double difference = 0;
+          int    n          = 0;
+          for (int number = 0; number < 8; ++number)
+            {
+              Random     random(number);
+              auto       bodies  = kind.make(random).bodies;
+              const auto planes  = make_planes(bodies, Grid::unit, random).planes;
+              const auto surface = bodies.surface();
+              const auto cut     = cut_all<3>(planes, surface, bodies.nodes);
+              for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
+                {
+                  double exact = 0, sampled = 0;
+                  for (int c = cut.cells[cell].first_component; c < cut.end_component(cell); ++c)
+                    exact += cut.components[c].volume;
+                  const auto fluid = sample_fluid(cut, cell);
+                  for (const auto &region : fluid.regions())
+                    sampled += region.volume;
+                  difference += std::abs(exact - sampled);
+                  ++n;
+                }
+            }
+          INFO(name << ' ' << n << " cells, mean difference " << difference / n);
+          CHECK(n > 50);
+          CHECK(difference / n < .004);
+        }
 }
 
 
