@@ -13,10 +13,10 @@
 
 namespace undine
 {
-  /// How bodies divide the points of a lattice: a cell into the connected components of its fluid, a
-  /// face into its open pieces. At a divided point a field has one value for each part (see
-  /// Field::part) and its value on the lattice is a mean: of a cell over the volume of its fluid, of
-  /// a face the flux through all pieces over the whole area.
+  /// How bodies divide the points of a lattice: a cell into the connected components of its fluid,
+  /// a face into its open pieces. At a divided point a field has one value for each part (see
+  /// Field::part) and its value on the lattice is a mean: of a cell over the volume of its fluid,
+  /// of a face the flux through all pieces over the whole area.
   template <int dim>
   class LatticeParts
   {
@@ -59,10 +59,11 @@ namespace undine
       return lattice->owned().contains(parts[part].index);
     }
 
+    /// What lies beyond the points that this rank knows counts as whole.
     Kind
     kind(const GridIndex<dim> &index) const
     {
-      return kinds.empty() ? Kind::whole : kinds[box.position(index)];
+      return box.contains(index) ? kinds[box.position(index)] : Kind::whole;
     }
 
     /// The parts of a divided point are number first..last-1. @{
@@ -89,13 +90,13 @@ namespace undine
     void
     find_owners();
 
-    std::shared_ptr<const Lattice<dim>>             lattice;
-    IndexBox<dim>                                   box; ///< of `kinds`
-    std::vector<Kind>                               kinds;
-    std::vector<Part>                               parts;
-    std::map<std::size_t, std::pair<int, int>>      first_parts;
-    std::map<unsigned int, std::vector<int>>        wanted;  ///< by rank: parts that it owns
-    std::map<unsigned int, std::vector<int>>        offered; ///< by rank: parts that it wants
+    std::shared_ptr<const Lattice<dim>>        lattice;
+    IndexBox<dim>                              box; ///< of `kinds`
+    std::vector<Kind>                          kinds;
+    std::vector<Part>                          parts;
+    std::map<std::size_t, std::pair<int, int>> first_parts;
+    std::map<unsigned int, std::vector<int>>   wanted;  ///< by rank: parts that it owns
+    std::map<unsigned int, std::vector<int>>   offered; ///< by rank: parts that it wants
   };
 } // namespace undine
 

@@ -3,7 +3,6 @@
 #define undine_fluid_open_parts_h
 
 #include <undine/fluid/lattice_parts.h>
-#include <undine/fluid/mac_grid.h>
 
 #include <array>
 #include <vector>
@@ -26,6 +25,13 @@ namespace undine
       double             volume;     ///< V_f: of the fluid that moves with it [m^dim]
       std::array<int, 2> components; ///< below and above: numbers in `cells`, `whole` or `outside`
     };
+
+    /// What is left of a lattice of this grid.
+    const LatticeParts<dim> &
+    of(const Lattice<dim> &lattice) const
+    {
+      return lattice.normal_axis() == Lattice<dim>::no_axis ? cells : faces[lattice.normal_axis()];
+    }
 
     LatticeParts<dim>                   cells;
     std::array<LatticeParts<dim>, dim>  faces;
