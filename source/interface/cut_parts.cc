@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/field.h>
+#include <undine/interface/cut_parts.h>
+#include <undine/interface/dual_volumes.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  namespace
+  {
+    template <int dim>
+    using Kind = typename LatticeParts<dim>::Kind;
+
+    template <int dim>
+    using Part = typename LatticeParts<dim>::Part;
+
+    /// What a field of counts holds for points without parts. @{
+    constexpr int count_whole  = -1;
+    constexpr int count_closed = -2;
+    /// @}
+
+
+    /// The owned points of this rank and one layer around them, as far as there are points.
+    template <int dim>
+    IndexBox<dim>
+    known_points(const Lattice<dim> &lattice)
+    {
+      auto box = lattice.owned().grown(all_directions<dim>(1));
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!lattice.row(d).periodic())
+          {
+            box.lower[d] = std::max(box.lower[d], 0);
+            box.upper[d] = std::min(box.upper[d], lattice.row(d).size());
+          }
+      return box;
+    }
+
+
+    /// Images of parts are where their points have images.
+    template <int dim>
+    void
+    move_images(std::vector<Part<dim>> &parts, const Lattice<dim> &lattice)
+    {
+      for (auto &part : parts)
+        {
+          const auto point = lattice.wrapped(part.index);
+          if (!(point == part.index))
+            part.place += lattice.point(part.index) - lattice.point(point);
+        }
+    }
+
+
+    /// The parts of a lattice's points, given how many the owned points have (or count_whole,
+    /// count_closed) and part(index, number of the part in its point) for each of these.
+    template <int dim, class MakePart>
+    LatticeParts<dim>
+    make_parts(const std::shared_ptr<const Lattice<dim>> &lattice,
+               Field<dim>                                &counts,
+               const MakePart                            &part)
+    {
+      counts.exchange(1);
+      std::vector<Kind<dim>> kinds;
+      std::vector<Part<dim>> parts;
+      for_each(known_points(*lattice), [&](const GridIndex<dim> &index) {
+        const int count = static_cast<int>(counts(index));
+        kinds.push_back(count == count_whole    ? Kind<dim>::whole
+                        : count == count_closed ? Kind<dim>::closed
+                                                : Kind<dim>::divided);
+        for (int k = 0; k < count; ++k)
+          parts.push_back(lattice->owned().contains(index) ? part(index, k)
+                                                           : Part<dim>{index, {}, 0});
+      });
+      // What other ranks own is fetched from them by a first version that knows only who has what.
+      const LatticeParts<dim> numbered(lattice, kinds, parts);
+      std::vector<double>     values(parts.size());
+      const auto              fetch = [&](const auto &value) {
+        for (std::size_t k = 0; k < parts.size(); ++k)
+          values[k] = value(parts[k]);
+        numbered.exchange(values);
+        for (std::size_t k = 0; k < parts.size(); ++k)
+          value(parts[k]) = values[k];
+      };
+      for (unsigned int d = 0; d < dim; ++d)
+        fetch([d](auto &p) -> double & { return p.place[d]; });
+      fetch([](auto &p) -> double & { return p.measure; });
+      move_images<dim>(parts, *lattice);
+      return LatticeParts<dim>(lattice, kinds, parts);
+    }
+
+
+    /// One of the two halves of a face on a periodic side.
+    struct Half
+    {
+      double volume    = 0;  ///< of the fluid on this side that moves with the face [m^dim]
+      int    component = -1; ///< of OpenParts::cells, or OpenParts::whole
+      bool   open      = false;
+    };
+
+
+    template <int dim>
+    class PartsOfCut
+    {
+    public:
+      PartsOfCut(const MacGrid<dim> &grid, const CutCells<dim> &cut)
+        : grid(grid)
+        , cut(cut)
+        , dual(dual_volumes(cut))
+      {
+      }
+
+      CutParts<dim>
+      make()
+      {
+        auto parts = std::make_shared<OpenParts<dim>>();
+        open       = parts.get();
+        make_cells();
+        number_components();
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          {
+            find_upper_halves(axis);
+            make_faces(axis);
+          }
+        result.open = parts;
+        return result;
+      }
+
+    private:
+      using Open = OpenParts<dim>;
+
+      void
+      make_cells();
+
+      void
+      number_components();
+
+      void
+      find_upper_halves(const unsigned int axis);
+
+      void
+      make_faces(const unsigned int axis);
+
+      void
+      fetch_pieces(const unsigned int axis);
+
+      Half
+      upper_half(const GridIndex<dim> &cell) const;
+
+      Half
+      lower_half(const GridIndex<dim> &cell, const unsigned int axis) const;
+
+      int
+      count(const GridIndex<dim> &face, const unsigned int axis) const;
+
+      bool
+      joins_periodic_sides(const GridIndex<dim> &face, const unsigned int axis) const
+      {
+        return grid.periodic(axis) && face[axis] == 0;
+      }
+
+      /// Half the volume of the cell.
+      double
+      half_volume(const GridIndex<dim> &cell) const
+      {
+        return grid.cell_volume(cell) / 2;
+      }
+
+      const MacGrid<dim>    &grid;
+      const CutCells<dim>   &cut;
+      const DualVolumes<dim> dual;
+      Open                  *open = nullptr;
+      CutParts<dim>          result;
+      std::vector<double>    upper_halves; ///< of each component its Half::volume at the upper
+                                           ///< periodic side; -1: does not touch it
+    };
+
+
+    template <int dim>
+    void
+    PartsOfCut<dim>::make_cells()
+    {
+      Field<dim> counts(grid.cells());
+      for_each(counts.owned(), [&](const GridIndex<dim> &cell) {
+        const int slot = cut.cut_cell(cell);
+        counts(cell)   = slot >= 0 ? cut.end_component(slot) - cut.cells[slot].first_component
+                         : cut.in_solid(cell) ? count_closed
+                                              : count_whole;
+      });
+      open->cells =
+        make_parts<dim>(grid.cells(), counts, [&](const GridIndex<dim> &cell, const int k) {
+          const auto &component = cut.components[cut.cells[cut.cut_cell(cell)].first_component + k];
+          return Part<dim>{cell, component.centroid, component.volume};
+        });
+    }
+
+
+    template <int dim>
+    void
+    PartsOfCut<dim>::number_components()
+    {
+      const auto &parts = open->cells.all();
+      result.cut_components.assign(parts.size(), -1);
+      result.open_components.assign(cut.components.size(), -1);
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        {
+          const auto cell = grid.cells()->wrapped(parts[k].index);
+          if (!cut.block.cells().contains(cell))
+            continue;
+          const int slot = cut.cut_cell(cell);
+          const int c    = cut.cells[slot].first_component + k - open->cells.first(parts[k].index);
+          result.cut_components[k] = c;
+          if (cell == parts[k].index)
+            result.open_components[c] = k;
+        }
+    }
+
+
+    /// What owners of cells below upper periodic sides know, for the owners of the faces there.
+    template <int dim>
+    void
+    PartsOfCut<dim>::find_upper_halves(const unsigned int axis)
+    {
+      if (!grid.periodic(axis))
+        return;
+      upper_halves.assign(open->cells.all().size(), -1.);
+      const int last = grid.cells_along()[axis] - 1;
+      for (int f = 0; f < static_cast<int>(cut.faces.size()); ++f)
+        if (cut.faces[f].axis == axis && cut.faces[f].index[axis] == last + 1)
+          for (int p = cut.faces[f].first_piece; p < cut.end_piece(f); ++p)
+            if (const int c = cut.pieces[p].components[0]; c >= 0 && result.open_components[c] >= 0)
+              upper_halves[result.open_components[c]] = dual.volumes[p];
+      open->cells.exchange(upper_halves);
+    }
+
+
+    /// What lies below a face on a periodic side, in a cell that may be an image.
+    template <int dim>
+    Half
+    PartsOfCut<dim>::upper_half(const GridIndex<dim> &cell) const
+    {
+      if (open->cells.kind(cell) == Kind<dim>::whole)
+        return {half_volume(cell), Open::whole, true};
+      for (int c = open->cells.first(cell); c < open->cells.last(cell); ++c)
+        if (upper_halves[c] >= 0)
+          return {upper_halves[c], c, true};
+      return {};
+    }
+
+
+    /// What lies above it, in an owned cell.
+    template <int dim>
+    Half
+    PartsOfCut<dim>::lower_half(const GridIndex<dim> &cell, const unsigned int axis) const
+    {
+      if (open->cells.kind(cell) == Kind<dim>::whole)
+        return {half_volume(cell), Open::whole, true};
+      const int f = cut.cut_face(axis, cell);
+      if (f >= 0)
+        for (int p = cut.faces[f].first_piece; p < cut.end_piece(f); ++p)
+          if (const int c = cut.pieces[p].components[1]; c >= 0)
+            return {dual.volumes[p], result.open_components[c], true};
+      return {};
+    }
+
+
+    template <int dim>
+    int
+    PartsOfCut<dim>::count(const GridIndex<dim> &face, const unsigned int axis) const
+    {
+      const auto below = moved(face, axis, -1);
+      if (joins_periodic_sides(face, axis))
+        {
+          if (open->cells.kind(face) == Kind<dim>::whole &&
+              open->cells.kind(below) == Kind<dim>::whole)
+            return count_whole;
+          return upper_half(below).open && lower_half(face, axis).open ? 1 : 0;
+        }
+      const int f = cut.cut_face(axis, face);
+      if (f >= 0)
+        return cut.end_piece(f) - cut.faces[f].first_piece;
+      return cut.in_solid(cut.block.cells().contains(face) ? face : below) ? count_closed
+                                                                           : count_whole;
+    }
+
+
+    template <int dim>
+    void
+    PartsOfCut<dim>::make_faces(const unsigned int axis)
+    {
+      const auto &lattice = grid.faces(axis);
+      Field<dim>  counts(lattice);
+      for_each(counts.owned(),
+               [&](const GridIndex<dim> &face) { counts(face) = count(face, axis); });
+      open->faces[axis] =
+        make_parts<dim>(lattice, counts, [&](const GridIndex<dim> &face, const int k) {
+          if (joins_periodic_sides(face, axis))
+            return Part<dim>{face, lattice->point(face), grid.face_area(axis, face)};
+          const auto &piece = cut.pieces[cut.faces[cut.cut_face(axis, face)].first_piece + k];
+          return Part<dim>{face, piece.centroid, piece.area};
+        });
+      fetch_pieces(axis);
+    }
+
+
+    /// Volumes and components of the pieces of faces that have been made. A component travels as
+    /// the number that it has in its cell.
+    template <int dim>
+    void
+    PartsOfCut<dim>::fetch_pieces(const unsigned int axis)
+    {
+      const auto                        &faces = open->faces[axis];
+      const auto                        &cells = open->cells;
+      const std::size_t                  n     = faces.all().size();
+      std::vector<double>                volumes(n);
+      std::array<std::vector<double>, 2> components{{volumes, volumes}};
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          const auto &face = faces.all()[k].index;
+          if (!faces.owns(k))
+            continue;
+          std::array<int, 2> joined;
+          if (joins_periodic_sides(face, axis))
+            {
+              const auto below = upper_half(moved(face, axis, -1));
+              const auto above = lower_half(face, axis);
+              joined           = {{below.component, above.component}};
+              volumes[k]       = below.volume + above.volume;
+            }
+          else
+            {
+              const int p = cut.faces[cut.cut_face(axis, face)].first_piece + k - faces.first(face);
+              for (const int end : {0, 1})
+                {
+                  const int c = cut.pieces[p].components[end];
+                  joined[end] = c >= 0           ? result.open_components[c]
+                                : c == cut.uncut ? Open::whole
+                                                 : Open::outside;
+                }
+              volumes[k] = dual.volumes[p];
+            }
+          for (const int end : {0, 1})
+            components[end][k] = joined[end] >= 0
+                                   ? joined[end] - cells.first(cells.all()[joined[end]].index)
+                                   : joined[end];
+        }
+      faces.exchange(volumes);
+      for (auto &of_end : components)
+        faces.exchange(of_end);
+
+      const auto known = known_points(*grid.cells());
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          typename Open::Piece piece{volumes[k], {{Open::outside, Open::outside}}};
+          for (const int end : {0, 1})
+            {
+              const auto cell   = moved(faces.all()[k].index, axis, end - 1);
+              const int  number = static_cast<int>(components[end][k]);
+              if (known.contains(cell))
+                piece.components[end] = number >= 0 ? cells.first(cell) + number : number;
+            }
+          open->pieces[axis].push_back(piece);
+        }
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<double>
+  CutParts<dim>::of_cut_cells(const std::vector<double> &values) const
+  {
+    std::vector<double> result(open_components.size(), 0.);
+    for (std::size_t c = 0; c < result.size(); ++c)
+      if (open_components[c] >= 0)
+        result[c] = values[open_components[c]];
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  CutParts<dim>::of_open_parts(const std::vector<double> &values) const
+  {
+    std::vector<double> result(cut_components.size(), 0.);
+    for (std::size_t c = 0; c < result.size(); ++c)
+      if (cut_components[c] >= 0)
+        result[c] = values[cut_components[c]];
+    return result;
+  }
+
+
+  template <int dim>
+  CutParts<dim>
+  make_open_parts(const MacGrid<dim> &grid, const CutCells<dim> &cut)
+  {
+    return PartsOfCut<dim>(grid, cut).make();
+  }
+
+
+  template struct CutParts<2>;
+  template struct CutParts<3>;
+  template CutParts<2>
+  make_open_parts(const MacGrid<2> &, const CutCells<2> &);
+  template CutParts<3>
+  make_open_parts(const MacGrid<3> &, const CutCells<3> &);
+} // namespace undine
