@@ -2,6 +2,7 @@
 #include <undine/effects/effect.h>
 #include <undine/fluid/advection.h>
 #include <undine/fluid/implicit_diffusion.h>
+#include <undine/fluid/pressure_gradient.h>
 
 #include <algorithm>
 
@@ -157,10 +158,11 @@ namespace undine
     {
       for (const auto &field : fields)
         {
-          Field<dim> values(model.grid().cells());
-          for_each(values.owned(), [&](const GridIndex<dim> &cell) {
-            values(cell) = field->initial.value(values.lattice().point(cell), 0);
+          Field<dim> values(model.grid().cells(), state.velocity[0].open_parts());
+          for_each_value(values, [&](double &value, const auto &place, const auto &) {
+            value = field->initial.value(place, 0);
           });
+          set_means(values, model.grid());
           state.scalars[field->name] = values;
         }
     }
@@ -183,10 +185,10 @@ namespace undine
         if (!field->source.is_zero())
           {
             auto &values = step.state.scalars.at(field->name);
-            for_each(values.owned(), [&](const GridIndex<dim> &cell) {
-              values(cell) += step.dt * field->source.value(values.lattice().point(cell),
-                                                            step.time + step.dt / 2);
+            for_each_value(values, [&](double &value, const auto &place, const auto &) {
+              value += step.dt * field->source.value(place, step.time + step.dt / 2);
             });
+            set_means(values, step.model.grid());
           }
     }
 

@@ -169,44 +169,33 @@ namespace undine
 
   template <int dim>
   void
-  set_means(Velocity<dim> &velocity, const MacGrid<dim> &grid)
+  set_means(Field<dim> &field, const MacGrid<dim> &grid)
   {
-    if (velocity.open_parts() == nullptr)
+    const auto *divided = field.divided();
+    if (divided == nullptr)
       return;
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      {
-        auto       &component = velocity[axis];
-        const auto &divided   = *component.divided();
-        for_each(component.owned(), [&](const GridIndex<dim> &face) {
-          if (divided.kind(face) == Kind<dim>::whole)
-            return;
-          double flux = 0;
-          for_each_part(divided, face, [&](const int piece) {
-            flux += divided.all()[piece].measure * component.parts()[piece];
-          });
-          component(face) = flux / grid.face_area(axis, face);
-        });
-      }
+    const unsigned int axis = field.lattice().normal_axis();
+    for_each(field.owned(), [&](const GridIndex<dim> &index) {
+      if (divided->kind(index) == Kind<dim>::whole)
+        return;
+      double moment = 0, measure = 0;
+      for_each_part(*divided, index, [&](const int part) {
+        moment += divided->all()[part].measure * field.parts()[part];
+        measure += divided->all()[part].measure;
+      });
+      if (axis < dim)
+        measure = grid.face_area(axis, index);
+      field(index) = measure > 0 ? moment / measure : 0.;
+    });
   }
 
 
   template <int dim>
   void
-  set_means(Field<dim> &scalar)
+  set_means(Velocity<dim> &velocity, const MacGrid<dim> &grid)
   {
-    const auto *divided = scalar.divided();
-    if (divided == nullptr)
-      return;
-    for_each(scalar.owned(), [&](const GridIndex<dim> &cell) {
-      if (divided->kind(cell) == Kind<dim>::whole)
-        return;
-      double moment = 0, volume = 0;
-      for_each_part(*divided, cell, [&](const int component) {
-        moment += divided->all()[component].measure * scalar.parts()[component];
-        volume += divided->all()[component].measure;
-      });
-      scalar(cell) = volume > 0 ? moment / volume : 0.;
-    });
+    for (auto &component : velocity.components)
+      set_means(component, grid);
   }
 
 
@@ -262,7 +251,7 @@ namespace undine
   template double pressure_coupling(                                                       \
     const FluidModel<dim> &, const unsigned int, const GridIndex<dim> &);                  \
   template void set_means(Velocity<dim> &, const MacGrid<dim> &);                          \
-  template void set_means(Field<dim> &);                                                   \
+  template void set_means(Field<dim> &, const MacGrid<dim> &);                             \
   template void set_volumes(Field<dim> &, const MacGrid<dim> &);                           \
   template void add(Field<dim> &, const double, const Field<dim> &);                       \
   template void add(Velocity<dim> &, const double, const Velocity<dim> &);                 \

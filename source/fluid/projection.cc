@@ -165,7 +165,7 @@ namespace undine
     state.pressure    = Field<dim>(model.grid().cells(), open_parts);
     add(state.pressure, 1 / dt, impulse);
     closed_regions->remove_means(state.pressure);
-    set_means(state.pressure);
+    set_means(state.pressure, model.grid());
     return report;
   }
 

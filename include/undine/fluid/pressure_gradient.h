@@ -58,16 +58,15 @@ namespace undine
                     const GridIndex<dim>  &face);
   /// @}
 
-  /// Give divided faces the mean of their pieces: the flux through all over the whole area. Closed
-  /// faces get zero.
+  /// Give divided points the mean of their parts, see LatticeParts; closed ones get zero. @{
+  template <int dim>
+  void
+  set_means(Field<dim> &field, const MacGrid<dim> &grid);
+
   template <int dim>
   void
   set_means(Velocity<dim> &velocity, const MacGrid<dim> &grid);
-
-  /// The same for a field of cells: the mean over the volume of the fluid in the cell.
-  template <int dim>
-  void
-  set_means(Field<dim> &scalar);
+  /// @}
 
   /// Volume of the fluid in every owned cell and component [m^dim].
   template <int dim>
