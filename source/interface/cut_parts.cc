@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/field.h>
 #include <undine/interface/cut_parts.h>
 #include <undine/interface/dual_volumes.h>
-
-#include <algorithm>
+#include <undine/interface/exchanged_parts.h>
 
 namespace undine
 {
@@ -14,79 +12,6 @@ namespace undine
 
     template <int dim>
     using Part = typename LatticeParts<dim>::Part;
-
-    /// What a field of counts holds for points without parts. @{
-    constexpr int count_whole  = -1;
-    constexpr int count_closed = -2;
-    /// @}
-
-
-    /// The owned points of this rank and one layer around them, as far as there are points.
-    template <int dim>
-    IndexBox<dim>
-    known_points(const Lattice<dim> &lattice)
-    {
-      auto box = lattice.owned().grown(all_directions<dim>(1));
-      for (unsigned int d = 0; d < dim; ++d)
-        if (!lattice.row(d).periodic())
-          {
-            box.lower[d] = std::max(box.lower[d], 0);
-            box.upper[d] = std::min(box.upper[d], lattice.row(d).size());
-          }
-      return box;
-    }
-
-
-    /// Images of parts are where their points have images.
-    template <int dim>
-    void
-    move_images(std::vector<Part<dim>> &parts, const Lattice<dim> &lattice)
-    {
-      for (auto &part : parts)
-        {
-          const auto point = lattice.wrapped(part.index);
-          if (!(point == part.index))
-            part.place += lattice.point(part.index) - lattice.point(point);
-        }
-    }
-
-
-    /// The parts of a lattice's points, given how many the owned points have (or count_whole,
-    /// count_closed) and part(index, number of the part in its point) for each of these.
-    template <int dim, class MakePart>
-    LatticeParts<dim>
-    make_parts(const std::shared_ptr<const Lattice<dim>> &lattice,
-               Field<dim>                                &counts,
-               const MakePart                            &part)
-    {
-      counts.exchange(1);
-      std::vector<Kind<dim>> kinds;
-      std::vector<Part<dim>> parts;
-      for_each(known_points(*lattice), [&](const GridIndex<dim> &index) {
-        const int count = static_cast<int>(counts(index));
-        kinds.push_back(count == count_whole    ? Kind<dim>::whole
-                        : count == count_closed ? Kind<dim>::closed
-                                                : Kind<dim>::divided);
-        for (int k = 0; k < count; ++k)
-          parts.push_back(lattice->owned().contains(index) ? part(index, k)
-                                                           : Part<dim>{index, {}, 0});
-      });
-      // What other ranks own is fetched from them by a first version that knows only who has what.
-      const LatticeParts<dim> numbered(lattice, kinds, parts);
-      std::vector<double>     values(parts.size());
-      const auto              fetch = [&](const auto &value) {
-        for (std::size_t k = 0; k < parts.size(); ++k)
-          values[k] = value(parts[k]);
-        numbered.exchange(values);
-        for (std::size_t k = 0; k < parts.size(); ++k)
-          value(parts[k]) = values[k];
-      };
-      for (unsigned int d = 0; d < dim; ++d)
-        fetch([d](auto &p) -> double & { return p.place[d]; });
-      fetch([](auto &p) -> double & { return p.measure; });
-      move_images<dim>(parts, *lattice);
-      return LatticeParts<dim>(lattice, kinds, parts);
-    }
 
 
     /// One of the two halves of a face on a periodic side.
@@ -102,9 +27,10 @@ namespace undine
     class PartsOfCut
     {
     public:
-      PartsOfCut(const MacGrid<dim> &grid, const CutCells<dim> &cut)
+      PartsOfCut(const MacGrid<dim> &grid, const CutCells<dim> &cut, const VoidParts &voids)
         : grid(grid)
         , cut(cut)
+        , voids(voids)
         , dual(dual_volumes(cut))
       {
       }
@@ -152,6 +78,40 @@ namespace undine
       int
       count(const GridIndex<dim> &face, const unsigned int axis) const;
 
+      /// The components of a cut cell that are not void.
+      std::vector<int>
+      components_of(const int slot) const
+      {
+        std::vector<int> components;
+        for (int c = cut.cells[slot].first_component; c < cut.end_component(slot); ++c)
+          if (!voids.holds_component(c))
+            components.push_back(c);
+        return components;
+      }
+
+      /// The pieces of a face that are not void.
+      std::vector<int>
+      pieces_of(const int slot) const
+      {
+        std::vector<int> pieces;
+        for (int p = cut.faces[slot].first_piece; p < cut.end_piece(slot); ++p)
+          {
+            bool holds_fluid = true;
+            for (const int c : cut.pieces[p].components)
+              holds_fluid = holds_fluid && !(c >= 0 && voids.holds_component(c));
+            if (holds_fluid)
+              pieces.push_back(p);
+          }
+        return pieces;
+      }
+
+      /// Whether an uncut cell holds no fluid.
+      bool
+      is_closed(const GridIndex<dim> &cell) const
+      {
+        return cut.in_solid(cell) || voids.holds_cell(cut.block.cells().position(cell));
+      }
+
       bool
       joins_periodic_sides(const GridIndex<dim> &face, const unsigned int axis) const
       {
@@ -167,6 +127,7 @@ namespace undine
 
       const MacGrid<dim>    &grid;
       const CutCells<dim>   &cut;
+      const VoidParts       &voids;
       const DualVolumes<dim> dual;
       Open                  *open = nullptr;
       CutParts<dim>          result;
@@ -182,13 +143,13 @@ namespace undine
       Field<dim> counts(grid.cells());
       for_each(counts.owned(), [&](const GridIndex<dim> &cell) {
         const int slot = cut.cut_cell(cell);
-        counts(cell)   = slot >= 0 ? cut.end_component(slot) - cut.cells[slot].first_component
-                         : cut.in_solid(cell) ? count_closed
-                                              : count_whole;
+        counts(cell)   = slot >= 0         ? static_cast<int>(components_of(slot).size())
+                         : is_closed(cell) ? count_closed
+                                           : count_whole;
       });
-      open->cells =
-        make_parts<dim>(grid.cells(), counts, [&](const GridIndex<dim> &cell, const int k) {
-          const auto &component = cut.components[cut.cells[cut.cut_cell(cell)].first_component + k];
+      open->cells = make_exchanged_parts<dim>(
+        grid.cells(), counts, [&](const GridIndex<dim> &cell, const int k) {
+          const auto &component = cut.components[components_of(cut.cut_cell(cell))[k]];
           return Part<dim>{cell, component.centroid, component.volume};
         });
     }
@@ -206,8 +167,7 @@ namespace undine
           const auto cell = grid.cells()->wrapped(parts[k].index);
           if (!cut.block.cells().contains(cell))
             continue;
-          const int slot = cut.cut_cell(cell);
-          const int c    = cut.cells[slot].first_component + k - open->cells.first(parts[k].index);
+          const int c = components_of(cut.cut_cell(cell))[k - open->cells.first(parts[k].index)];
           result.cut_components[k] = c;
           if (cell == parts[k].index)
             result.open_components[c] = k;
@@ -257,7 +217,7 @@ namespace undine
       const int f = cut.cut_face(axis, cell);
       if (f >= 0)
         for (int p = cut.faces[f].first_piece; p < cut.end_piece(f); ++p)
-          if (const int c = cut.pieces[p].components[1]; c >= 0)
+          if (const int c = cut.pieces[p].components[1]; c >= 0 && result.open_components[c] >= 0)
             return {dual.volumes[p], result.open_components[c], true};
       return {};
     }
@@ -273,13 +233,16 @@ namespace undine
           if (open->cells.kind(face) == Kind<dim>::whole &&
               open->cells.kind(below) == Kind<dim>::whole)
             return count_whole;
+          if (open->cells.kind(face) == Kind<dim>::closed &&
+              open->cells.kind(below) == Kind<dim>::closed)
+            return count_closed;
           return upper_half(below).open && lower_half(face, axis).open ? 1 : 0;
         }
       const int f = cut.cut_face(axis, face);
       if (f >= 0)
-        return cut.end_piece(f) - cut.faces[f].first_piece;
-      return cut.in_solid(cut.block.cells().contains(face) ? face : below) ? count_closed
-                                                                           : count_whole;
+        return pieces_of(f).size();
+      return is_closed(cut.block.cells().contains(face) ? face : below) ? count_closed
+                                                                        : count_whole;
     }
 
 
@@ -292,10 +255,10 @@ namespace undine
       for_each(counts.owned(),
                [&](const GridIndex<dim> &face) { counts(face) = count(face, axis); });
       open->faces[axis] =
-        make_parts<dim>(lattice, counts, [&](const GridIndex<dim> &face, const int k) {
+        make_exchanged_parts<dim>(lattice, counts, [&](const GridIndex<dim> &face, const int k) {
           if (joins_periodic_sides(face, axis))
             return Part<dim>{face, lattice->point(face), grid.face_area(axis, face)};
-          const auto &piece = cut.pieces[cut.faces[cut.cut_face(axis, face)].first_piece + k];
+          const auto &piece = cut.pieces[pieces_of(cut.cut_face(axis, face))[k]];
           return Part<dim>{face, piece.centroid, piece.area};
         });
       fetch_pieces(axis);
@@ -328,7 +291,7 @@ namespace undine
             }
           else
             {
-              const int p = cut.faces[cut.cut_face(axis, face)].first_piece + k - faces.first(face);
+              const int p = pieces_of(cut.cut_face(axis, face))[k - faces.first(face)];
               for (const int end : {0, 1})
                 {
                   const int c = cut.pieces[p].components[end];
@@ -390,16 +353,16 @@ namespace undine
 
   template <int dim>
   CutParts<dim>
-  make_open_parts(const MacGrid<dim> &grid, const CutCells<dim> &cut)
+  make_open_parts(const MacGrid<dim> &grid, const CutCells<dim> &cut, const VoidParts &voids)
   {
-    return PartsOfCut<dim>(grid, cut).make();
+    return PartsOfCut<dim>(grid, cut, voids).make();
   }
 
 
   template struct CutParts<2>;
   template struct CutParts<3>;
   template CutParts<2>
-  make_open_parts(const MacGrid<2> &, const CutCells<2> &);
+  make_open_parts(const MacGrid<2> &, const CutCells<2> &, const VoidParts &);
   template CutParts<3>
-  make_open_parts(const MacGrid<3> &, const CutCells<3> &);
+  make_open_parts(const MacGrid<3> &, const CutCells<3> &, const VoidParts &);
 } // namespace undine

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_interface_exchanged_parts_h
+#define undine_interface_exchanged_parts_h
+
+#include <undine/fluid/field.h>
+#include <undine/fluid/lattice_parts.h>
+
+#include <functional>
+#include <memory>
+
+namespace undine
+{
+  /// How many parts a point has, as a number in a field: 0, 1, 2, ... or one of these. @{
+  constexpr int count_whole  = -1;
+  constexpr int count_closed = -2;
+  /// @}
+
+  /// The owned points of this rank and one layer around them, as far as there are points: those
+  /// that LatticeParts knows.
+  template <int dim>
+  IndexBox<dim>
+  known_points(const Lattice<dim> &lattice);
+
+  /// The parts of a lattice's points, from those of the points that each rank owns: their counts,
+  /// and part(index, number in its point). Images lie where their points have images. Collective.
+  template <int dim>
+  LatticeParts<dim>
+  make_exchanged_parts(
+    const std::shared_ptr<const Lattice<dim>>                                          &lattice,
+    Field<dim>                                                                          counts,
+    const std::function<typename LatticeParts<dim>::Part(const GridIndex<dim> &, int)> &part);
+} // namespace undine
+
+#endif
