@@ -206,6 +206,15 @@ namespace undine
       throw options.error("",
                           "the scene has neither a fluid nor a body",
                           "Try: add a subsection 'Fluid' or a subsection 'Bodies'.");
+    if (options.section("Obstacles").given())
+      {
+        if (!scene.models.fluid)
+          throw options.error("Obstacles",
+                              "obstacles stand in a fluid, but the scene has none",
+                              "Try: add a subsection 'Fluid' or remove the obstacles.");
+        scene.models.surface = std::make_unique<const ImmersedSurface<dim>>(
+          options, scene.models.solid.get(), scene.models.fluid->grid());
+      }
     options.assert_all_used();
     if (scene.models.solid && scene.models.fluid)
       throw options.error("",
@@ -230,6 +239,7 @@ namespace undine
     read_without_models<dim>(options);
     SolidModel<dim>::declare(options);
     FluidModel<dim>::declare(options);
+    Obstacles<dim>::declare(options);
   }
 
 

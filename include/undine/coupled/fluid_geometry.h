@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_fluid_geometry_h
+#define undine_coupled_fluid_geometry_h
+
+#include <undine/base/core/column.h>
+#include <undine/base/core/timing.h>
+#include <undine/fluid/flow.h>
+#include <undine/interface/boundary_flux.h>
+#include <undine/interface/cut_block.h>
+#include <undine/interface/cut_parts.h>
+#include <undine/interface/cut_report.h>
+#include <undine/interface/immersed_surface.h>
+#include <undine/interface/surface_queries.h>
+
+#include <memory>
+#include <vector>
+
+namespace undine
+{
+  /// The grid as the surfaces of everything in the fluid cut it, at the beginning of a step.
+  /// Nothing is done again as long as nothing moves.
+  template <int dim>
+  class FluidGeometry
+  {
+  public:
+    using Positions  = std::vector<dealii::Point<dim>>;
+    using Velocities = std::vector<dealii::Tensor<1, dim>>;
+
+    /// The references must outlive it.
+    FluidGeometry(const ImmersedSurface<dim> &surface, const FluidModel<dim> &model);
+
+    /// Cut. The surfaces are at `now` and move with `velocities`; when the fields of the fluid were
+    /// computed they were at `before`. Collective. Throws SolveError if the surfaces are beyond
+    /// use.
+    void
+    place(const Positions &before, const Positions &now, const Velocities &velocities);
+
+    typename Flow<dim>::Bodies
+    bodies() const;
+
+    /// B u: volume that the surfaces push out of each component of the fluid [m^dim/s].
+    std::vector<double>
+    fluxes() const;
+
+    /// Forces of the pressure on each body [N], with g also their parts; and how the cutting went.
+    /// Collective.
+    Columns
+    columns(const Field<dim> &pressure, const dealii::Tensor<1, dim> &gravity) const;
+
+    /// What was wrong with the surfaces, where; empty if nothing was.
+    const std::string &
+    complaint() const;
+
+  private:
+    void
+    cut();
+
+    const ImmersedSurface<dim>                &surface;
+    const FluidModel<dim>                     &model;
+    Positions                                  positions; ///< for which `cells` holds
+    Velocities                                 velocities;
+    CutCells<dim>                              cells;
+    CutWorkspace<dim>                          work;
+    CutParts<dim>                              parts;
+    CutReport                                  cut_report;
+    std::unique_ptr<const BoundaryFlux<dim>>   boundary_flux;
+    std::unique_ptr<const SurfaceQueries<dim>> queries;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/fluid_geometry.h>
+#include <undine/interface/body_forces.h>
+
+namespace undine
+{
+  template <int dim>
+  FluidGeometry<dim>::FluidGeometry(const ImmersedSurface<dim> &surface_,
+                                    const FluidModel<dim>      &model_)
+    : surface(surface_)
+    , model(model_)
+    , cells(block_of_rank(model.grid()))
+  {
+  }
+
+
+  template <int dim>
+  void
+  FluidGeometry<dim>::cut()
+  {
+    const auto &grid = model.grid();
+    cut_block(cells, work, {surface.surface(), positions}, grid.cells()->blocks());
+    cut_report    = report(cells, surface.surface(), grid.communicator());
+    parts         = make_open_parts(grid, cells);
+    boundary_flux = std::make_unique<const BoundaryFlux<dim>>(cells, surface.surface());
+  }
+
+
+  template <int dim>
+  void
+  FluidGeometry<dim>::place(const Positions  &before,
+                            const Positions  &now,
+                            const Velocities &new_velocities)
+  {
+    const bool moved = now != positions;
+    if (moved)
+      {
+        surface.check(now);
+        positions = now;
+        cut();
+      }
+    if (moved || before != now || new_velocities != velocities)
+      queries = std::make_unique<const SurfaceQueries<dim>>(
+        model.grid(), MovedSurface<dim>{&surface.surface(), before, now, new_velocities});
+    velocities = new_velocities;
+  }
+
+
+  template <int dim>
+  typename Flow<dim>::Bodies
+  FluidGeometry<dim>::bodies() const
+  {
+    return {queries.get(), parts.open};
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  FluidGeometry<dim>::fluxes() const
+  {
+    return parts.of_open_parts(boundary_flux->flux(velocities));
+  }
+
+
+  template <int dim>
+  Columns
+  FluidGeometry<dim>::columns(const Field<dim>             &pressure,
+                              const dealii::Tensor<1, dim> &gravity) const
+  {
+    const auto          communicator = model.grid().communicator();
+    PressureForces<dim> forces;
+    forces.reduced =
+      nodal_forces(*boundary_flux, parts.of_cut_cells(pressure.parts()), communicator);
+    if (gravity.norm() > 0)
+      forces.gravity = gravity_loads(
+        cells,
+        surface.surface(),
+        positions,
+        parts.of_cut_cells(std::vector<double>(pressure.parts().size(), model.density())),
+        gravity,
+        communicator);
+    auto columns = pressure_force_columns(surface.surface(), forces);
+    columns.push_back({"Cut cells", "1", double(cut_report.cut_cells)});
+    columns.push_back({"Flagged cells", "1", double(cut_report.flagged_cells)});
+    return columns;
+  }
+
+
+  template <int dim>
+  const std::string &
+  FluidGeometry<dim>::complaint() const
+  {
+    return cut_report.message;
+  }
+
+
+  template class FluidGeometry<2>;
+  template class FluidGeometry<3>;
+} // namespace undine
