@@ -3,6 +3,9 @@
 #include <undine/interface/dual_volumes.h>
 #include <undine/interface/exchanged_parts.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace undine
 {
   namespace
@@ -75,8 +78,11 @@ namespace undine
       Half
       lower_half(const GridIndex<dim> &cell, const unsigned int axis) const;
 
+      Field<dim>
+      count_uncut(const std::shared_ptr<const Lattice<dim>> &lattice) const;
+
       int
-      count(const GridIndex<dim> &face, const unsigned int axis) const;
+      count_on_periodic_side(const GridIndex<dim> &face, const unsigned int axis) const;
 
       /// The components of a cut cell that are not void.
       std::vector<int>
@@ -105,13 +111,6 @@ namespace undine
         return pieces;
       }
 
-      /// Whether an uncut cell holds no fluid.
-      bool
-      is_closed(const GridIndex<dim> &cell) const
-      {
-        return cut.in_solid(cell) || voids.holds_cell(cut.block.cells().position(cell));
-      }
-
       bool
       joins_periodic_sides(const GridIndex<dim> &face, const unsigned int axis) const
       {
@@ -136,19 +135,43 @@ namespace undine
     };
 
 
+    /// count_whole or count_closed for all owned points, as if no cell were cut. A face is like the
+    /// cell above it, or that below where there is none.
+    template <int dim>
+    Field<dim>
+    PartsOfCut<dim>::count_uncut(const std::shared_ptr<const Lattice<dim>> &lattice) const
+    {
+      Field<dim> counts(lattice);
+      const auto cells = grid.cells()->owned();
+      for_each_row(counts.owned(), [&](const GridIndex<dim> &first, const int n) {
+        auto cell = first;
+        for (unsigned int d = 0; d < dim; ++d)
+          cell[d] = std::min(cell[d], cells.upper[d] - 1);
+        const auto key      = cut.block.key(cell);
+        const auto position = cut.block.cells().position(cell);
+        const int  last     = cells.upper[0] - 1 - cell[0];
+        double    *row      = &counts(first);
+        for (int i = 0; i < n; ++i)
+          {
+            const int  k         = std::min(i, last);
+            const bool is_closed = cut.windings[key + k] != 0 || voids.holds_cell(position + k);
+            row[i]               = is_closed ? count_closed : count_whole;
+          }
+      });
+      return counts;
+    }
+
+
     template <int dim>
     void
     PartsOfCut<dim>::make_cells()
     {
-      Field<dim> counts(grid.cells());
-      for_each(counts.owned(), [&](const GridIndex<dim> &cell) {
-        const int slot = cut.cut_cell(cell);
-        counts(cell)   = slot >= 0         ? static_cast<int>(components_of(slot).size())
-                         : is_closed(cell) ? count_closed
-                                           : count_whole;
-      });
+      auto counts = count_uncut(grid.cells());
+      for (int slot = 0; slot < static_cast<int>(cut.cells.size()); ++slot)
+        if (const auto &cell = cut.cells[slot].index; counts.owned().contains(cell))
+          counts(cell) = components_of(slot).size();
       open->cells = make_exchanged_parts<dim>(
-        grid.cells(), counts, [&](const GridIndex<dim> &cell, const int k) {
+        grid.cells(), std::move(counts), [&](const GridIndex<dim> &cell, const int k) {
           const auto &component = cut.components[components_of(cut.cut_cell(cell))[k]];
           return Part<dim>{cell, component.centroid, component.volume};
         });
@@ -225,24 +248,15 @@ namespace undine
 
     template <int dim>
     int
-    PartsOfCut<dim>::count(const GridIndex<dim> &face, const unsigned int axis) const
+    PartsOfCut<dim>::count_on_periodic_side(const GridIndex<dim> &face,
+                                            const unsigned int    axis) const
     {
       const auto below = moved(face, axis, -1);
-      if (joins_periodic_sides(face, axis))
-        {
-          if (open->cells.kind(face) == Kind<dim>::whole &&
-              open->cells.kind(below) == Kind<dim>::whole)
-            return count_whole;
-          if (open->cells.kind(face) == Kind<dim>::closed &&
-              open->cells.kind(below) == Kind<dim>::closed)
-            return count_closed;
-          return upper_half(below).open && lower_half(face, axis).open ? 1 : 0;
-        }
-      const int f = cut.cut_face(axis, face);
-      if (f >= 0)
-        return pieces_of(f).size();
-      return is_closed(cut.block.cells().contains(face) ? face : below) ? count_closed
-                                                                        : count_whole;
+      for (const auto &kinds : {std::make_pair(Kind<dim>::whole, count_whole),
+                                std::make_pair(Kind<dim>::closed, count_closed)})
+        if (open->cells.kind(face) == kinds.first && open->cells.kind(below) == kinds.first)
+          return kinds.second;
+      return upper_half(below).open && lower_half(face, axis).open ? 1 : 0;
     }
 
 
@@ -251,11 +265,18 @@ namespace undine
     PartsOfCut<dim>::make_faces(const unsigned int axis)
     {
       const auto &lattice = grid.faces(axis);
-      Field<dim>  counts(lattice);
-      for_each(counts.owned(),
-               [&](const GridIndex<dim> &face) { counts(face) = count(face, axis); });
-      open->faces[axis] =
-        make_exchanged_parts<dim>(lattice, counts, [&](const GridIndex<dim> &face, const int k) {
+      auto        counts  = count_uncut(lattice);
+      for (int slot = 0; slot < static_cast<int>(cut.faces.size()); ++slot)
+        if (const auto &face = cut.faces[slot].index;
+            cut.faces[slot].axis == axis && counts.owned().contains(face))
+          counts(face) = pieces_of(slot).size();
+      auto side        = counts.owned();
+      side.upper[axis] = std::min(side.upper[axis], grid.periodic(axis) ? 1 : 0);
+      for_each(side, [&](const GridIndex<dim> &face) {
+        counts(face) = count_on_periodic_side(face, axis);
+      });
+      open->faces[axis] = make_exchanged_parts<dim>(
+        lattice, std::move(counts), [&](const GridIndex<dim> &face, const int k) {
           if (joins_periodic_sides(face, axis))
             return Part<dim>{face, lattice->point(face), grid.face_area(axis, face)};
           const auto &piece = cut.pieces[pieces_of(cut.cut_face(axis, face))[k]];

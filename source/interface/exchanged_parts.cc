@@ -48,16 +48,30 @@ namespace undine
     using Kind = typename LatticeParts<dim>::Kind;
     using Part = typename LatticeParts<dim>::Part;
     counts.exchange(1);
+    const auto        box = known_points(*lattice);
     std::vector<Kind> kinds;
     std::vector<Part> parts;
-    for_each(known_points(*lattice), [&](const GridIndex<dim> &index) {
-      const int count = static_cast<int>(counts(index));
-      kinds.push_back(count == count_whole    ? Kind::whole
-                      : count == count_closed ? Kind::closed
-                                              : Kind::divided);
-      for (int k = 0; k < count; ++k)
-        parts.push_back(lattice->owned().contains(index) ? part(index, k) : Part{index, {}, 0});
+    kinds.reserve(box.size());
+    for_each_row(box, [&](const GridIndex<dim> &first, const int n) {
+      const double *row = counts.data(first);
+      for (int i = 0; i < n; ++i)
+        {
+          kinds.push_back(row[i] == count_whole    ? Kind::whole
+                          : row[i] == count_closed ? Kind::closed
+                                                   : Kind::divided);
+          if (!(row[i] > 0))
+            continue;
+          const auto index = moved(first, 0, i);
+          for (int k = 0; k < row[i]; ++k)
+            parts.push_back(lattice->owned().contains(index) ? part(index, k) : Part{index, {}, 0});
+        }
     });
+    bool all_owned = lattice->blocks().n_ranks() == 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      all_owned = all_owned && !lattice->row(d).periodic();
+    if (all_owned)
+      return LatticeParts<dim>(lattice, kinds, parts);
+
     // What other ranks own is fetched from them by a first version that knows only who has what.
     const LatticeParts<dim> numbered(lattice, kinds, parts);
     std::vector<double>     values(parts.size());

@@ -5,6 +5,7 @@
 #include <undine/fluid/field.h>
 #include <undine/fluid/lattice_parts.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 
@@ -14,6 +15,17 @@ namespace undine
   constexpr int count_whole  = -1;
   constexpr int count_closed = -2;
   /// @}
+
+  /// Call action(index of the first point, number of points) for every row of points of a box along
+  /// the first direction: within it, the values of fields lie side by side.
+  template <int dim, class Action>
+  void
+  for_each_row(IndexBox<dim> box, const Action &action)
+  {
+    const int n  = box.upper[0] - box.lower[0];
+    box.upper[0] = box.lower[0] + std::min(1, n);
+    for_each(box, [&](const GridIndex<dim> &first) { action(first, n); });
+  }
 
   /// The owned points of this rank and one layer around them, as far as there are points: those
   /// that LatticeParts knows.

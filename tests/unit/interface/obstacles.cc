@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/interface/body_forces.h>
 #include <undine/interface/immersed_surface.h>
+#include <undine/interface/void_regions.h>
 
 #include <catch2/catch.hpp>
 #include <interface/cut_checks.h>
@@ -8,6 +9,7 @@
 #include <solid/solid_scene.h>
 
 #include <cmath>
+#include <set>
 
 using namespace undine_tests;
 
@@ -308,4 +310,25 @@ TEST_CASE("Bodies may reach out of the domain and cover whole sides", "[interfac
   CHECK(what_is_left(immersed_box<2>("-1, -1", "2, 1", 4)).first == Approx(0).margin(1e-13));
   CHECK(what_is_left(immersed_box<2>("0, 0", "1, 1", 4)).first == Approx(0).margin(1e-13));
   CHECK(what_is_left(immersed_box<3>("-1, -1, 0", "2, 2, .5", 4)).first == Approx(.5));
+}
+
+
+TEST_CASE("The reference lists the keys of obstacles and void regions", "[interface]")
+{
+  const auto reference = Options::for_reference();
+  Obstacles<3>::declare(reference);
+  VoidRegions<3>::declare(reference);
+  std::set<std::string> keys;
+  for (const auto &entry : reference.entries())
+    keys.insert(entry.section + entry.key);
+  for (const auto &key : {"Obstacles/<pillar>/Shape",
+                          "Obstacles/<pillar>/Radius",
+                          "Obstacles/<pillar>/Refinements",
+                          "Obstacles/<pillar>/Displacement",
+                          "Fluid/Void regions/<air>/Seed",
+                          "Fluid/Void regions/<air>/Pressure"})
+    {
+      INFO(key);
+      CHECK(keys.count(key) == 1);
+    }
 }

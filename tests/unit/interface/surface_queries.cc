@@ -12,14 +12,14 @@ using namespace undine_tests;
 
 namespace
 {
-  /// A box from -3 to 3.
+  /// A box from -3 to 3 around `middle` in all directions.
   template <int dim>
   MacGrid<dim>
-  box_grid(const std::array<bool, dim> periodic = {})
+  box_grid(const std::array<bool, dim> periodic = {}, const double middle = 0)
   {
     typename MacGrid<dim>::Planes planes;
     for (unsigned int d = 0; d < dim; ++d)
-      planes[d] = {-3, -1, 1, 3};
+      planes[d] = {middle - 3, middle - 1, middle + 1, middle + 3};
     return MacGrid<dim>(MPI_COMM_SELF, planes, periodic);
   }
 
@@ -119,12 +119,13 @@ namespace
   }
 
 
-  /// Ways into a body through its nodes, through points of its edges and through random points.
+  /// Ways into a body around `middle` through its nodes and through points of its edges.
   template <int dim>
   void
-  check_leaks(const Bodies<dim> &bodies, const double length)
+  check_leaks(const Bodies<dim> &bodies, const double length, const double middle = 0)
   {
-    const auto                grid    = box_grid<dim>();
+    const auto                grid    = box_grid<dim>({}, middle);
+    const auto                centre  = all_equal<dim>(middle);
     const auto                surface = bodies.surface();
     const SurfaceQueries<dim> queries(grid, at_rest(surface, bodies.nodes));
     Random                    random(2);
@@ -134,8 +135,8 @@ namespace
           {
             const auto &a = bodies.nodes[facet[k]], &b = bodies.nodes[facet[(k + 1) % dim]];
             const dealii::Point<dim> at       = a + share * (b - a);
-            const auto               outwards = dealii::Point<dim>((1 + length) * at);
-            const auto               inwards  = dealii::Point<dim>((1 - length) * at);
+            const auto               outwards = dealii::Point<dim>(at + length * (at - centre));
+            const auto               inwards  = dealii::Point<dim>(at - length * (at - centre));
             CHECK(queries.first_hit(outwards, inwards) == Approx(.5).margin(1e-7));
             CHECK(queries.first_hit(inwards, outwards) == Approx(.5).margin(1e-7));
             CHECK(queries.first_hit(at, outwards) == Approx(0).margin(1e-7));
@@ -336,6 +337,9 @@ TEST_CASE("No way into a body leads past its edges and nodes", "[interface]")
       check_leaks(ball<2>(3, 1.), length);
       check_leaks(ball<3>(2, 1.), length);
     }
+  // Far from the origin, where coordinates have few digits left.
+  check_leaks(ball<2>(3, 1.).shift(all_equal<2>(1000)), .01, 1000);
+  check_leaks(ball<3>(2, 1.).shift(all_equal<3>(1000)), .01, 1000);
   // A cube whose faces, edges and nodes are met exactly.
   check_leaks(box<3>({-1, -1, -1}, {1, 1, 1}, {{2, 3, 4}}), .5);
 }
