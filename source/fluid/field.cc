@@ -166,6 +166,8 @@ namespace undine
   {
     const auto &blocks = points->blocks();
     const auto  needed = points->with_ghosts(blocks.rank(), width);
+    if (open)
+      open->of(*points).exchange(part_values);
     if (!(box.intersection(needed) == needed))
       store(needed);
 
