@@ -150,8 +150,10 @@ namespace
   deformed_body(const std::string &shape, const unsigned int degree, const int cells)
   {
     const SolidModel<dim> model(
-      read_scene_text(one_body(
-        shape + "\nset Density = 1\nset Young's modulus = 1\nset Poisson's ratio = 0.3\n", "", "set Element degree = " + std::to_string(degree))),
+      read_scene_text(
+        one_body(shape + "\nset Density = 1\nset Young's modulus = 1\nset Poisson's ratio = 0.3\n",
+                 "",
+                 "set Element degree = " + std::to_string(degree))),
       MPI_COMM_WORLD);
     const BodySurface<dim> surface(model);
     auto                   displacement = model.vector();

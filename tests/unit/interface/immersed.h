@@ -118,6 +118,18 @@ namespace undine_tests
   }
 
 
+  /// All coordinates between -size and size.
+  template <int dim>
+  dealii::Point<dim>
+  random_point(Random &random, const double size)
+  {
+    dealii::Point<dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = random.between(-size, size);
+    return result;
+  }
+
+
   template <int dim>
   double
   largest_norm(const std::vector<dealii::Tensor<1, dim>> &values)

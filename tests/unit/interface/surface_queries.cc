@@ -37,17 +37,6 @@ namespace
 
 
   template <int dim>
-  dealii::Point<dim>
-  random_point(Random &random, const double size)
-  {
-    dealii::Point<dim> result;
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] = random.between(-size, size);
-    return result;
-  }
-
-
-  template <int dim>
   FacetNodes<dim>
   nodes_of(const Bodies<dim> &bodies, const unsigned int facet)
   {
@@ -169,47 +158,6 @@ namespace
             least = std::min(least, x.distance(place));
           }
         CHECK((nearest - place).norm() == Approx(least).epsilon(1e-12));
-      }
-  }
-
-
-  /// The facet's nearest point against many points of the facet.
-  template <int dim>
-  void
-  check_nearest_point()
-  {
-    Random random(4);
-    for (int number = 0; number < 200; ++number)
-      {
-        FacetNodes<dim> nodes;
-        for (auto &node : nodes)
-          node = random_point<dim>(random, 1);
-        const auto place       = random_point<dim>(random, 2);
-        const auto coordinates = nearest_point(nodes, place);
-        const auto distance    = [&](const std::array<double, dim> &c) {
-          dealii::Point<dim> x;
-          for (unsigned int k = 0; k < dim; ++k)
-            x += c[k] * nodes[k];
-          return x.distance(place);
-        };
-        double sum = 0;
-        for (const double c : coordinates)
-          {
-            CHECK(c >= 0);
-            sum += c;
-          }
-        CHECK(sum == Approx(1).epsilon(1e-12));
-        const double found = distance(coordinates);
-        for (int sample = 0; sample < 200; ++sample)
-          {
-            std::array<double, dim> other;
-            double                  total = 0;
-            for (double &c : other)
-              total += c = random.power(-3, 0);
-            for (double &c : other)
-              c /= total;
-            CHECK(distance(other) >= found - 1e-12);
-          }
       }
   }
 
@@ -347,8 +295,6 @@ TEST_CASE("No way into a body leads past its edges and nodes", "[interface]")
 
 TEST_CASE("Velocities of the nearest points", "[interface]")
 {
-  check_nearest_point<2>();
-  check_nearest_point<3>();
   for (const auto &bodies : some_bodies<2>())
     compare_velocities(bodies);
   for (const auto &bodies : some_bodies<3>())
