@@ -158,12 +158,9 @@ namespace undine
   Columns
   fluid_columns(const FluidModel<dim> &model, const FluidState<dim> &state)
   {
-    const double scale      = largest_components(model, state.velocity).norm();
-    const double divergence = largest_divergence(model, state.velocity);
-    Columns      columns{{"Fluid kinetic energy", "J", kinetic_energy(model, state.velocity)},
-                    {"Fluid largest speed", "m/s", largest_speed(model, state.velocity)},
-                    {"Fluid divergence", "1", scale > 0 ? divergence / scale : 0.}};
-    const auto   fluxes = boundary_fluxes(model, state.velocity);
+    Columns    columns{{"Fluid kinetic energy", "J", kinetic_energy(model, state.velocity)},
+                    {"Fluid largest speed", "m/s", largest_speed(model, state.velocity)}};
+    const auto fluxes = boundary_fluxes(model, state.velocity);
     for (unsigned int b = 0; b < fluxes.size(); ++b)
       {
         const auto &boundary = model.boundaries().all()[b];

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace undine
@@ -92,8 +93,11 @@ namespace undine
                                      std::vector<OpenFace<dim>> &openings,
                                      const std::vector<double>  &body_fluxes)
   {
+    Field<dim> pushed(model.grid().cells(), velocity[0].open_parts());
+    std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
     const double tolerance   = model.pressure_solver().divergence_tolerance;
-    const double first_speed = largest_components(model, velocity).norm();
+    const double body_speed  = largest_divergence(model, pushed);
+    const double first_speed = largest_components(model, velocity).norm() + body_speed;
     Vector       right_side(numbers->owned(), model.grid().communicator()), correction(right_side);
     Field<dim>   increment = impulse;
     Report       report;
@@ -107,10 +111,9 @@ namespace undine
         exchange(velocity);
 
         auto fluxes = divergence(model, velocity);
-        for (std::size_t c = 0; c < body_fluxes.size(); ++c)
-          fluxes.parts()[c] += body_fluxes[c];
+        add(fluxes, 1., pushed);
         const double divergence = largest_divergence(model, fluxes);
-        const double speed      = largest_components(model, velocity).norm();
+        const double speed      = largest_components(model, velocity).norm() + body_speed;
         report.divergence       = divergence == 0 ? 0. : divergence / speed;
         // Below 1e-4 of the speeds that cancelled there is nothing but rounding.
         const double allowed = tolerance * std::max(speed, 1e-4 * first_speed);
