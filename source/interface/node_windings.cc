@@ -21,10 +21,10 @@ namespace undine
 
     /// The ranks whose blocks differ along axis 0 only, in that order.
     template <int dim>
-    class Row
+    class RowOfBlocks
     {
     public:
-      explicit Row(const Blocks<dim> &blocks)
+      explicit RowOfBlocks(const Blocks<dim> &blocks)
       {
         auto      block    = blocks.block_of_rank(blocks.rank());
         const int position = block[0];
@@ -34,9 +34,9 @@ namespace undine
         AssertThrowMPI(ierr);
       }
 
-      Row(const Row &) = delete;
+      RowOfBlocks(const RowOfBlocks &) = delete;
 
-      ~Row()
+      ~RowOfBlocks()
       {
         MPI_Comm_free(&communicator);
       }
@@ -96,7 +96,7 @@ namespace undine
     for_each_line(block, [&](const std::int64_t first, const std::int64_t line) {
       crossings[line] = windings[first + end] - (first_block ? 0 : windings[first + begin]);
     });
-    const auto below = Row<dim>(blocks).sums_below(crossings);
+    const auto below = RowOfBlocks<dim>(blocks).sums_below(crossings);
     if (first_block)
       return;
     for_each_line(block, [&](const std::int64_t first, const std::int64_t line) {
