@@ -40,14 +40,12 @@ namespace undine
     state.fluid       = model.initial_state(bodies.open_parts);
     for (const auto &effect : models.effects)
       effect->initialize(model, state.fluid);
-    report.linear_iterations +=
-      projection
-        .make_divergence_free(
-          state.fluid, state.clock.time, geometry ? geometry->fluxes() : std::vector<double>())
-        .iterations;
+    const auto projected = projection.make_divergence_free(
+      state.fluid, state.clock.time, geometry ? geometry->fluxes() : std::vector<double>());
+    report.linear_iterations += projected.iterations;
     if (geometry)
       state.surface_positions = models.surface->positions(state.solid, state.clock.time);
-    add_columns(report, state.fluid, state.clock.time);
+    add_columns(report, state.fluid, projected.divergence, state.clock.time);
   }
 
 
@@ -80,15 +78,14 @@ namespace undine
       for (const auto &effect : models.effects)
         effect->diffuse(fluid);
     }
+    typename Projection<dim>::Report projected;
     {
       const auto phase = timing.section("project");
-      fluid.linear_iterations += projection
-                                   .project(state.fluid,
-                                            fluid.flow.velocity(),
-                                            fluid.time + fluid.dt,
-                                            fluid.dt,
-                                            geometry ? geometry->fluxes() : std::vector<double>())
-                                   .iterations;
+      projected        = projection.project(state.fluid,
+                                     fluid.flow.velocity(),
+                                     fluid.time + fluid.dt,
+                                     fluid.dt,
+                                     geometry ? geometry->fluxes() : std::vector<double>());
     }
     fluid.finish();
     if (geometry)
@@ -96,9 +93,9 @@ namespace undine
         state.surface_positions = models.surface->positions(state.solid, fluid.time);
         report.note             = geometry->complaint();
       }
-    report.linear_iterations += fluid.linear_iterations;
+    report.linear_iterations += fluid.linear_iterations + projected.iterations;
     const auto phase = timing.section("measure");
-    add_columns(report, state.fluid, fluid.time + fluid.dt);
+    add_columns(report, state.fluid, projected.divergence, fluid.time + fluid.dt);
   }
 
 
@@ -106,12 +103,13 @@ namespace undine
   void
   FluidAlone<dim>::add_columns(Report                &report,
                                const FluidState<dim> &state,
+                               const double           divergence,
                                const double           time) const
   {
     const auto append = [&](const Columns &more) {
       report.columns.insert(report.columns.end(), more.begin(), more.end());
     };
-    append(fluid_columns(model, state));
+    append(fluid_columns(model, state, divergence));
     for (const auto &effect : models.effects)
       append(effect->columns(model, state, time));
     if (geometry)

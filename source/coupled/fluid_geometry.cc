@@ -94,6 +94,24 @@ namespace undine
   }
 
 
+  template <int dim>
+  std::unique_ptr<FluidGeometry<dim>>
+  geometry_of(const Models<dim> &models, const State<dim> &state)
+  {
+    if (!models.fluid || !models.surface || state.surface_positions.empty())
+      return nullptr;
+    auto geometry = std::make_unique<FluidGeometry<dim>>(*models.surface, *models.fluid);
+    geometry->place(state.surface_positions,
+                    state.surface_positions,
+                    typename FluidGeometry<dim>::Velocities(state.surface_positions.size()));
+    return geometry;
+  }
+
+
   template class FluidGeometry<2>;
   template class FluidGeometry<3>;
+  template std::unique_ptr<FluidGeometry<2>>
+  geometry_of(const Models<2> &, const State<2> &);
+  template std::unique_ptr<FluidGeometry<3>>
+  geometry_of(const Models<3> &, const State<3> &);
 } // namespace undine

@@ -132,6 +132,12 @@ namespace undine
                             "names no field to carry",
                             "Add a subsection with the field's name, such as 'subsection smoke'.");
       for (const auto &field : fields)
+        if (around.has_obstacles && field->diffusivity > 0)
+          throw options.section(field->name)
+            .error("Diffusivity",
+                   "diffusion around obstacles is not part of this version",
+                   "Remove the key or the section 'Obstacles'.");
+      for (const auto &field : fields)
         check_field(options, *field, around.fluid->boundaries().all());
     }
 

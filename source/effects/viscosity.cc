@@ -31,6 +31,10 @@ namespace undine
         throw options.error("",
                             "viscosity acts on a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
+      if (around.has_obstacles)
+        throw options.error("",
+                            "friction on obstacles is not part of this version",
+                            "Remove the section or the section 'Obstacles'.");
     }
 
     std::string

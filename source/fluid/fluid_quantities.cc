@@ -156,10 +156,11 @@ namespace undine
 
   template <int dim>
   Columns
-  fluid_columns(const FluidModel<dim> &model, const FluidState<dim> &state)
+  fluid_columns(const FluidModel<dim> &model, const FluidState<dim> &state, const double divergence)
   {
     Columns    columns{{"Fluid kinetic energy", "J", kinetic_energy(model, state.velocity)},
-                    {"Fluid largest speed", "m/s", largest_speed(model, state.velocity)}};
+                    {"Fluid largest speed", "m/s", largest_speed(model, state.velocity)},
+                    {"Fluid divergence", "1", divergence}};
     const auto fluxes = boundary_fluxes(model, state.velocity);
     for (unsigned int b = 0; b < fluxes.size(); ++b)
       {
@@ -183,7 +184,7 @@ namespace undine
   template double                 largest_divergence(const FluidModel<dim> &, const Field<dim> &); \
   template double  largest_divergence(const FluidModel<dim> &, const Velocity<dim> &);             \
   template double  integral(const FluidModel<dim> &, const Field<dim> &);                          \
-  template Columns fluid_columns(const FluidModel<dim> &, const FluidState<dim> &);
+  template Columns fluid_columns(const FluidModel<dim> &, const FluidState<dim> &, const double);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -69,8 +69,11 @@ namespace undine
     void
     check_effects(const Scene<dim> &scene, const Options &options)
     {
-      typename Effect<dim>::Surroundings surroundings{
-        scene.models.fluid.get(), scene.models.solid.get(), scene.effect_names, {}};
+      typename Effect<dim>::Surroundings surroundings{scene.models.fluid.get(),
+                                                      scene.models.solid.get(),
+                                                      scene.models.surface != nullptr,
+                                                      scene.effect_names,
+                                                      {}};
       for (const auto &effect : scene.models.effects)
         for (const auto &scalar : effect->scalars())
           surroundings.scalars.push_back(scalar);

@@ -4,6 +4,8 @@
 
 #include <undine/base/core/column.h>
 #include <undine/base/core/timing.h>
+#include <undine/coupled/models.h>
+#include <undine/coupled/state.h>
 #include <undine/fluid/flow.h>
 #include <undine/interface/boundary_flux.h>
 #include <undine/interface/cut_block.h>
@@ -38,6 +40,20 @@ namespace undine
     typename Flow<dim>::Bodies
     bodies() const;
 
+    /// Of this rank's block, with a halo.
+    const CutCells<dim> &
+    cut_cells() const
+    {
+      return cells;
+    }
+
+    /// What they leave to the fluid.
+    const CutParts<dim> &
+    cut_parts() const
+    {
+      return parts;
+    }
+
     /// B u: volume that the surfaces push out of each component of the fluid [m^dim/s].
     std::vector<double>
     fluxes() const;
@@ -66,6 +82,13 @@ namespace undine
     std::unique_ptr<const BoundaryFlux<dim>>   boundary_flux;
     std::unique_ptr<const SurfaceQueries<dim>> queries;
   };
+
+  /// The grid as it was cut when the fluid's fields of a state were computed, with surfaces that
+  /// stand still. nullptr if nothing stands in the fluid. Collective. Throws SolveError as place()
+  /// does.
+  template <int dim>
+  std::unique_ptr<FluidGeometry<dim>>
+  geometry_of(const Models<dim> &models, const State<dim> &state);
 } // namespace undine
 
 #endif

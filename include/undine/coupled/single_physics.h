@@ -59,7 +59,7 @@ namespace undine
     place_obstacles(const State<dim> &state, double dt);
 
     void
-    add_columns(Report &report, const FluidState<dim> &state, double time) const;
+    add_columns(Report &report, const FluidState<dim> &state, double divergence, double time) const;
 
     const Models<dim>                  &models;
     const FluidModel<dim>              &model;

@@ -76,10 +76,12 @@ namespace undine
   double
   integral(const FluidModel<dim> &model, const Field<dim> &scalar);
 
-  /// What the fluid adds to the file `statistics`.
+  /// What the fluid adds to the file `statistics`; `divergence` [1] as the projection left it.
   template <int dim>
   Columns
-  fluid_columns(const FluidModel<dim> &model, const FluidState<dim> &state);
+  fluid_columns(const FluidModel<dim> &model,
+                const FluidState<dim> &state,
+                const double           divergence);
   /// @}
 
   /// "Force on lid, x" and so on, for walls only.
