@@ -12,7 +12,7 @@ namespace undine
     , projection(model)
   {
     if (models.surface)
-      geometry = std::make_unique<FluidGeometry<dim>>(*models.surface, model);
+      geometry = std::make_unique<FluidGeometry<dim>>(models);
   }
 
 
@@ -44,7 +44,10 @@ namespace undine
       state.fluid, state.clock.time, geometry ? geometry->fluxes() : std::vector<double>());
     report.linear_iterations += projected.iterations;
     if (geometry)
-      state.surface_positions = models.surface->positions(state.solid, state.clock.time);
+      {
+        geometry->accept();
+        state.surface_positions = models.surface->positions(state.solid, state.clock.time);
+      }
     add_columns(report, state.fluid, projected.divergence, state.clock.time);
   }
 
@@ -90,6 +93,7 @@ namespace undine
     fluid.finish();
     if (geometry)
       {
+        geometry->accept();
         state.surface_positions = models.surface->positions(state.solid, fluid.time);
         report.note             = geometry->complaint();
       }
@@ -113,7 +117,7 @@ namespace undine
     for (const auto &effect : models.effects)
       append(effect->columns(model, state, time));
     if (geometry)
-      append(geometry->columns(state.pressure, models.environment().gravity));
+      append(geometry->columns(state.pressure, models.environment().gravity, time));
   }
 
 

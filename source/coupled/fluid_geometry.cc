@@ -5,10 +5,10 @@
 namespace undine
 {
   template <int dim>
-  FluidGeometry<dim>::FluidGeometry(const ImmersedSurface<dim> &surface_,
-                                    const FluidModel<dim>      &model_)
-    : surface(surface_)
-    , model(model_)
+  FluidGeometry<dim>::FluidGeometry(const Models<dim> &models)
+    : surface(*models.surface)
+    , model(*models.fluid)
+    , void_regions(models.void_regions.get())
     , cells(block_of_rank(model.grid()))
   {
   }
@@ -23,6 +23,11 @@ namespace undine
     cut_report    = report(cells, surface.surface(), grid.communicator());
     parts         = make_open_parts(grid, cells);
     boundary_flux = std::make_unique<const BoundaryFlux<dim>>(cells, surface.surface());
+    if (void_regions != nullptr)
+      {
+        voids = void_regions->find(cells, parts, *queries, accepted_voids);
+        parts = make_open_parts(grid, cells, voids);
+      }
   }
 
 
@@ -34,15 +39,24 @@ namespace undine
   {
     const bool moved = now != positions;
     if (moved)
-      {
-        surface.check(now);
-        positions = now;
-        cut();
-      }
+      surface.check(now);
     if (moved || before != now || new_velocities != velocities)
       queries = std::make_unique<const SurfaceQueries<dim>>(
         model.grid(), MovedSurface<dim>{&surface.surface(), before, now, new_velocities});
     velocities = new_velocities;
+    if (moved)
+      {
+        positions = now;
+        cut();
+      }
+  }
+
+
+  template <int dim>
+  void
+  FluidGeometry<dim>::accept()
+  {
+    accepted_voids = voids;
   }
 
 
@@ -65,12 +79,19 @@ namespace undine
   template <int dim>
   Columns
   FluidGeometry<dim>::columns(const Field<dim>             &pressure,
-                              const dealii::Tensor<1, dim> &gravity) const
+                              const dealii::Tensor<1, dim> &gravity,
+                              const double                  time) const
   {
     const auto          communicator = model.grid().communicator();
     PressureForces<dim> forces;
-    forces.reduced =
-      nodal_forces(*boundary_flux, parts.of_cut_cells(pressure.parts()), communicator);
+    auto                pressures = parts.of_cut_cells(pressure.parts());
+    if (void_regions != nullptr)
+      {
+        const auto given = void_regions->pressures(voids, time);
+        for (std::size_t c = 0; c < pressures.size(); ++c)
+          pressures[c] += given[c]; // either is zero
+      }
+    forces.reduced = nodal_forces(*boundary_flux, pressures, communicator);
     if (gravity.norm() > 0)
       forces.gravity = gravity_loads(
         cells,
@@ -100,7 +121,7 @@ namespace undine
   {
     if (!models.fluid || !models.surface || state.surface_positions.empty())
       return nullptr;
-    auto geometry = std::make_unique<FluidGeometry<dim>>(*models.surface, *models.fluid);
+    auto geometry = std::make_unique<FluidGeometry<dim>>(models);
     geometry->place(state.surface_positions,
                     state.surface_positions,
                     typename FluidGeometry<dim>::Velocities(state.surface_positions.size()));

@@ -217,6 +217,11 @@ namespace undine
                               "Try: add a subsection 'Fluid' or remove the obstacles.");
         scene.models.surface = std::make_unique<const ImmersedSurface<dim>>(
           options, scene.models.solid.get(), scene.models.fluid->grid());
+        const auto &fluid = *scene.models.fluid;
+        auto        voids =
+          std::make_unique<const VoidRegions<dim>>(options, fluid.grid(), fluid.boundaries());
+        if (!voids->empty())
+          scene.models.void_regions = std::move(voids);
       }
     options.assert_all_used();
     if (scene.models.solid && scene.models.fluid)
@@ -243,6 +248,7 @@ namespace undine
     SolidModel<dim>::declare(options);
     FluidModel<dim>::declare(options);
     Obstacles<dim>::declare(options);
+    VoidRegions<dim>::declare(options);
   }
 
 

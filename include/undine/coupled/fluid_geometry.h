@@ -13,6 +13,7 @@
 #include <undine/interface/cut_report.h>
 #include <undine/interface/immersed_surface.h>
 #include <undine/interface/surface_queries.h>
+#include <undine/interface/void_regions.h>
 
 #include <memory>
 #include <vector>
@@ -28,14 +29,18 @@ namespace undine
     using Positions  = std::vector<dealii::Point<dim>>;
     using Velocities = std::vector<dealii::Tensor<1, dim>>;
 
-    /// The references must outlive it.
-    FluidGeometry(const ImmersedSurface<dim> &surface, const FluidModel<dim> &model);
+    /// For a scene with a surface in the fluid. The models must outlive it.
+    explicit FluidGeometry(const Models<dim> &models);
 
     /// Cut. The surfaces are at `now` and move with `velocities`; when the fields of the fluid were
     /// computed they were at `before`. Collective. Throws SolveError if the surfaces are beyond
     /// use.
     void
     place(const Positions &before, const Positions &now, const Velocities &velocities);
+
+    /// The step that place() began has been accepted.
+    void
+    accept();
 
     typename Flow<dim>::Bodies
     bodies() const;
@@ -58,10 +63,10 @@ namespace undine
     std::vector<double>
     fluxes() const;
 
-    /// Forces of the pressure on each body [N], with g also their parts; and how the cutting went.
-    /// Collective.
+    /// Forces of the pressure at `time` on each body [N], with g also their parts; and how the
+    /// cutting went. Collective.
     Columns
-    columns(const Field<dim> &pressure, const dealii::Tensor<1, dim> &gravity) const;
+    columns(const Field<dim> &pressure, const dealii::Tensor<1, dim> &gravity, double time) const;
 
     /// What was wrong with the surfaces, where; empty if nothing was.
     const std::string &
@@ -73,6 +78,8 @@ namespace undine
 
     const ImmersedSurface<dim>                &surface;
     const FluidModel<dim>                     &model;
+    const VoidRegions<dim>                    *void_regions; ///< nullptr: none
+    VoidParts                                  voids, accepted_voids;
     Positions                                  positions; ///< for which `cells` holds
     Velocities                                 velocities;
     CutCells<dim>                              cells;

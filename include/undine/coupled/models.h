@@ -5,6 +5,7 @@
 #include <undine/effects/effect.h>
 #include <undine/fluid/fluid_model.h>
 #include <undine/interface/immersed_surface.h>
+#include <undine/interface/void_regions.h>
 #include <undine/solid/solid_model.h>
 
 #include <memory>
@@ -21,6 +22,7 @@ namespace undine
 
     /// Of everything that stands in the fluid; nullptr: nothing does.
     std::unique_ptr<const ImmersedSurface<dim>> surface;
+    std::unique_ptr<const VoidRegions<dim>>     void_regions; ///< nullptr: there are none
 
     /// What the effects do to the bodies.
     SolidEnvironment<dim>
