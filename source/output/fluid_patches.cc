@@ -105,6 +105,23 @@ namespace undine
       }
 
     private:
+      /// True if there is no fluid in any cell around a corner.
+      bool
+      in_bodies(const GridIndex<dim> &corner) const
+      {
+        using Kind          = typename LatticeParts<dim>::Kind;
+        const auto *divided = sampler.divided_cells();
+        bool        result  = divided != nullptr;
+        for (unsigned int v = 0; result && v <= last_vertex<dim>; ++v)
+          {
+            const auto cell = moved_to_vertex(corner, v, -1);
+            const auto kind = divided->kind(cell);
+            result          = kind == Kind::closed ||
+                     (kind == Kind::divided && divided->first(cell) == divided->last(cell));
+          }
+        return result;
+      }
+
       void
       set(dealii::DataOutBase::Patch<dim> &patch,
           const unsigned int               point,
@@ -132,6 +149,11 @@ namespace undine
       void
       sample(const GridIndex<dim> &corner)
       {
+        if (in_bodies(corner)) // body_patch() knows what is there
+          {
+            values.insert(values.end(), n_sampled, 0.f);
+            return;
+          }
         const auto place    = sampler.corner_position(corner);
         const auto velocity = sampler.velocity(place);
         for (unsigned int axis = 0; axis < dim; ++axis)
