@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""contrib/render makes a picture of bodies and one of a fluid that is not just background.
+"""contrib/render makes pictures of bodies, of a fluid and of an obstacle that are not just background.
 
 usage: check_render.py RENDER PROGRAM SCENES      leaves with 77 (skipped) where VTK is missing
 """
@@ -40,7 +40,8 @@ def main():
     if not is_installed():
         print("skipped: the Debian packages python3-vtk9 and xvfb are not installed")
         sys.exit(77)
-    for name, options in (("cook_membrane", ["--field", "von_Mises_stress"]), ("plume", [])):
+    for name, options in (("cook_membrane", ["--field", "von_Mises_stress"]), ("plume", []),
+                          ("obstacle_flow", ["--field", "velocity"])):
         with tempfile.TemporaryDirectory() as folder:
             scene_tools.run(program, [f"{scenes}/{name}.prm", "--output", folder,
                                       "--set", "Time/Maximum steps=2"])

@@ -23,8 +23,29 @@ def with_common_points(data):
     return result
 
 
+def name_of(file):
+    """Of the part: solution/fluid_000012.vtu holds the fluid."""
+    return file.stem.rsplit("_", 1)[0]
+
+
+def by_fraction(data):
+    """A fluid among bodies: voxels in bodies left out, those with most fluid last, so that they are
+    drawn over others in the same cell."""
+    append = vtk.vtkAppendFilter()
+    for low, high in ((1e-12, 0.5), (0.5, 2.0)):
+        threshold = vtk.vtkThreshold()
+        threshold.SetInputData(data)
+        threshold.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_POINTS,
+                                         "fluid_fraction")
+        threshold.SetLowerThreshold(low)
+        threshold.SetUpperThreshold(high)
+        append.AddInputConnection(threshold.GetOutputPort())
+    append.Update()
+    return append.GetOutput()
+
+
 class Part:
-    """Bodies or fluid at one time: a data set with point data."""
+    """Bodies, obstacles or fluid at one time: a data set with point data."""
 
     READERS = {".vtu": "vtkXMLUnstructuredGridReader", ".pvtu": "vtkXMLPUnstructuredGridReader",
                ".vti": "vtkXMLImageDataReader", ".pvti": "vtkXMLPImageDataReader",
@@ -37,12 +58,15 @@ class Part:
         reader.SetFileName(str(file))
         reader.Update()
         to_points = vtk.vtkCellDataToPointData()
-        to_points.SetInputData(with_common_points(reader.GetOutput()))
+        data = reader.GetOutput()
+        among_bodies = data.GetPointData().HasArray("fluid_fraction")
+        to_points.SetInputData(by_fraction(data) if among_bodies else with_common_points(data))
         to_points.Update()
         self.data = to_points.GetOutput()
         point_data = self.data.GetPointData()
         self.fields = [point_data.GetArrayName(i) for i in range(point_data.GetNumberOfArrays())]
         self.is_bodies = "displacement" in self.fields
+        self.is_obstacles = name_of(file) == "obstacles"
 
     def is_empty(self):
         return self.data.GetNumberOfPoints() == 0
@@ -52,12 +76,14 @@ class Part:
         return bounds[5] - bounds[4] <= 1e-9 * (bounds[1] - bounds[0])
 
     def colour_field(self, wanted):
+        if self.is_obstacles:
+            return None
         if wanted in self.fields:
             return wanted
         if self.is_bodies:
             return "displacement"
         carried = [name for name in self.fields
-                   if name not in ("pressure", "vorticity_magnitude")
+                   if name not in ("pressure", "vorticity_magnitude", "component", "fluid_fraction")
                    and self.data.GetPointData().GetArray(name).GetNumberOfComponents() == 1]
         for name in ["smoke", "temperature"] + carried + ["velocity", "pressure"]:
             if name in self.fields:
@@ -101,8 +127,9 @@ def warp_of_files(results):
 
 
 def read_parts(files):
-    """The parts of one time that exist and are not empty."""
-    parts = [Part(file) for file in files if file.is_file()]
+    """The parts of one time that exist, are not empty, and are drawn: obstacles are, but not the
+    pieces into which the grid cuts all surfaces."""
+    parts = [Part(file) for file in files if file.is_file() and name_of(file) != "surface"]
     return [part for part in parts if not part.is_empty()]
 
 
@@ -114,6 +141,8 @@ class Extent:
         self.ranges = {}  # by (is_bodies, field)
 
     def add(self, part, options):
+        if part.is_obstacles:  # they may reach out of the domain
+            return
         field = part.colour_field(options.field)
         self.bounds.AddBounds(part.warped(options.warp).GetBounds())
         if field:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Drawing bodies and fluid at one time."""
+"""Drawing bodies, obstacles and fluid at one time."""
 import math
 
 import vtk
@@ -14,6 +14,7 @@ SMOKE = ["#ffffff", "#c9c9c9", "#8c8c8c", "#4d4d4d", "#1a1a1a"]
 HEAT = ["#fff7ec", "#fdd49e", "#fc8d59", "#d7301f", "#7f0000"]
 SIGNED = ["#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b"]
 INK = (0.12, 0.12, 0.15)
+GREY = (0.55, 0.55, 0.57)
 
 
 def colour_table(field, is_bodies, limits):
@@ -70,6 +71,36 @@ def edge_actor(data, flat):
     actor.GetProperty().SetColor(*INK)
     actor.GetProperty().SetLineWidth(1.5)
     actor.GetProperty().LightingOff()
+    return actor
+
+
+def obstacle_actor(data, bounds, is_flat):
+    """Surfaces of obstacles, in 2D what they enclose, as far as they are in the domain."""
+    faces = vtk.vtkGeometryFilter()
+    faces.SetInputData(data)
+    if is_flat:
+        outline, faces = faces, vtk.vtkContourTriangulator()
+        faces.SetInputConnection(outline.GetOutputPort())
+    # Side by side: the distance from a whole box is not linear along a large face.
+    for axis in range(2 if is_flat else 3):
+        for inward in (1, -1):
+            side = vtk.vtkPlane()
+            side.SetOrigin(*(bounds[0:6:2] if inward == 1 else bounds[1:6:2]))
+            side.SetNormal(*(inward * (axis == other) for other in range(3)))
+            whole, faces = faces, vtk.vtkClipPolyData()
+            faces.SetInputConnection(whole.GetOutputPort())
+            faces.SetClipFunction(side)
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(faces.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*GREY)
+    actor.GetProperty().SetLighting(not is_flat)
+    actor.GetProperty().SetAmbient(0.4)
+    actor.GetProperty().SetDiffuse(0.65)
+    if is_flat:  # in front of the fluid
+        actor.SetPosition(0, 0, 1e-3 * (bounds[1] - bounds[0]))
     return actor
 
 
@@ -170,6 +201,9 @@ def time_stamp(time, options):
 
 
 def add_part(renderer, part, extent, options):
+    if part.is_obstacles:
+        renderer.AddActor(obstacle_actor(part.data, extent.corners(), part.is_flat()))
+        return
     field = part.colour_field(options.field)
     data = part.warped(options.warp)
     transfer, is_vector = None, False

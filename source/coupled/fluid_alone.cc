@@ -11,19 +11,44 @@ namespace undine
     , timing(timing)
     , projection(model)
   {
+    if (models.surface)
+      geometry = std::make_unique<FluidGeometry<dim>>(models);
   }
 
 
   template <int dim>
   void
-  FluidAlone<dim>::initialize(State<dim> &state, Report &report)
+  FluidAlone<dim>::place_obstacles(const State<dim> &state, const double dt)
   {
-    state.fluid = model.initial_state();
+    if (!geometry)
+      return;
+    const auto   phase = timing.section("cut cells");
+    const double time  = state.clock.time;
+    const auto   now   = models.surface->positions(state.solid, time);
+    geometry->place(state.surface_positions.empty() ? now : state.surface_positions,
+                    now,
+                    models.surface->velocities(state.solid, time, dt));
+  }
+
+
+  template <int dim>
+  void
+  FluidAlone<dim>::initialize(State<dim> &state, const double dt, Report &report)
+  {
+    place_obstacles(state, dt);
+    const auto bodies = geometry ? geometry->bodies() : typename Flow<dim>::Bodies();
+    state.fluid       = model.initial_state(bodies.open_parts);
     for (const auto &effect : models.effects)
       effect->initialize(model, state.fluid);
-    report.linear_iterations +=
-      projection.make_divergence_free(state.fluid, state.clock.time).iterations;
-    add_columns(report, state.fluid, state.clock.time);
+    const auto projected = projection.make_divergence_free(
+      state.fluid, state.clock.time, geometry ? geometry->fluxes() : std::vector<double>());
+    report.linear_iterations += projected.iterations;
+    if (geometry)
+      {
+        geometry->accept();
+        state.surface_positions = models.surface->positions(state.solid, state.clock.time);
+      }
+    add_columns(report, state.fluid, projected.divergence, state.clock.time);
   }
 
 
@@ -31,13 +56,20 @@ namespace undine
   void
   FluidAlone<dim>::step(State<dim> &state, Report &report)
   {
-    const auto     timed = timing.section("fluid");
-    FluidStep<dim> fluid(
-      model, state.fluid, models.environment().gravity, state.clock.time, report.dt, timing);
+    const auto timed = timing.section("fluid");
+    place_obstacles(state, report.dt);
+    FluidStep<dim> fluid(model,
+                         state.fluid,
+                         models.environment().gravity,
+                         state.clock.time,
+                         report.dt,
+                         timing,
+                         geometry ? geometry->bodies() : typename Flow<dim>::Bodies());
     {
       const auto phase = timing.section("transport");
       for (const auto &effect : models.effects)
         effect->transport(fluid);
+      fluid.settle();
     }
     {
       const auto phase = timing.section("accelerate");
@@ -49,16 +81,25 @@ namespace undine
       for (const auto &effect : models.effects)
         effect->diffuse(fluid);
     }
+    typename Projection<dim>::Report projected;
     {
       const auto phase = timing.section("project");
-      fluid.linear_iterations +=
-        projection.project(state.fluid, fluid.flow.velocity(), fluid.time + fluid.dt, fluid.dt)
-          .iterations;
+      projected        = projection.project(state.fluid,
+                                     fluid.flow.velocity(),
+                                     fluid.time + fluid.dt,
+                                     fluid.dt,
+                                     geometry ? geometry->fluxes() : std::vector<double>());
     }
     fluid.finish();
-    report.linear_iterations += fluid.linear_iterations;
+    if (geometry)
+      {
+        geometry->accept();
+        state.surface_positions = models.surface->positions(state.solid, fluid.time);
+        report.note             = geometry->complaint();
+      }
+    report.linear_iterations += fluid.linear_iterations + projected.iterations;
     const auto phase = timing.section("measure");
-    add_columns(report, state.fluid, fluid.time + fluid.dt);
+    add_columns(report, state.fluid, projected.divergence, fluid.time + fluid.dt);
   }
 
 
@@ -66,14 +107,17 @@ namespace undine
   void
   FluidAlone<dim>::add_columns(Report                &report,
                                const FluidState<dim> &state,
+                               const double           divergence,
                                const double           time) const
   {
     const auto append = [&](const Columns &more) {
       report.columns.insert(report.columns.end(), more.begin(), more.end());
     };
-    append(fluid_columns(model, state));
+    append(fluid_columns(model, state, divergence));
     for (const auto &effect : models.effects)
       append(effect->columns(model, state, time));
+    if (geometry)
+      append(geometry->columns(state.pressure, models.environment().gravity, time));
   }
 
 

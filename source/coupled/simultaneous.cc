@@ -62,7 +62,7 @@ namespace undine
       if (solid)
         solid->initialize(state, choose_dt(state), report);
       if (fluid)
-        fluid->initialize(state, report);
+        fluid->initialize(state, choose_dt(state), report);
       return report;
     }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
+#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/pressure_numbers.h>
 
 #include <fmt/format.h>
 
@@ -105,8 +107,11 @@ namespace undine
     {
       const auto  &grid      = step.model.grid();
       auto        &component = step.state.velocity[axis];
+      const auto  *divided   = component.divided();
       const double factor    = -step.dt * lift.expansion * step.gravity[axis];
       for_each(component.owned(), [&](const GridIndex<dim> &face) {
+        if (divided && divided->kind(face) != LatticeParts<dim>::Kind::whole)
+          return;
         auto below = moved<dim>(face, axis, -1);
         auto above = face;
         if (grid.at_boundary(axis, face))
@@ -117,6 +122,29 @@ namespace undine
           (scalar(below) * width_above + scalar(above) * width_below) / (width_below + width_above);
         component(face) += factor * (value - lift.reference);
       });
+      for (std::size_t k = 0; k < component.parts().size(); ++k)
+        if (divided->owns(k))
+          component.parts()[k] +=
+            factor * (mean_of_ends(scalar, *component.open_parts(), axis, k) - lift.reference);
+      set_means(component, grid);
+    }
+
+
+    /// Mean of the values on both sides of a piece, or of the one inside the domain.
+    static double
+    mean_of_ends(const Field<dim>     &scalar,
+                 const OpenParts<dim> &open,
+                 const unsigned int    axis,
+                 const int             piece)
+    {
+      double sum = 0, n = 0;
+      for (const unsigned int end : {0, 1})
+        if (open.pieces[axis][piece].components[end] != OpenParts<dim>::outside)
+          {
+            sum += value_at(scalar, end_of_piece(open, axis, piece, end));
+            n += 1;
+          }
+      return n > 0 ? sum / n : 0.;
     }
 
     std::vector<Lift> lifts;

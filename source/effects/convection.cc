@@ -37,16 +37,31 @@ namespace undine
     void
     transport(FluidStep<dim> &step) const override
     {
-      const auto timed    = step.timing.section("convection");
-      auto      &velocity = step.state.velocity;
-      add(velocity, FluidStep<dim>::carried_share * step.dt, step.state.acceleration);
+      const auto   timed    = step.timing.section("convection");
+      auto        &velocity = step.state.velocity;
+      const auto  &now      = step.state.acceleration;
+      const double share    = FluidStep<dim>::carried_share * step.dt;
       for (unsigned int axis = 0; axis < dim; ++axis)
-        velocity[axis] = method->advect(step.flow, velocity[axis], VelocityCondition<dim>(axis));
-      add(velocity, -FluidStep<dim>::carried_share * step.dt, step.state.acceleration);
+        {
+          add_to_whole_faces(velocity[axis], share, now[axis]);
+          velocity[axis] = method->advect(step.flow, velocity[axis], VelocityCondition<dim>(axis));
+          add_to_whole_faces(velocity[axis], -share, now[axis]);
+        }
       step.carried = velocity;
     }
 
   private:
+    /// A body may have come or gone between the two: faces that it divides have no acceleration.
+    static void
+    add_to_whole_faces(Field<dim> &component, const double factor, const Field<dim> &acceleration)
+    {
+      const auto *divided = component.divided();
+      for_each(component.owned(), [&](const GridIndex<dim> &face) {
+        if (!divided || divided->kind(face) == LatticeParts<dim>::Kind::whole)
+          component(face) += factor * acceleration(face);
+      });
+    }
+
     std::unique_ptr<Advection<dim>> method;
   };
 

@@ -2,6 +2,7 @@
 #include <undine/effects/effect.h>
 #include <undine/fluid/advection.h>
 #include <undine/fluid/implicit_diffusion.h>
+#include <undine/fluid/pressure_gradient.h>
 
 #include <algorithm>
 
@@ -131,6 +132,12 @@ namespace undine
                             "names no field to carry",
                             "Add a subsection with the field's name, such as 'subsection smoke'.");
       for (const auto &field : fields)
+        if (around.has_obstacles && field->diffusivity > 0)
+          throw options.section(field->name)
+            .error("Diffusivity",
+                   "diffusion around obstacles is not part of this version",
+                   "Remove the key or the section 'Obstacles'.");
+      for (const auto &field : fields)
         check_field(options, *field, around.fluid->boundaries().all());
     }
 
@@ -157,10 +164,11 @@ namespace undine
     {
       for (const auto &field : fields)
         {
-          Field<dim> values(model.grid().cells());
-          for_each(values.owned(), [&](const GridIndex<dim> &cell) {
-            values(cell) = field->initial.value(values.lattice().point(cell), 0);
+          Field<dim> values(model.grid().cells(), state.velocity[0].open_parts());
+          for_each_value(values, [&](double &value, const auto &place, const auto &) {
+            value = field->initial.value(place, 0);
           });
+          set_means(values, model.grid());
           state.scalars[field->name] = values;
         }
     }
@@ -183,10 +191,10 @@ namespace undine
         if (!field->source.is_zero())
           {
             auto &values = step.state.scalars.at(field->name);
-            for_each(values.owned(), [&](const GridIndex<dim> &cell) {
-              values(cell) += step.dt * field->source.value(values.lattice().point(cell),
-                                                            step.time + step.dt / 2);
+            for_each_value(values, [&](double &value, const auto &place, const auto &) {
+              value += step.dt * field->source.value(place, step.time + step.dt / 2);
             });
+            set_means(values, step.model.grid());
           }
     }
 

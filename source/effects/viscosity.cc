@@ -31,6 +31,10 @@ namespace undine
         throw options.error("",
                             "viscosity acts on a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
+      if (around.has_obstacles)
+        throw options.error("",
+                            "friction on obstacles is not part of this version",
+                            "Remove the section or the section 'Obstacles'.");
     }
 
     std::string
@@ -47,7 +51,9 @@ namespace undine
       auto       pressure = step.state.pressure;
       pressure.exchange(1);
       const auto gradient = pressure_acceleration(
-        step.model, pressure, open_faces(step.model, step.flow.velocity(), step.time));
+        step.model,
+        pressure,
+        open_faces(step.model, step.flow.velocity(), velocity.open_parts(), step.time));
       add(velocity, step.dt, gradient);
       set_boundary_velocity(velocity, step.model, step.time + step.dt);
       for (unsigned int axis = 0; axis < dim; ++axis)
@@ -72,11 +78,9 @@ namespace undine
     pressure_correction(const FluidModel<dim> &model, Velocity<dim> &velocity) const
     {
       exchange(velocity);
-      const auto  outflow = divergence(model, velocity);
-      Field<dim>  correction(model.grid().cells());
-      std::size_t k = 0;
+      auto correction = divergence(model, velocity);
       for_each(correction.owned(), [&](const GridIndex<dim> &cell) {
-        correction(cell) = -dynamic_viscosity * outflow[k++] / model.grid().cell_volume(cell);
+        correction(cell) *= -dynamic_viscosity / model.grid().cell_volume(cell);
       });
       return correction;
     }

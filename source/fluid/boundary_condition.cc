@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/boundary_condition.h>
+#include <undine/fluid/pressure_gradient.h>
 
 namespace undine
 {
@@ -123,19 +124,26 @@ namespace undine
     for (unsigned int axis = 0; axis < dim; ++axis)
       for (unsigned int end = 0; end < 2 && !model.grid().periodic(axis); ++end)
         {
-          auto      &component = velocity[axis];
-          const Side side{axis, end};
-          auto       layer  = component.owned();
-          const int  plane  = end == 0 ? 0 : model.grid().cells_along()[axis];
+          auto       &component = velocity[axis];
+          const auto *divided   = component.divided();
+          const Side  side{axis, end};
+          auto        layer = component.owned();
+          const int   plane = end == 0 ? 0 : model.grid().cells_along()[axis];
           layer.lower[axis] = std::max(layer.lower[axis], plane);
           layer.upper[axis] = std::min(layer.upper[axis], plane + 1);
           for_each(layer, [&](const GridIndex<dim> &face) {
             const auto &boundary = model.boundaries().at(side, face);
-            if (boundary.holds_normal_velocity())
-              component(face) =
-                boundary.velocity_along(axis, axis, component.lattice().point(face), time);
+            if (!boundary.holds_normal_velocity())
+              return;
+            component(face) =
+              boundary.velocity_along(axis, axis, component.lattice().point(face), time);
+            for (int k = divided ? divided->first(face) : 0; divided && k < divided->last(face);
+                 ++k)
+              component.parts()[k] =
+                boundary.velocity_along(axis, axis, divided->all()[k].place, time);
           });
         }
+    set_means(velocity, model.grid());
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/boundary_condition.h>
 #include <undine/fluid/fluid_quantities.h>
+#include <undine/fluid/pressure_numbers.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -94,19 +95,31 @@ namespace undine
     const auto                         &grid = model.grid();
     std::vector<dealii::Tensor<1, dim>> forces(model.boundaries().all().size());
     auto                                pressure = state.pressure;
+    const auto                         *open     = pressure.open_parts().get();
     pressure.exchange(1);
     for_each_next_to_side(grid, *grid.cells(), [&](const Side side, const GridIndex<dim> &cell) {
-      const unsigned int axis    = side.axis;
-      const auto         next    = moved<dim>(cell, axis, -side.sign());
-      double             on_wall = pressure(cell);
-      if (next[axis] >= 0 && next[axis] < grid.cells_along()[axis])
+      const unsigned int axis  = side.axis;
+      const auto         next  = moved<dim>(cell, axis, -side.sign());
+      const auto         whole = [&](const GridIndex<dim> &index) {
+        return !open || open->cells.kind(index) == LatticeParts<dim>::Kind::whole;
+      };
+      auto &force = forces[model.boundaries().number(side, cell)][axis];
+      if (!whole(cell))
+        {
+          const auto face = moved<dim>(cell, axis, side.end);
+          for (int k = open->faces[axis].first(face); k < open->faces[axis].last(face); ++k)
+            force += side.sign() * open->faces[axis].all()[k].measure *
+                     value_at(pressure, end_of_piece(*open, axis, k, 1 - side.end));
+          return;
+        }
+      double on_wall = pressure(cell);
+      if (next[axis] >= 0 && next[axis] < grid.cells_along()[axis] && whole(next))
         {
           const int plane = std::max(cell[axis], next[axis]);
           on_wall += (pressure(cell) - pressure(next)) * grid.cell_width(axis, cell[axis]) / 2 /
                      grid.dual_width(axis, plane);
         }
-      forces[model.boundaries().number(side, cell)][axis] +=
-        side.sign() * on_wall * grid.face_area(axis, cell);
+      force += side.sign() * on_wall * grid.face_area(axis, cell);
     });
     return sum_over_ranks(forces, grid.communicator());
   }

@@ -120,8 +120,11 @@ namespace undine
 
 
   template <int dim>
-  Field<dim>::Field(std::shared_ptr<const Lattice<dim>> lattice)
+  Field<dim>::Field(std::shared_ptr<const Lattice<dim>>   lattice,
+                    std::shared_ptr<const OpenParts<dim>> open_parts)
     : points(std::move(lattice))
+    , open(std::move(open_parts))
+    , part_values(open ? open->of(*points).all().size() : 0)
   {
     store(points->owned());
   }
@@ -131,16 +134,21 @@ namespace undine
   void
   Field<dim>::store(const IndexBox<dim> &new_box)
   {
-    Field old  = std::move(*this);
-    points     = old.points;
-    box        = new_box;
-    strides[0] = 1;
+    const auto old_box     = box;
+    const auto old_strides = strides;
+    const auto old_values  = std::move(values);
+    box                    = new_box;
+    strides[0]             = 1;
     for (unsigned int d = 1; d < dim; ++d)
       strides[d] = strides[d - 1] * (box.upper[d - 1] - box.lower[d - 1]);
     values.assign(box.size(), 0.);
-    if (!old.values.empty())
-      for_each(old.box.intersection(box),
-               [&](const GridIndex<dim> &index) { (*this)(index) = old(index); });
+    if (!old_values.empty())
+      for_each(old_box.intersection(box), [&](const GridIndex<dim> &index) {
+        std::ptrdiff_t old = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          old += (index[d] - old_box.lower[d]) * old_strides[d];
+        (*this)(index) = old_values[old];
+      });
   }
 
 
@@ -158,6 +166,8 @@ namespace undine
   {
     const auto &blocks = points->blocks();
     const auto  needed = points->with_ghosts(blocks.rank(), width);
+    if (open)
+      open->of(*points).exchange(part_values);
     if (!(box.intersection(needed) == needed))
       store(needed);
 

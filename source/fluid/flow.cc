@@ -78,14 +78,37 @@ namespace undine
   Flow<dim>::Flow(const FluidModel<dim> &model,
                   const Velocity<dim>   &velocity,
                   const double           time,
-                  const double           dt)
+                  const double           dt,
+                  const Bodies          &bodies)
     : fluid_model(model)
+    , among(bodies)
     , frozen_velocity(velocity)
     , start_time(time)
     , step(dt)
     , ghost_width(reach(model, longest_way(model, velocity, time, dt), dt))
+    , body_vicinity(model.grid(), velocity[0].open_parts(), bodies.open_parts, ghost_width)
   {
     complete(frozen_velocity, model, ghost_width, time);
+    if (among.obstruction != nullptr)
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        samples[axis] = std::make_unique<VisibleSamples<dim>>(
+          frozen_velocity[axis], ghost_width, *among.obstruction, body_vicinity);
+  }
+
+
+  template <int dim>
+  const typename Flow<dim>::Bodies &
+  Flow<dim>::bodies() const
+  {
+    return among;
+  }
+
+
+  template <int dim>
+  const BodyVicinity<dim> &
+  Flow<dim>::vicinity() const
+  {
+    return body_vicinity;
   }
 
 
@@ -126,8 +149,14 @@ namespace undine
   Flow<dim>::velocity_at(const dealii::Point<dim> &place) const
   {
     dealii::Tensor<1, dim> result;
+    const bool             near = body_vicinity.is_near(place, place);
     for (unsigned int axis = 0; axis < dim; ++axis)
-      result[axis] = interpolate(frozen_velocity[axis], place);
+      if (!near)
+        result[axis] = interpolate(frozen_velocity[axis], place);
+      else if (const auto seen = samples[axis]->at(place))
+        result[axis] = *seen;
+      else
+        result[axis] = among.obstruction->nearest_velocity(place)[axis];
     return result;
   }
 
@@ -153,8 +182,16 @@ namespace undine
   typename Flow<dim>::Trace
   Flow<dim>::walk(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &way) const
   {
-    const auto        &grid = fluid_model.grid();
-    dealii::Point<dim> end  = place + way;
+    // A little is left between path and surface, so that the surface hides what lies beyond.
+    constexpr double   share = 0.98;
+    const auto        &grid  = fluid_model.grid();
+    dealii::Point<dim> end   = place + way;
+    if (body_vicinity.is_near(place, end))
+      {
+        const double hit = among.obstruction->first_hit(place, end);
+        if (hit <= 1)
+          return {place + share * hit * way, false};
+      }
     // Each turn ends the way at the first boundary it meets, or bends it along that wall.
     for (unsigned int turn = 0; turn < dim; ++turn)
       {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/fluid_model.h>
+#include <undine/fluid/pressure_gradient.h>
 
 namespace undine
 {
@@ -100,20 +101,20 @@ namespace undine
 
   template <int dim>
   FluidState<dim>
-  FluidModel<dim>::initial_state() const
+  FluidModel<dim>::initial_state(const std::shared_ptr<const OpenParts<dim>> &open_parts) const
   {
     FluidState<dim> state;
-    state.pressure = Field<dim>(mac_grid.cells());
+    state.pressure = Field<dim>(mac_grid.cells(), open_parts);
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
         auto &component          = state.velocity[axis];
-        component                = Field<dim>(mac_grid.faces(axis));
+        component                = Field<dim>(mac_grid.faces(axis), open_parts);
         state.acceleration[axis] = component;
         if (!parameters.initial_velocity.is_zero())
-          for_each(component.owned(), [&](const GridIndex<dim> &face) {
-            component(face) =
-              parameters.initial_velocity.value(component.lattice().point(face), 0, axis);
+          for_each_value(component, [&](double &value, const auto &place, const auto &) {
+            value = parameters.initial_velocity.value(place, 0, axis);
           });
+        set_means(component, mac_grid);
       }
     return state;
   }

@@ -47,22 +47,20 @@ namespace undine
   {
     double energy = 0;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      for_each(velocity[axis].owned(), [&](const GridIndex<dim> &face) {
-        const double speed = velocity[axis](face);
-        energy += model.density() * model.grid().dual_volume(axis, face) * speed * speed / 2;
-      });
+      {
+        const auto &component = velocity[axis];
+        const auto *divided   = component.divided();
+        for_each(component.owned(), [&](const GridIndex<dim> &face) {
+          if (!divided || divided->kind(face) == LatticeParts<dim>::Kind::whole)
+            energy += model.density() * model.grid().dual_volume(axis, face) * component(face) *
+                      component(face) / 2;
+        });
+        for (std::size_t k = 0; k < component.parts().size(); ++k)
+          if (divided->owns(k))
+            energy += model.density() * velocity.open_parts()->pieces[axis][k].volume *
+                      component.parts()[k] * component.parts()[k] / 2;
+      }
     return dealii::Utilities::MPI::sum(energy, model.grid().communicator());
-  }
-
-
-  template <int dim>
-  double
-  fluid_volume(const FluidModel<dim> &model)
-  {
-    double volume = 1;
-    for (unsigned int d = 0; d < dim; ++d)
-      volume *= model.grid().upper()[d] - model.grid().lower()[d];
-    return volume;
   }
 
 
@@ -74,11 +72,15 @@ namespace undine
     bool                   finite = true;
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
-        double largest = 0;
-        for_each(velocity[axis].owned(), [&](const GridIndex<dim> &face) {
-          finite  = finite && std::isfinite(velocity[axis](face));
-          largest = std::max(largest, std::abs(velocity[axis](face)));
-        });
+        double     largest = 0;
+        const auto include = [&](const double value) {
+          finite  = finite && std::isfinite(value);
+          largest = std::max(largest, std::abs(value));
+        };
+        for_each(velocity[axis].owned(),
+                 [&](const GridIndex<dim> &face) { include(velocity[axis](face)); });
+        for (const double value : velocity[axis].parts())
+          include(value);
         result[axis] = dealii::Utilities::MPI::max(largest, model.grid().communicator());
       }
     check_finite(finite, model.grid().communicator());
@@ -118,12 +120,11 @@ namespace undine
 
   template <int dim>
   double
-  largest_divergence(const FluidModel<dim> &model, const std::vector<double> &fluxes)
+  largest_divergence(const FluidModel<dim> &model, const Field<dim> &fluxes)
   {
-    double      largest = 0;
-    std::size_t k       = 0;
-    for_each(model.grid().cells()->owned(), [&](const GridIndex<dim> &cell) {
-      largest = std::max(largest, std::abs(fluxes[k++]) / flux_area(model.grid(), cell));
+    double largest = 0;
+    for_each_value(fluxes, [&](const double flux, const auto &, const GridIndex<dim> &cell) {
+      largest = std::max(largest, std::abs(flux) / flux_area(model.grid(), cell));
     });
     return dealii::Utilities::MPI::max(largest, model.grid().communicator());
   }
@@ -141,24 +142,26 @@ namespace undine
   double
   integral(const FluidModel<dim> &model, const Field<dim> &scalar)
   {
+    Field<dim> volumes(scalar.shared_lattice(), scalar.open_parts());
+    set_volumes(volumes, model.grid());
     double sum = 0;
-    for_each(scalar.owned(), [&](const GridIndex<dim> &cell) {
-      sum += model.grid().cell_volume(cell) * scalar(cell);
-    });
+    for_each(scalar.owned(),
+             [&](const GridIndex<dim> &cell) { sum += volumes(cell) * scalar(cell); });
+    for (std::size_t c = 0; c < scalar.parts().size(); ++c)
+      if (scalar.divided()->owns(c))
+        sum += volumes.parts()[c] * scalar.parts()[c];
     return dealii::Utilities::MPI::sum(sum, model.grid().communicator());
   }
 
 
   template <int dim>
   Columns
-  fluid_columns(const FluidModel<dim> &model, const FluidState<dim> &state)
+  fluid_columns(const FluidModel<dim> &model, const FluidState<dim> &state, const double divergence)
   {
-    const double scale      = largest_components(model, state.velocity).norm();
-    const double divergence = largest_divergence(model, state.velocity);
-    Columns      columns{{"Fluid kinetic energy", "J", kinetic_energy(model, state.velocity)},
+    Columns    columns{{"Fluid kinetic energy", "J", kinetic_energy(model, state.velocity)},
                     {"Fluid largest speed", "m/s", largest_speed(model, state.velocity)},
-                    {"Fluid divergence", "1", scale > 0 ? divergence / scale : 0.}};
-    const auto   fluxes = boundary_fluxes(model, state.velocity);
+                    {"Fluid divergence", "1", divergence}};
+    const auto fluxes = boundary_fluxes(model, state.velocity);
     for (unsigned int b = 0; b < fluxes.size(); ++b)
       {
         const auto &boundary = model.boundaries().all()[b];
@@ -172,17 +175,16 @@ namespace undine
   }
 
 
-#define INSTANTIATE(dim)                                                                          \
-  template double                 kinetic_energy(const FluidModel<dim> &, const Velocity<dim> &); \
-  template double                 fluid_volume(const FluidModel<dim> &);                          \
-  template dealii::Tensor<1, dim> largest_components(const FluidModel<dim> &,                     \
-                                                     const Velocity<dim> &);                      \
-  template double                 largest_speed(const FluidModel<dim> &, const Velocity<dim> &);  \
-  template double                 flux_area(const MacGrid<dim> &, const GridIndex<dim> &);        \
-  template double  largest_divergence(const FluidModel<dim> &, const std::vector<double> &);      \
-  template double  largest_divergence(const FluidModel<dim> &, const Velocity<dim> &);            \
-  template double  integral(const FluidModel<dim> &, const Field<dim> &);                         \
-  template Columns fluid_columns(const FluidModel<dim> &, const FluidState<dim> &);
+#define INSTANTIATE(dim)                                                                           \
+  template double                 kinetic_energy(const FluidModel<dim> &, const Velocity<dim> &);  \
+  template dealii::Tensor<1, dim> largest_components(const FluidModel<dim> &,                      \
+                                                     const Velocity<dim> &);                       \
+  template double                 largest_speed(const FluidModel<dim> &, const Velocity<dim> &);   \
+  template double                 flux_area(const MacGrid<dim> &, const GridIndex<dim> &);         \
+  template double                 largest_divergence(const FluidModel<dim> &, const Field<dim> &); \
+  template double  largest_divergence(const FluidModel<dim> &, const Velocity<dim> &);             \
+  template double  integral(const FluidModel<dim> &, const Field<dim> &);                          \
+  template Columns fluid_columns(const FluidModel<dim> &, const FluidState<dim> &, const double);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -1,35 +1,77 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/pressure_numbers.h>
 
 #include <cmath>
 
 namespace undine
 {
+  namespace
+  {
+    template <int dim>
+    using Kind = typename LatticeParts<dim>::Kind;
+
+
+    /// Reduced pressure on an opening through which fluid leaves with velocity `outward` [m/s].
+    template <int dim>
+    double
+    opening_pressure(const FluidModel<dim>    &model,
+                     const Boundary<dim>      &boundary,
+                     const dealii::Point<dim> &place,
+                     const double              outward,
+                     const double              time)
+    {
+      const double entering = std::min(outward, 0.);
+      return boundary.kind == BoundaryKind::outflow ? -model.density() / 2 * entering * entering
+                                                    : boundary.pressure.value(place, time);
+    }
+
+
+    /// Call `action(part)` for the parts of a divided point.
+    template <int dim, class Action>
+    void
+    for_each_part(const LatticeParts<dim> &divided, const GridIndex<dim> &index, Action &&action)
+    {
+      const int last = divided.last(index);
+      for (int part = divided.first(index); part < last; ++part)
+        action(part);
+    }
+  } // namespace
+
+
   template <int dim>
   std::vector<OpenFace<dim>>
-  open_faces(const FluidModel<dim> &model, const Velocity<dim> &velocity, const double time)
+  open_faces(const FluidModel<dim> &model,
+             const Velocity<dim>   &velocity,
+             const OpenParts<dim>  *open_parts,
+             const double           time)
   {
     std::vector<OpenFace<dim>> result;
     for (unsigned int axis = 0; axis < dim; ++axis)
       for (unsigned int end = 0; end < 2 && !model.grid().periodic(axis); ++end)
         {
-          const Side side{axis, end};
-          const int  plane  = end == 0 ? 0 : model.grid().cells_along()[axis];
-          auto       layer  = velocity[axis].owned();
-          layer.lower[axis] = std::max(layer.lower[axis], plane);
-          layer.upper[axis] = std::min(layer.upper[axis], plane + 1);
+          const Side  side{axis, end};
+          const int   plane     = end == 0 ? 0 : model.grid().cells_along()[axis];
+          const auto &component = velocity[axis];
+          auto        layer     = component.owned();
+          layer.lower[axis]     = std::max(layer.lower[axis], plane);
+          layer.upper[axis]     = std::min(layer.upper[axis], plane + 1);
           for_each(layer, [&](const GridIndex<dim> &face) {
             const auto &boundary = model.boundaries().at(side, face);
             if (!boundary.is_open())
               return;
-            const double outward  = side.sign() * velocity[axis](face);
-            const double entering = std::min(outward, 0.);
-            const double pressure =
-              boundary.kind == BoundaryKind::outflow
-                ? -model.density() / 2 * entering * entering
-                : boundary.pressure.value(velocity[axis].lattice().point(face), time);
             const auto cell = end == 0 ? face : moved<dim>(face, axis, -1);
-            result.push_back({side, face, cell, pressure});
+            const auto add  = [&](const auto &place, const int piece) {
+              const double outward = side.sign() * component(face);
+              result.push_back(
+                {side, face, cell, opening_pressure(model, boundary, place, outward, time), piece});
+            };
+            if (!open_parts || open_parts->faces[axis].kind(face) == Kind<dim>::whole)
+              add(component.lattice().point(face), -1);
+            else
+              for_each_part(open_parts->faces[axis], face, [&](const int piece) {
+                add(open_parts->faces[axis].all()[piece].place, piece);
+              });
           });
         }
     return result;
@@ -37,19 +79,24 @@ namespace undine
 
 
   template <int dim>
-  std::vector<double>
+  Field<dim>
   divergence(const FluidModel<dim> &model, const Velocity<dim> &velocity)
   {
-    const auto         &grid = model.grid();
-    std::vector<double> result;
-    result.reserve(grid.cells()->owned().size());
-    for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-      double outflow = 0;
+    const auto &grid = model.grid();
+    Field<dim>  result(grid.cells(), velocity[0].open_parts());
+    for_each(result.owned(), [&](const GridIndex<dim> &cell) {
       for (unsigned int axis = 0; axis < dim; ++axis)
-        outflow += grid.face_area(axis, cell) *
-                   (velocity[axis](moved<dim>(cell, axis, 1)) - velocity[axis](cell));
-      result.push_back(outflow);
+        result(cell) += grid.face_area(axis, cell) *
+                        (velocity[axis](moved<dim>(cell, axis, 1)) - velocity[axis](cell));
     });
+    if (const auto *open = velocity.open_parts())
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        for (std::size_t k = 0; k < open->pieces[axis].size(); ++k)
+          for (const unsigned int end : {0, 1})
+            if (const int component = open->pieces[axis][k].components[end]; component >= 0)
+              result.parts()[component] += (end == 0 ? 1 : -1) *
+                                           open->faces[axis].all()[k].measure *
+                                           velocity[axis].parts()[k];
     return result;
   }
 
@@ -61,23 +108,50 @@ namespace undine
                         const std::vector<OpenFace<dim>> &openings)
   {
     const auto   &grid = model.grid();
+    const auto   &open = pressure.open_parts();
     Velocity<dim> acceleration;
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
-        acceleration[axis] = Field<dim>(grid.faces(axis));
-        for_each(acceleration[axis].owned(), [&](const GridIndex<dim> &face) {
+        auto &component     = acceleration[axis];
+        component           = Field<dim>(grid.faces(axis), open);
+        const auto *divided = component.divided();
+        for_each(component.owned(), [&](const GridIndex<dim> &face) {
           // (rho V)^-1 a, where V = a times the distance of the pressures.
-          if (!grid.at_boundary(axis, face))
-            acceleration[axis](face) = (pressure(moved<dim>(face, axis, -1)) - pressure(face)) /
-                                       (model.density() * grid.dual_width(axis, face[axis]));
+          if (!grid.at_boundary(axis, face) &&
+              (!divided || divided->kind(face) == Kind<dim>::whole))
+            component(face) = (pressure(moved<dim>(face, axis, -1)) - pressure(face)) /
+                              (model.density() * grid.dual_width(axis, face[axis]));
         });
+        for (std::size_t k = 0; k < component.parts().size(); ++k)
+          if (const auto &part = divided->all()[k];
+              divided->owns(k) && !grid.at_boundary(axis, part.index))
+            {
+              const auto  &piece = open->pieces[axis][k];
+              const double drop  = value_at(pressure, end_of_piece(*open, axis, k, 0)) -
+                                  value_at(pressure, end_of_piece(*open, axis, k, 1));
+              component.parts()[k] = drop * part.measure / (model.density() * piece.volume);
+            }
       }
-    for (const auto &open : openings)
+    for (const auto &opening : openings)
       {
-        const unsigned int axis       = open.side.axis;
-        acceleration[axis](open.face) = open.side.sign() * (pressure(open.cell) - open.pressure) /
-                                        (model.density() * grid.dual_width(axis, open.face[axis]));
+        const unsigned int axis      = opening.side.axis;
+        auto              &component = acceleration[axis];
+        const double       sign      = opening.side.sign();
+        if (opening.piece < 0)
+          component(opening.face) = sign * (pressure(opening.cell) - opening.pressure) /
+                                    (model.density() * grid.dual_width(axis, opening.face[axis]));
+        else
+          {
+            const auto  &piece = open->pieces[axis][opening.piece];
+            const double drop =
+              value_at(pressure, end_of_piece(*open, axis, opening.piece, 1 - opening.side.end)) -
+              opening.pressure;
+            component.parts()[opening.piece] = sign * drop *
+                                               component.divided()->all()[opening.piece].measure /
+                                               (model.density() * piece.volume);
+          }
       }
+    set_means(acceleration, grid);
     return acceleration;
   }
 
@@ -95,12 +169,67 @@ namespace undine
 
   template <int dim>
   void
+  set_means(Field<dim> &field, const MacGrid<dim> &grid)
+  {
+    const auto *divided = field.divided();
+    if (divided == nullptr)
+      return;
+    const unsigned int axis = field.lattice().normal_axis();
+    for_each(field.owned(), [&](const GridIndex<dim> &index) {
+      if (divided->kind(index) == Kind<dim>::whole)
+        return;
+      double moment = 0, measure = 0;
+      for_each_part(*divided, index, [&](const int part) {
+        moment += divided->all()[part].measure * field.parts()[part];
+        measure += divided->all()[part].measure;
+      });
+      if (axis < dim)
+        measure = grid.face_area(axis, index);
+      field(index) = measure > 0 ? moment / measure : 0.;
+    });
+  }
+
+
+  template <int dim>
+  void
+  set_means(Velocity<dim> &velocity, const MacGrid<dim> &grid)
+  {
+    for (auto &component : velocity.components)
+      set_means(component, grid);
+  }
+
+
+  template <int dim>
+  void
+  set_volumes(Field<dim> &volumes, const MacGrid<dim> &grid)
+  {
+    const auto *divided = volumes.divided();
+    for_each(volumes.owned(), [&](const GridIndex<dim> &cell) {
+      if (!divided || divided->kind(cell) == Kind<dim>::whole)
+        volumes(cell) = grid.cell_volume(cell);
+    });
+    for (std::size_t c = 0; c < volumes.parts().size(); ++c)
+      volumes.parts()[c] = divided->all()[c].measure;
+  }
+
+
+  template <int dim>
+  void
+  add(Field<dim> &field, const double factor, const Field<dim> &change)
+  {
+    for_each(field.owned(),
+             [&](const GridIndex<dim> &index) { field(index) += factor * change(index); });
+    for (std::size_t k = 0; k < field.parts().size(); ++k)
+      field.parts()[k] += factor * change.parts()[k];
+  }
+
+
+  template <int dim>
+  void
   add(Velocity<dim> &velocity, const double factor, const Velocity<dim> &acceleration)
   {
     for (unsigned int axis = 0; axis < dim; ++axis)
-      for_each(velocity[axis].owned(), [&](const GridIndex<dim> &face) {
-        velocity[axis](face) += factor * acceleration[axis](face);
-      });
+      add(velocity[axis], factor, acceleration[axis]);
   }
 
 
@@ -113,15 +242,19 @@ namespace undine
   }
 
 
-#define INSTANTIATE(dim)                                                                    \
-  template std::vector<OpenFace<dim>> open_faces(                                           \
-    const FluidModel<dim> &, const Velocity<dim> &, const double);                          \
-  template std::vector<double> divergence(const FluidModel<dim> &, const Velocity<dim> &);  \
-  template Velocity<dim>       pressure_acceleration(                                       \
-          const FluidModel<dim> &, const Field<dim> &, const std::vector<OpenFace<dim>> &); \
-  template double pressure_coupling(                                                        \
-    const FluidModel<dim> &, const unsigned int, const GridIndex<dim> &);                   \
-  template void add(Velocity<dim> &, const double, const Velocity<dim> &);                  \
+#define INSTANTIATE(dim)                                                                   \
+  template std::vector<OpenFace<dim>> open_faces(                                          \
+    const FluidModel<dim> &, const Velocity<dim> &, const OpenParts<dim> *, const double); \
+  template Field<dim>    divergence(const FluidModel<dim> &, const Velocity<dim> &);       \
+  template Velocity<dim> pressure_acceleration(                                            \
+    const FluidModel<dim> &, const Field<dim> &, const std::vector<OpenFace<dim>> &);      \
+  template double pressure_coupling(                                                       \
+    const FluidModel<dim> &, const unsigned int, const GridIndex<dim> &);                  \
+  template void set_means(Velocity<dim> &, const MacGrid<dim> &);                          \
+  template void set_means(Field<dim> &, const MacGrid<dim> &);                             \
+  template void set_volumes(Field<dim> &, const MacGrid<dim> &);                           \
+  template void add(Field<dim> &, const double, const Field<dim> &);                       \
+  template void add(Velocity<dim> &, const double, const Velocity<dim> &);                 \
   template void exchange(Velocity<dim> &);
 
   INSTANTIATE(2)

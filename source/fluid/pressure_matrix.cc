@@ -4,19 +4,25 @@
 
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
+#include <array>
 #include <vector>
 
 namespace undine
 {
   namespace
   {
-    using Number = dealii::types::global_dof_index;
-
-    /// One row of L; the first column is the diagonal, columns may occur several times.
+    /// Entries of one row.
+    template <int dim>
     struct MatrixRow
     {
-      std::vector<Number> columns;
-      std::vector<double> values;
+      using Number = typename PressureNumbers<dim>::Number;
+
+      void
+      restart(const Number row)
+      {
+        columns.assign(1, row);
+        values.assign(1, 0.);
+      }
 
       void
       add(const Number column, const double value)
@@ -24,73 +30,146 @@ namespace undine
         columns.push_back(column);
         values.push_back(value);
       }
+
+      std::vector<Number> columns; ///< the first one is the diagonal
+      std::vector<double> values;
     };
 
 
-    /// What the faces of `cell` contribute to its row.
-    template <int dim>
+    /// Call `action(row)` for what whole faces add to the row of every whole cell.
+    template <int dim, class Action>
     void
-    collect(MatrixRow &row, const FluidModel<dim> &model, const GridIndex<dim> &cell)
+    for_each_entry_of_faces(const FluidModel<dim>      &model,
+                            const PressureNumbers<dim> &numbers,
+                            Action                    &&action)
     {
-      const auto &grid    = model.grid();
-      const auto &lattice = *grid.cells();
-      row.columns.clear();
-      row.values.clear();
-      row.add(lattice.number(cell), 0);
+      using Kind          = typename LatticeParts<dim>::Kind;
+      const auto    &grid = model.grid();
+      const auto    *open = numbers.open_parts().get();
+      MatrixRow<dim> row;
+      for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
+        if (open && open->cells.kind(cell) != Kind::whole)
+          return;
+        row.restart(numbers.of_cell(cell));
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          for (unsigned int end = 0; end < 2; ++end)
+            {
+              const Side side{axis, end};
+              const auto face        = moved<dim>(cell, axis, end);
+              const bool at_boundary = grid.at_boundary(axis, face);
+              if ((open && open->faces[axis].kind(face) != Kind::whole) ||
+                  (at_boundary && !model.boundaries().at(side, cell).is_open()))
+                continue;
+              const double coupling = pressure_coupling(model, axis, face);
+              row.values[0] += coupling;
+              if (!at_boundary)
+                row.add(numbers.of_cell(moved<dim>(cell, axis, side.sign())), -coupling);
+            }
+        action(row);
+      });
+    }
+
+
+    /// The same for the pieces of divided faces.
+    template <int dim, class Action>
+    void
+    for_each_entry_of_pieces(const FluidModel<dim>      &model,
+                             const PressureNumbers<dim> &numbers,
+                             Action                    &&action)
+    {
+      const auto    &open = *numbers.open_parts();
+      const auto    &grid = model.grid();
+      MatrixRow<dim> row;
       for (unsigned int axis = 0; axis < dim; ++axis)
-        for (unsigned int end = 0; end < 2; ++end)
+        for (std::size_t k = 0; k < open.pieces[axis].size(); ++k)
           {
-            const Side side{axis, end};
-            const auto face        = moved<dim>(cell, axis, end);
-            const bool at_boundary = grid.at_boundary(axis, face);
-            if (at_boundary && !model.boundaries().at(side, cell).is_open())
+            const auto &part        = open.faces[axis].all()[k];
+            const auto &piece       = open.pieces[axis][k];
+            const bool  at_boundary = grid.at_boundary(axis, part.index);
+            const Side  side{axis, part.index[axis] == 0 ? 0u : 1u};
+            if (at_boundary && !model.boundaries().at(side, part.index).is_open())
               continue;
-            const double coupling = pressure_coupling(model, axis, face);
-            row.values[0] += coupling;
-            if (!at_boundary)
-              row.add(lattice.number(moved<dim>(cell, axis, side.sign())), -coupling);
+            const double coupling = part.measure * part.measure / (model.density() * piece.volume);
+            // Beyond the block, or the domain, there is no number.
+            std::array<bool, 2>                                  known;
+            std::array<typename PressureNumbers<dim>::Number, 2> ends{};
+            for (const unsigned int end : {0, 1})
+              {
+                known[end] = piece.components[end] != OpenParts<dim>::outside;
+                if (known[end])
+                  ends[end] = numbers.of(end_of_piece(open, axis, k, end));
+              }
+            for (const unsigned int end : {0, 1})
+              if (known[end] && numbers.owned().is_element(ends[end]))
+                {
+                  row.restart(ends[end]);
+                  row.values[0] = coupling;
+                  if (!at_boundary)
+                    row.add(ends[1 - end], -coupling);
+                  action(row);
+                }
           }
     }
 
 
-    template <int dim>
-    dealii::TrilinosWrappers::SparsityPattern
-    pattern(const FluidModel<dim> &model)
+    template <int dim, class Action>
+    void
+    for_each_entry(const FluidModel<dim>      &model,
+                   const PressureNumbers<dim> &numbers,
+                   Action                    &&action)
     {
-      const auto                               &lattice = *model.grid().cells();
-      dealii::TrilinosWrappers::SparsityPattern result(
-        lattice.owned_numbers(), model.grid().communicator(), 2 * dim + 1);
-      MatrixRow row;
-      for_each(lattice.owned(), [&](const GridIndex<dim> &cell) {
-        collect(row, model, cell);
-        result.add_entries(row.columns[0], row.columns.begin(), row.columns.end());
-      });
-      result.compress();
-      return result;
+      for_each_entry_of_faces(model, numbers, action);
+      if (numbers.open_parts())
+        {
+          // Components without pieces have a row, too.
+          MatrixRow<dim> row;
+          for (std::size_t c = 0; c < numbers.open_parts()->cells.all().size(); ++c)
+            if (numbers.open_parts()->cells.owns(c))
+              {
+                row.restart(numbers.of_component(c));
+                action(row);
+              }
+          for_each_entry_of_pieces(model, numbers, action);
+        }
     }
   } // namespace
 
 
   template <int dim>
   void
-  build_pressure_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix,
-                        const FluidModel<dim>                  &model)
+  build_pressure_matrix(dealii::TrilinosWrappers::SparseMatrix                   &matrix,
+                        const FluidModel<dim>                                    &model,
+                        const PressureNumbers<dim>                               &numbers,
+                        const std::vector<typename PressureNumbers<dim>::Number> &pinned)
   {
-    const auto &lattice = *model.grid().cells();
-    matrix.reinit(pattern(model));
-    MatrixRow row;
-    for_each(lattice.owned(), [&](const GridIndex<dim> &cell) {
-      collect(row, model, cell);
-      if (row.columns[0] == 0 && !model.boundaries().has_opening())
-        row.values[0] *= 2;
+    dealii::TrilinosWrappers::SparsityPattern pattern(
+      numbers.owned(), model.grid().communicator(), 2 * dim + 1);
+    for_each_entry(model, numbers, [&](const MatrixRow<dim> &row) {
+      pattern.add_entries(row.columns[0], row.columns.begin(), row.columns.end());
+    });
+    pattern.compress();
+    matrix.reinit(pattern);
+    for_each_entry(model, numbers, [&](const MatrixRow<dim> &row) {
       matrix.add(row.columns[0], row.columns.size(), row.columns.data(), row.values.data(), false);
     });
     matrix.compress(dealii::VectorOperation::add);
+    for (const auto row : pinned)
+      {
+        const double diagonal = matrix.diag_element(row);
+        matrix.set(row, row, diagonal == 0 ? 1. : 2 * diagonal);
+      }
+    matrix.compress(dealii::VectorOperation::insert);
   }
 
 
   template void
-  build_pressure_matrix(dealii::TrilinosWrappers::SparseMatrix &, const FluidModel<2> &);
+  build_pressure_matrix(dealii::TrilinosWrappers::SparseMatrix &,
+                        const FluidModel<2> &,
+                        const PressureNumbers<2> &,
+                        const std::vector<PressureNumbers<2>::Number> &);
   template void
-  build_pressure_matrix(dealii::TrilinosWrappers::SparseMatrix &, const FluidModel<3> &);
+  build_pressure_matrix(dealii::TrilinosWrappers::SparseMatrix &,
+                        const FluidModel<3> &,
+                        const PressureNumbers<3> &,
+                        const std::vector<PressureNumbers<3>::Number> &);
 } // namespace undine

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace undine
@@ -28,29 +29,6 @@ namespace undine
       });
       return dealii::Utilities::MPI::min(smallest, grid.communicator());
     }
-
-
-    template <int dim>
-    void
-    check_net_flux(const FluidModel<dim> &model, const Velocity<dim> &velocity, const double time)
-    {
-      const auto complaint = net_flux_complaint(model, velocity);
-      if (!complaint.empty())
-        throw InputError(fmt::format("At {:.6g} s {}. Make one boundary an 'outflow' or of the "
-                                     "kind 'pressure', or balance the inflows.",
-                                     time,
-                                     complaint));
-    }
-
-
-    /// Subtract the mean of a cell field, which a domain without opening leaves undetermined.
-    template <int dim>
-    void
-    remove_mean(Field<dim> &field, const FluidModel<dim> &model)
-    {
-      const double mean = integral(model, field) / fluid_volume(model);
-      for_each(field.owned(), [&](const GridIndex<dim> &cell) { field(cell) -= mean; });
-    }
   } // namespace
 
 
@@ -63,10 +41,14 @@ namespace undine
 
   template <int dim>
   void
-  Projection<dim>::set_up()
+  Projection<dim>::prepare(const std::shared_ptr<const OpenParts<dim>> &open_parts)
   {
-    matrix = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
-    build_pressure_matrix(*matrix, model);
+    if (matrix && numbers->open_parts() == open_parts)
+      return;
+    numbers        = std::make_unique<const PressureNumbers<dim>>(model.grid(), open_parts);
+    closed_regions = std::make_unique<const ClosedRegions<dim>>(model, *numbers);
+    matrix         = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
+    build_pressure_matrix(*matrix, model, *numbers, closed_regions->pinned());
     smallest_area = smallest_flux_area(model.grid());
 
     dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
@@ -108,15 +90,15 @@ namespace undine
   typename Projection<dim>::Report
   Projection<dim>::remove_divergence(Velocity<dim>              &velocity,
                                      Field<dim>                 &impulse,
-                                     std::vector<OpenFace<dim>> &openings)
+                                     std::vector<OpenFace<dim>> &openings,
+                                     const std::vector<double>  &body_fluxes)
   {
-    if (!matrix)
-      set_up();
-    const auto  &grid        = model.grid();
-    const auto   numbers     = grid.cells()->owned_numbers();
+    Field<dim> pushed(model.grid().cells(), velocity[0].open_parts());
+    std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
     const double tolerance   = model.pressure_solver().divergence_tolerance;
-    const double first_speed = largest_components(model, velocity).norm();
-    Vector       right_side(numbers, grid.communicator()), correction(right_side);
+    const double body_speed  = largest_divergence(model, pushed);
+    const double first_speed = largest_components(model, velocity).norm() + body_speed;
+    Vector       right_side(numbers->owned(), model.grid().communicator()), correction(right_side);
     Field<dim>   increment = impulse;
     Report       report;
 
@@ -128,26 +110,25 @@ namespace undine
           open.pressure = 0;
         exchange(velocity);
 
-        const auto   fluxes     = divergence(model, velocity);
+        auto fluxes = divergence(model, velocity);
+        add(fluxes, 1., pushed);
         const double divergence = largest_divergence(model, fluxes);
-        const double speed      = largest_components(model, velocity).norm();
+        const double speed      = largest_components(model, velocity).norm() + body_speed;
         report.divergence       = divergence == 0 ? 0. : divergence / speed;
         // Below 1e-4 of the speeds that cancelled there is nothing but rounding.
         const double allowed = tolerance * std::max(speed, 1e-4 * first_speed);
         if (divergence <= allowed)
           return report;
 
-        for (std::size_t k = 0; k < fluxes.size(); ++k)
-          right_side.begin()[k] = -fluxes[k];
-        if (!model.boundaries().has_opening())
-          right_side.add(-right_side.mean_value());
+        copy_to_vector(right_side, fluxes);
+        right_side *= -1;
+        closed_regions->balance(right_side);
         correction = 0;
         // In the mean over cells a quarter of what is allowed, then less: some have more.
-        const double in_the_mean = std::sqrt(double(numbers.size())) * smallest_area * allowed;
+        const double in_the_mean = std::sqrt(double(right_side.size())) * smallest_area * allowed;
         report.iterations += solve(correction, right_side, in_the_mean * std::pow(0.25, round + 1));
-        increment.set_owned_values({correction.begin(), correction.end()});
-        for_each(impulse.owned(),
-                 [&](const GridIndex<dim> &cell) { impulse(cell) += increment(cell); });
+        copy_from_vector(increment, correction);
+        add(impulse, 1., increment);
       }
     throw SolveError(
       fmt::format("The fluid's divergence stays at {:.3g} of its speed per cell, above "
@@ -168,40 +149,46 @@ namespace undine
 
   template <int dim>
   typename Projection<dim>::Report
-  Projection<dim>::project(FluidState<dim>     &state,
-                           const Velocity<dim> &carrying,
-                           const double         time,
-                           const double         dt)
+  Projection<dim>::project(FluidState<dim>           &state,
+                           const Velocity<dim>       &carrying,
+                           const double               time,
+                           const double               dt,
+                           const std::vector<double> &body_fluxes)
   {
+    const auto &open_parts = state.pressure.open_parts();
+    prepare(open_parts);
     set_boundary_velocity(state.velocity, model, time);
-    const bool closed = !model.boundaries().has_opening();
-    check_net_flux(model, state.velocity, time);
-    auto openings = open_faces(model, carrying, time);
+    closed_regions->check_net_flux(state.velocity, body_fluxes, time);
+    auto openings = open_faces(model, carrying, open_parts.get(), time);
     for (auto &open : openings)
       open.pressure *= dt;
-    for_each(state.pressure.owned(),
-             [&](const GridIndex<dim> &cell) { state.pressure(cell) *= dt; });
-    const auto report = remove_divergence(state.velocity, state.pressure, openings);
-    for_each(state.pressure.owned(),
-             [&](const GridIndex<dim> &cell) { state.pressure(cell) /= dt; });
-    if (closed)
-      remove_mean(state.pressure, model);
+    Field<dim> impulse(model.grid().cells(), open_parts);
+    add(impulse, dt, state.pressure);
+    const auto report = remove_divergence(state.velocity, impulse, openings, body_fluxes);
+    state.pressure    = Field<dim>(model.grid().cells(), open_parts);
+    add(state.pressure, 1 / dt, impulse);
+    closed_regions->remove_means(state.pressure);
+    set_means(state.pressure, model.grid());
     return report;
   }
 
 
   template <int dim>
   typename Projection<dim>::Report
-  Projection<dim>::make_divergence_free(FluidState<dim> &state, const double time)
+  Projection<dim>::make_divergence_free(FluidState<dim>           &state,
+                                        const double               time,
+                                        const std::vector<double> &body_fluxes)
   {
+    const auto open_parts = state.velocity[0].open_parts();
+    prepare(open_parts);
     set_boundary_velocity(state.velocity, model, time);
-    check_net_flux(model, state.velocity, time);
-    auto openings = open_faces(model, state.velocity, time);
+    closed_regions->check_net_flux(state.velocity, body_fluxes, time);
+    auto openings = open_faces(model, state.velocity, open_parts.get(), time);
     for (auto &open : openings)
       open.pressure = 0;
-    Field<dim> impulse(model.grid().cells());
-    const auto report = remove_divergence(state.velocity, impulse, openings);
-    state.pressure    = Field<dim>(model.grid().cells());
+    Field<dim> impulse(model.grid().cells(), open_parts);
+    const auto report = remove_divergence(state.velocity, impulse, openings, body_fluxes);
+    state.pressure    = Field<dim>(model.grid().cells(), open_parts);
     return report;
   }
 

@@ -135,20 +135,13 @@ namespace undine
     }
 
 
-    /// Fill clock and arrays, of which names and sizes are given.
-    template <int dim>
+    /// Fill arrays, of which names and sizes are given.
     void
-    read_slot(std::vector<StateArray> &arrays,
-              Clock                   &clock,
-              const fs::path          &slot,
-              const MPI_Comm           communicator)
+    read_arrays(std::vector<StateArray> &arrays,
+                const HDF5Reader        &file,
+                const fs::path          &slot,
+                const MPI_Comm           communicator)
     {
-      const HDF5Reader file(slot, communicator);
-      if (file.attribute<std::uint64_t>("dimension") != dim)
-        throw FileError("'" + slot.string() + "' is not of " + std::to_string(dim) +
-                        " dimensions, as the scene is");
-      clock.step = file.attribute<std::uint64_t>("step");
-      clock.time = file.attribute<double>("time");
       for (auto &array : arrays)
         {
           if (!file.contains(array.name))
@@ -159,6 +152,29 @@ namespace undine
             throw FileError("'" + slot.string() + "' is damaged: '" + array.name +
                             "' is not what was written");
         }
+    }
+
+
+    /// `state` with the values, the time and the step of a slot.
+    template <int dim>
+    State<dim>
+    read_slot(State<dim> state, const Models<dim> &models, const fs::path &slot)
+    {
+      const MPI_Comm   communicator = communicator_of(models);
+      const HDF5Reader file(slot, communicator);
+      if (file.attribute<std::uint64_t>("dimension") != dim)
+        throw FileError("'" + slot.string() + "' is not of " + std::to_string(dim) +
+                        " dimensions, as the scene is");
+      state.clock.step = file.attribute<std::uint64_t>("step");
+      state.clock.time = file.attribute<double>("time");
+
+      auto surface = pack_surface(models, state);
+      read_arrays(surface, file, slot, communicator);
+      unpack_surface(state, models, surface);
+      auto arrays = pack(models, state);
+      read_arrays(arrays, file, slot, communicator);
+      unpack(state, models, arrays);
+      return state;
     }
 
 
@@ -193,7 +209,9 @@ namespace undine
   write_checkpoint(const fs::path &directory, const Models<dim> &models, const State<dim> &state)
   {
     const MPI_Comm communicator = communicator_of(models);
-    const auto     arrays       = pack(models, state);
+    auto           arrays       = pack_surface(models, state);
+    for (auto &array : pack(models, state))
+      arrays.push_back(std::move(array));
     assert_finite(arrays, communicator);
     on_first_rank(communicator, [&] { make_folder(directory / "checkpoint"); });
 
@@ -213,11 +231,7 @@ namespace undine
     for (const unsigned int s : candidates(result.skipped, directory, communicator))
       try
         {
-          auto  arrays = pack(models, state);
-          Clock clock  = state.clock;
-          read_slot<dim>(arrays, clock, slots(directory)[s], communicator);
-          unpack(state, models, arrays);
-          state.clock = clock;
+          state       = read_slot(state, models, slots(directory)[s]);
           result.slot = slots(directory)[s];
           return result;
         }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace undine
 {
@@ -81,28 +82,116 @@ namespace undine
       continue_to_boundary(field, continuation);
       return field;
     }
+
+
+    /// The surfaces for which the fields hold, standing still; nullptr: there are none.
+    template <int dim>
+    std::unique_ptr<const SurfaceQueries<dim>>
+    surfaces_of(const Models<dim> &models, const State<dim> &state)
+    {
+      if (!models.surface || state.surface_positions.empty())
+        return nullptr;
+      return std::make_unique<const SurfaceQueries<dim>>(
+        models.fluid->grid(),
+        MovedSurface<dim>{&models.surface->surface(),
+                          state.surface_positions,
+                          state.surface_positions,
+                          surface_velocities(models, state)});
+    }
   } // namespace
 
 
   template <int dim>
-  FluidSampler<dim>::FluidSampler(const FluidModel<dim> &model,
-                                  const FluidState<dim> &state,
-                                  const double           time)
-    : model(model)
-    , velocity_fields(state.velocity)
-    , pressure_field(prepared(state.pressure, Continuation::linear))
+  std::vector<dealii::Tensor<1, dim>>
+  surface_velocities(const Models<dim> &models, const State<dim> &state)
   {
+    // Obstacles say how they move in a step; this one is so short that it is the motion now.
+    constexpr double share = 1e-6;
+    return models.surface->velocities(
+      state.solid, state.clock.time, share * std::max(state.clock.end_time, share));
+  }
+
+
+  template <int dim>
+  FluidSampler<dim>::FluidSampler(const Models<dim> &models, const State<dim> &state)
+    : model(*models.fluid)
+    , surfaces(surfaces_of(models, state))
+  {
+    const auto &open_parts = state.fluid.pressure.open_parts();
+    if (surfaces)
+      vicinity =
+        BodyVicinity<dim>(model.grid(), open_parts, open_parts, all_directions<dim>(layers));
+    auto velocity = state.fluid.velocity;
+    for (auto &component : velocity.components)
+      component.exchange(layers);
+    const auto frozen = velocity;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      velocity_fields[axis].exchange(layers);
-    const auto frozen = velocity_fields;
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      fill_boundary_points<dim>(
-        velocity_fields[axis], model, VelocityCondition<dim>(axis), frozen, time);
-    for (const auto &scalar : state.scalars)
       {
-        names.push_back(scalar.first);
-        scalar_fields.push_back(prepared(scalar.second, Continuation::constant));
+        fill_boundary_points<dim>(
+          velocity[axis], model, VelocityCondition<dim>(axis), frozen, state.clock.time);
+        velocity_fields[axis].field = velocity[axis];
+        see(velocity_fields[axis]);
       }
+    pressure_field.field = prepared(state.fluid.pressure, Continuation::linear);
+    see(pressure_field);
+    // Samples refer to their fields, which must not move any more.
+    scalar_fields.resize(state.fluid.scalars.size());
+    for (const auto &scalar : state.fluid.scalars)
+      {
+        auto &sampled = scalar_fields[names.size()];
+        sampled.field = prepared(scalar.second, Continuation::constant);
+        see(sampled);
+        names.push_back(scalar.first);
+      }
+  }
+
+
+  template <int dim>
+  void
+  FluidSampler<dim>::see(Sampled &sampled) const
+  {
+    if (surfaces)
+      sampled.visible = std::make_unique<VisibleSamples<dim>>(
+        sampled.field, all_directions<dim>(layers), *surfaces, vicinity);
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  FluidSampler<dim>::value(const Sampled &sampled, const dealii::Point<dim> &place) const
+  {
+    if (surfaces && vicinity.is_near(place, place))
+      return sampled.visible->at(place);
+    return interpolate(sampled.field, place);
+  }
+
+
+  template <int dim>
+  double
+  FluidSampler<dim>::velocity_component(const unsigned int        axis,
+                                        const dealii::Point<dim> &place) const
+  {
+    const auto seen = value(velocity_fields[axis], place);
+    return seen ? *seen : surfaces->nearest_velocity(place)[axis];
+  }
+
+
+  template <int dim>
+  double
+  FluidSampler<dim>::cell_value(const Sampled &sampled, const dealii::Point<dim> &place) const
+  {
+    if (const auto seen = value(sampled, place))
+      return *seen;
+    const auto &divided = *sampled.field.divided();
+    const auto  cell    = model.grid().cell_at(place);
+    double      result = 0, nearest = std::numeric_limits<double>::infinity();
+    for (int k = divided.first(cell); k < divided.last(cell); ++k)
+      if (const double distance = place.distance(divided.all()[k].place); distance < nearest)
+        {
+          nearest = distance;
+          result  = sampled.field.parts()[k];
+        }
+    return result;
   }
 
 
@@ -112,7 +201,7 @@ namespace undine
   {
     dealii::Tensor<1, dim> result;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      result[axis] = interpolate(velocity_fields[axis], place);
+      result[axis] = velocity_component(axis, place);
     return result;
   }
 
@@ -121,7 +210,7 @@ namespace undine
   double
   FluidSampler<dim>::pressure(const dealii::Point<dim> &place) const
   {
-    return interpolate(pressure_field, place);
+    return cell_value(pressure_field, place);
   }
 
 
@@ -130,9 +219,33 @@ namespace undine
   FluidSampler<dim>::scalars(const dealii::Point<dim> &place) const
   {
     std::vector<double> result;
-    for (const auto &field : scalar_fields)
-      result.push_back(interpolate(field, place));
+    for (const auto &sampled : scalar_fields)
+      result.push_back(cell_value(sampled, place));
     return result;
+  }
+
+
+  template <int dim>
+  const LatticeParts<dim> *
+  FluidSampler<dim>::divided_cells() const
+  {
+    return surfaces ? pressure_field.field.divided() : nullptr;
+  }
+
+
+  template <int dim>
+  bool
+  FluidSampler<dim>::is_clear(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
+  {
+    return !surfaces || surfaces->first_hit(from, to) == std::numeric_limits<double>::infinity();
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  FluidSampler<dim>::surface_velocity(const dealii::Point<dim> &place) const
+  {
+    return surfaces->nearest_velocity(place);
   }
 
 
@@ -181,14 +294,18 @@ namespace undine
         const auto [below, above] = neighbours(corner, axis);
         for (unsigned int component = 0; component < dim; ++component)
           if (component != axis)
-            gradient[axis][component] = (interpolate(velocity_fields[component], above) -
-                                         interpolate(velocity_fields[component], below)) /
-                                        (above[axis] - below[axis]);
+            gradient[axis][component] =
+              (velocity_component(component, above) - velocity_component(component, below)) /
+              (above[axis] - below[axis]);
       }
     return (gradient - dealii::transpose(gradient)).norm() / std::sqrt(2.);
   }
 
 
+  template std::vector<dealii::Tensor<1, 2>>
+  surface_velocities(const Models<2> &, const State<2> &);
+  template std::vector<dealii::Tensor<1, 3>>
+  surface_velocities(const Models<3> &, const State<3> &);
   template class FluidSampler<2>;
   template class FluidSampler<3>;
 } // namespace undine

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/fluid_patches.h>
 #include <undine/output/solution_parts.h>
+#include <undine/output/surface_patches.h>
 
 #include <fmt/format.h>
 
@@ -16,7 +17,21 @@ namespace undine
     if (models.solid)
       parts.push_back(body_patches(*models.solid, state.solid, configuration));
     if (models.fluid)
-      parts.push_back(fluid_patches(*models.fluid, state.fluid, state.clock.time));
+      parts.push_back(fluid_patches(models, state));
+    return parts;
+  }
+
+
+  template <int dim>
+  std::vector<Patches<dim - 1, dim>>
+  surface_parts(const Models<dim> &models, const State<dim> &state)
+  {
+    std::vector<Patches<dim - 1, dim>> parts;
+    if (!models.fluid || !models.surface || state.surface_positions.empty())
+      return parts;
+    if (models.surface->obstacles().surface().n_nodes() > 0)
+      parts.push_back(obstacle_patches(models, state));
+    parts.push_back(cut_surface_patches(models, state));
     return parts;
   }
 
@@ -33,4 +48,8 @@ namespace undine
   solution_parts(const Models<2> &, const State<2> &, Configuration);
   template std::vector<Patches<3>>
   solution_parts(const Models<3> &, const State<3> &, Configuration);
+  template std::vector<Patches<1, 2>>
+  surface_parts(const Models<2> &, const State<2> &);
+  template std::vector<Patches<2, 3>>
+  surface_parts(const Models<3> &, const State<3> &);
 } // namespace undine

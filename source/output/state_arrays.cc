@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/fluid_geometry.h>
 #include <undine/output/state_arrays.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 
 namespace undine
 {
@@ -12,39 +15,35 @@ namespace undine
     using NodalVector = dealii::TrilinosWrappers::MPI::Vector;
     using Index       = dealii::types::global_dof_index;
 
-    /// Carries nodal vectors between the solid's distribution over the ranks and stretches of equal
-    /// length in canonical order. In the latter the solid's own entries are ghosts.
-    template <int dim>
+    /// Carries numbered values between the ranks that own them and stretches of equal length in the
+    /// order of the numbers. In the latter the owners' entries are ghosts.
     class CanonicalVector
     {
     public:
-      explicit CanonicalVector(const SolidModel<dim> &model)
-        : model(model)
-        , order(model.canonical_order())
+      /// `numbers` below n of this rank's values; every number is on one rank. Collective.
+      CanonicalVector(const Index n, const std::vector<Index> &numbers, const MPI_Comm communicator)
+        : numbers(numbers)
       {
-        const Index         n       = order.size();
-        const MPI_Comm      comm    = model.communicator();
-        const std::uint64_t n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
-        const std::uint64_t rank    = dealii::Utilities::MPI::this_mpi_process(comm);
+        const std::uint64_t n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+        const std::uint64_t rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
 
         dealii::IndexSet stretch(n), mine(n);
         first = n * rank / n_ranks;
         stretch.add_range(first, n * (rank + 1) / n_ranks);
-        std::vector<Index> numbers;
-        for (const Index dof : model.locally_owned())
-          numbers.push_back(order[dof]);
-        std::sort(numbers.begin(), numbers.end());
-        mine.add_indices(numbers.begin(), numbers.end());
-        vector.reinit(stretch, mine, comm);
+        auto sorted = numbers;
+        std::sort(sorted.begin(), sorted.end());
+        mine.add_indices(sorted.begin(), sorted.end());
+        vector.reinit(stretch, mine, communicator);
       }
 
+      /// `values` in the order of the numbers given.
       StateArray
-      pack(const std::string &name, const NodalVector &nodal)
+      pack(const std::string &name, const std::vector<double> &values)
       {
         vector.zero_out_ghost_values();
         vector = 0;
-        for (const Index dof : model.locally_owned())
-          vector(order[dof]) = nodal(dof);
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+          vector(numbers[k]) = values[k];
         vector.compress(dealii::VectorOperation::add); // every entry comes from one rank
         const hsize_t count = vector.locally_owned_size();
         return {name,
@@ -52,22 +51,111 @@ namespace undine
                 std::vector<double>(vector.begin(), vector.begin() + count)};
       }
 
-      void
-      unpack(NodalVector &nodal, const StateArray &array)
+      bool
+      empty() const
+      {
+        return vector.size() == 0;
+      }
+
+      std::vector<double>
+      unpack(const StateArray &array)
       {
         std::copy(array.values.begin(), array.values.end(), vector.begin());
         vector.update_ghost_values();
-        for (const Index dof : model.locally_owned())
-          nodal(dof) = vector(order[dof]);
-        nodal.compress(dealii::VectorOperation::insert);
+        std::vector<double> values;
+        for (const Index number : numbers)
+          values.push_back(vector(number));
+        return values;
       }
 
     private:
-      const SolidModel<dim>                             &model;
-      std::vector<Index>                                 order;
+      std::vector<Index>                                 numbers;
       hsize_t                                            first;
       dealii::LinearAlgebra::distributed::Vector<double> vector;
     };
+
+
+    template <int dim>
+    CanonicalVector
+    canonical_nodes(const SolidModel<dim> &model)
+    {
+      const auto         order = model.canonical_order();
+      std::vector<Index> numbers;
+      for (const Index dof : model.locally_owned())
+        numbers.push_back(order[dof]);
+      return CanonicalVector(order.size(), numbers, model.communicator());
+    }
+
+
+    /// The parts of divided points, in the order of the points in the whole lattice. Values are
+    /// those of the parts that a rank owns.
+    template <int dim>
+    CanonicalVector
+    canonical_parts(const Lattice<dim> &lattice, const LatticeParts<dim> &divided)
+    {
+      const IndexBox<dim> whole{{}, lattice.shape()};
+      std::vector<Index>  mine, all; // of each part the position of its point
+      for (std::size_t k = 0; k < divided.all().size(); ++k)
+        if (divided.owns(k))
+          mine.push_back(whole.position(divided.all()[k].index));
+      const auto communicator = lattice.blocks().communicator();
+      for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, mine))
+        all.insert(all.end(), of_rank.begin(), of_rank.end());
+      std::sort(all.begin(), all.end());
+
+      std::vector<Index> numbers;
+      for (std::size_t k = 0; k < divided.all().size(); ++k)
+        if (divided.owns(k))
+          {
+            const auto &index = divided.all()[k].index;
+            const auto  first = std::lower_bound(all.begin(), all.end(), whole.position(index));
+            numbers.push_back(first - all.begin() + k - divided.first(index));
+          }
+      return CanonicalVector(all.size(), numbers, communicator);
+    }
+
+
+    /// Those of all lattices, made when they are asked for.
+    template <int dim>
+    class CanonicalParts
+    {
+    public:
+      CanonicalVector &
+      of(const Field<dim> &field)
+      {
+        auto &entry = vectors[field.divided()];
+        if (!entry)
+          entry =
+            std::make_unique<CanonicalVector>(canonical_parts(field.lattice(), *field.divided()));
+        return *entry;
+      }
+
+    private:
+      std::map<const LatticeParts<dim> *, std::unique_ptr<CanonicalVector>> vectors;
+    };
+
+
+    template <int dim>
+    std::vector<double>
+    owned_parts(const Field<dim> &field)
+    {
+      std::vector<double> values;
+      for (std::size_t k = 0; k < field.parts().size(); ++k)
+        if (field.divided()->owns(k))
+          values.push_back(field.parts()[k]);
+      return values;
+    }
+
+
+    template <int dim>
+    void
+    set_owned_parts(Field<dim> &field, const std::vector<double> &values)
+    {
+      auto value = values.begin();
+      for (std::size_t k = 0; k < field.parts().size(); ++k)
+        if (field.divided()->owns(k))
+          field.parts()[k] = *value++;
+    }
 
 
     /// Call `action(name, vector)` for the nodal vectors that are in use.
@@ -119,19 +207,66 @@ namespace undine
 
   template <int dim>
   std::vector<StateArray>
+  pack_surface(const Models<dim> &models, const State<dim> &state)
+  {
+    if (!models.surface || !models.fluid)
+      return {};
+    // All ranks have all of it: the first one's goes to the file.
+    const bool first =
+      dealii::Utilities::MPI::this_mpi_process(models.fluid->grid().communicator()) == 0;
+    const hsize_t n_nodes = models.surface->surface().n_nodes();
+    StateArray    array{"surface/positions", {{n_nodes, dim}, {0, 0}, {0, dim}}, {}};
+    if (first)
+      {
+        array.selection.count[0] = n_nodes;
+        for (const auto &position : state.surface_positions)
+          array.values.insert(array.values.end(), position.begin_raw(), position.end_raw());
+      }
+    return {array};
+  }
+
+
+  template <int dim>
+  void
+  unpack_surface(State<dim>                    &state,
+                 const Models<dim>             &models,
+                 const std::vector<StateArray> &arrays)
+  {
+    if (arrays.empty())
+      return;
+    const auto values =
+      dealii::Utilities::MPI::broadcast(models.fluid->grid().communicator(), arrays[0].values);
+    state.surface_positions.resize(values.size() / dim);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      state.surface_positions[k / dim][k % dim] = values[k];
+    const auto open_parts = geometry_of(models, state)->cut_parts().open;
+    for_each_field<dim>(state.fluid, [&](const std::string &, Field<dim> &field) {
+      field = Field<dim>(field.shared_lattice(), open_parts);
+    });
+  }
+
+
+  template <int dim>
+  std::vector<StateArray>
   pack(const Models<dim> &models, const State<dim> &state)
   {
     std::vector<StateArray> arrays;
     if (models.solid)
       {
-        CanonicalVector<dim> canonical(*models.solid);
+        auto canonical = canonical_nodes(*models.solid);
         for_each_vector(state.solid, [&](const std::string &name, const NodalVector &vector) {
-          arrays.push_back(canonical.pack(name, vector));
+          std::vector<double> values;
+          for (const Index dof : models.solid->locally_owned())
+            values.push_back(vector(dof));
+          arrays.push_back(canonical.pack(name, values));
         });
       }
+    CanonicalParts<dim> parts;
     if (models.fluid)
       for_each_field<dim>(state.fluid, [&](const std::string &name, const Field<dim> &field) {
         arrays.push_back({name, selection_of<dim>(field), field.owned_values()});
+        if (field.divided() && !parts.of(field).empty())
+          arrays.push_back(parts.of(field).pack("parts/" + name, owned_parts(field)));
       });
     return arrays;
   }
@@ -144,19 +279,34 @@ namespace undine
     auto array = arrays.begin();
     if (models.solid)
       {
-        CanonicalVector<dim> canonical(*models.solid);
+        auto canonical = canonical_nodes(*models.solid);
         for_each_vector(state.solid, [&](const std::string &, NodalVector &vector) {
-          canonical.unpack(vector, *array++);
+          const auto values = canonical.unpack(*array++);
+          auto       value  = values.begin();
+          for (const Index dof : models.solid->locally_owned())
+            vector(dof) = *value++;
+          vector.compress(dealii::VectorOperation::insert);
         });
       }
+    CanonicalParts<dim> parts;
     if (models.fluid)
       for_each_field<dim>(state.fluid, [&](const std::string &, Field<dim> &field) {
         field.set_owned_values((array++)->values);
+        if (field.divided() && !parts.of(field).empty())
+          set_owned_parts(field, parts.of(field).unpack(*array++));
         field.exchange();
       });
   }
 
 
+  template std::vector<StateArray>
+  pack_surface(const Models<2> &, const State<2> &);
+  template std::vector<StateArray>
+  pack_surface(const Models<3> &, const State<3> &);
+  template void
+  unpack_surface(State<2> &, const Models<2> &, const std::vector<StateArray> &);
+  template void
+  unpack_surface(State<3> &, const Models<3> &, const std::vector<StateArray> &);
   template std::vector<StateArray>
   pack(const Models<2> &, const State<2> &);
   template std::vector<StateArray>

@@ -19,7 +19,7 @@ namespace undine
 
 
   /// Pictures for ParaView: `solution.pvd` lists, for every output time, one compressed .vtu file
-  /// of the bodies (part 0) and one of the fluid (part 1).
+  /// for each part: bodies, fluid, and the surfaces in the fluid.
   template <int dim>
   class Vtu : public Output<dim>
   {
@@ -60,30 +60,38 @@ namespace undine
     void
     write(const State<dim> &state, const Report &) override
     {
-      const auto   timed = context->timing.section("vtu");
-      std::string  lines;
-      unsigned int number = 0;
+      const auto timed = context->timing.section("vtu");
+      lines.clear();
+      n_parts = 0;
       for (const auto &part :
            solution_parts(context->models,
                           state,
                           bodies == "rest" ? Configuration::rest : Configuration::deformed))
-        {
-          const auto file = solution_file(part.name, state.clock, "vtu");
-          write_vtu(
-            context->communicator, context->directory / file, part, flags(part, state.clock));
-          lines += fmt::format(
-            "<DataSet timestep=\"{:.12g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
-            state.clock.time,
-            number++,
-            part.name,
-            file.string());
-        }
+        add(part, state.clock);
+      for (const auto &part : surface_parts(context->models, state))
+        add(part, state.clock);
       records->add(state.clock.time, lines);
     }
 
   private:
+    /// Write a part and note it in `lines`.
+    template <int n, int spacedim>
+    void
+    add(const Patches<n, spacedim> &part, const Clock &clock)
+    {
+      const auto file = solution_file(part.name, clock, "vtu");
+      write_vtu(context->communicator, context->directory / file, part, flags(part, clock));
+      lines += fmt::format(
+        "<DataSet timestep=\"{:.12g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+        clock.time,
+        n_parts++,
+        part.name,
+        file.string());
+    }
+
+    template <int n, int spacedim>
     dealii::DataOutBase::VtkFlags
-    flags(const Patches<dim> &part, const Clock &clock) const
+    flags(const Patches<n, spacedim> &part, const Clock &clock) const
     {
       dealii::DataOutBase::VtkFlags result(clock.time, clock.step);
       result.print_date_and_time      = false;
@@ -97,6 +105,8 @@ namespace undine
     std::string                               cells  = "linear";
     std::unique_ptr<const OutputContext<dim>> context;
     std::unique_ptr<TimeRecords>              records;
+    std::string                               lines; ///< of solution.pvd, for one time
+    unsigned int                              n_parts = 0;
   };
 
 

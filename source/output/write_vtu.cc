@@ -6,11 +6,11 @@
 
 namespace undine
 {
-  template <int dim>
+  template <int dim, int spacedim>
   void
   write_vtu(const MPI_Comm                       communicator,
             const std::filesystem::path         &path,
-            const Patches<dim>                  &patches,
+            const Patches<dim, spacedim>        &patches,
             const dealii::DataOutBase::VtkFlags &flags)
   {
     namespace MPI              = dealii::Utilities::MPI;
@@ -31,6 +31,16 @@ namespace undine
   }
 
 
+  template void
+  write_vtu(MPI_Comm,
+            const std::filesystem::path &,
+            const Patches<1, 2> &,
+            const dealii::DataOutBase::VtkFlags &);
+  template void
+  write_vtu(MPI_Comm,
+            const std::filesystem::path &,
+            const Patches<2, 3> &,
+            const dealii::DataOutBase::VtkFlags &);
   template void
   write_vtu(MPI_Comm,
             const std::filesystem::path &,

@@ -69,8 +69,11 @@ namespace undine
     void
     check_effects(const Scene<dim> &scene, const Options &options)
     {
-      typename Effect<dim>::Surroundings surroundings{
-        scene.models.fluid.get(), scene.models.solid.get(), scene.effect_names, {}};
+      typename Effect<dim>::Surroundings surroundings{scene.models.fluid.get(),
+                                                      scene.models.solid.get(),
+                                                      scene.models.surface != nullptr,
+                                                      scene.effect_names,
+                                                      {}};
       for (const auto &effect : scene.models.effects)
         for (const auto &scalar : effect->scalars())
           surroundings.scalars.push_back(scalar);
@@ -206,6 +209,20 @@ namespace undine
       throw options.error("",
                           "the scene has neither a fluid nor a body",
                           "Try: add a subsection 'Fluid' or a subsection 'Bodies'.");
+    if (options.section("Obstacles").given())
+      {
+        if (!scene.models.fluid)
+          throw options.error("Obstacles",
+                              "obstacles stand in a fluid, but the scene has none",
+                              "Try: add a subsection 'Fluid' or remove the obstacles.");
+        scene.models.surface = std::make_unique<const ImmersedSurface<dim>>(
+          options, scene.models.solid.get(), scene.models.fluid->grid());
+        const auto &fluid = *scene.models.fluid;
+        auto        voids =
+          std::make_unique<const VoidRegions<dim>>(options, fluid.grid(), fluid.boundaries());
+        if (!voids->empty())
+          scene.models.void_regions = std::move(voids);
+      }
     options.assert_all_used();
     if (scene.models.solid && scene.models.fluid)
       throw options.error("",
@@ -230,6 +247,8 @@ namespace undine
     read_without_models<dim>(options);
     SolidModel<dim>::declare(options);
     FluidModel<dim>::declare(options);
+    Obstacles<dim>::declare(options);
+    VoidRegions<dim>::declare(options);
   }
 
 

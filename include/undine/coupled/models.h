@@ -4,6 +4,8 @@
 
 #include <undine/effects/effect.h>
 #include <undine/fluid/fluid_model.h>
+#include <undine/interface/immersed_surface.h>
+#include <undine/interface/void_regions.h>
 #include <undine/solid/solid_model.h>
 
 #include <memory>
@@ -17,6 +19,10 @@ namespace undine
     std::unique_ptr<const SolidModel<dim>> solid; ///< nullptr: no bodies
     std::unique_ptr<const FluidModel<dim>> fluid; ///< nullptr: no fluid
     Effects<dim>                           effects;
+
+    /// Of everything that stands in the fluid; nullptr: nothing does.
+    std::unique_ptr<const ImmersedSurface<dim>> surface;
+    std::unique_ptr<const VoidRegions<dim>>     void_regions; ///< nullptr: there are none
 
     /// What the effects do to the bodies.
     SolidEnvironment<dim>

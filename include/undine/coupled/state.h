@@ -6,6 +6,10 @@
 #include <undine/fluid/fluid_state.h>
 #include <undine/solid/solid_state.h>
 
+#include <deal.II/base/point.h>
+
+#include <vector>
+
 namespace undine
 {
   /// Everything that changes during a run, as plain data: a saved copy is a complete restart.
@@ -16,6 +20,9 @@ namespace undine
     Clock           clock;
     SolidState      solid;
     FluidState<dim> fluid;
+
+    /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].
+    std::vector<dealii::Point<dim>> surface_positions;
   };
 } // namespace undine
 

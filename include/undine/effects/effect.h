@@ -26,10 +26,11 @@ namespace undine
     /// What the effect may ask about the rest of the scene.
     struct Surroundings
     {
-      const FluidModel<dim>   *fluid;   ///< nullptr: none
-      const SolidModel<dim>   *solid;   ///< nullptr: none
-      std::vector<std::string> effects; ///< names of those that the scene calls for
-      std::vector<std::string> scalars; ///< names of the scalar fields that are carried
+      const FluidModel<dim>   *fluid;         ///< nullptr: none
+      const SolidModel<dim>   *solid;         ///< nullptr: none
+      bool                     has_obstacles; ///< something stands in the fluid
+      std::vector<std::string> effects;       ///< names of those that the scene calls for
+      std::vector<std::string> scalars;       ///< names of the scalar fields that are carried
     };
 
     virtual ~Effect() = default;

@@ -23,12 +23,63 @@ namespace undine
     virtual std::string
     summary() const = 0;
 
-    /// The field at t + h from the field at t. Collective.
+    /// The field at t + h from the field at t, on what bodies leave of the grid now. Collective.
     virtual Field<dim>
     advect(const Flow<dim>              &flow,
            const Field<dim>             &field,
            const BoundaryCondition<dim> &condition) const = 0;
   };
+
+  /// `field` with the ghost layers and boundary points that the flow asks for.
+  template <int dim>
+  Field<dim>
+  completed(const Flow<dim> &flow, Field<dim> field, const BoundaryCondition<dim> &condition);
+
+  /// What is seen from the feet of paths that come near a body.
+  template <int dim>
+  class NearBodies
+  {
+  public:
+    /// `source` is what completed() returned. The references must outlive it. Collective.
+    NearBodies(const Flow<dim> &flow, const Field<dim> &source);
+
+    /// The value that the path from `foot` brings to a point or part; NaN if nothing could be seen
+    /// there, of scalars only.
+    double
+    value_at(const dealii::Point<dim> &foot) const;
+
+    /// Components to which nothing was brought take the mean of their neighbours, the nearer ones
+    /// first; divided points take the mean of their parts. Collective.
+    void
+    finish(Field<dim> &carried) const;
+
+  private:
+    const Flow<dim>                           &flow;
+    unsigned int                               axis; ///< of a velocity; no_axis: scalar
+    std::unique_ptr<const VisibleSamples<dim>> samples;
+  };
+
+  /// The field at t + h on what bodies leave of the grid now: `far(trace, index)` of paths that
+  /// keep away from bodies; near them all methods are alike, see NearBodies. `source` is what
+  /// completed() returned. Collective.
+  template <int dim, class Far>
+  Field<dim>
+  carry(const Flow<dim> &flow, const Field<dim> &source, Far &&far)
+  {
+    const auto           &bodies = flow.bodies();
+    const NearBodies<dim> near(flow, source);
+    Field<dim>            carried(source.shared_lattice(), bodies.open_parts);
+    const auto           *divided = carried.divided();
+    for_each_value(carried, [&](double &value, const auto &place, const GridIndex<dim> &index) {
+      const auto trace = flow.trace(place, -flow.dt());
+      const bool is_part =
+        divided != nullptr && divided->kind(index) != LatticeParts<dim>::Kind::whole;
+      value = is_part || flow.vicinity().is_near(place, trace.foot) ? near.value_at(trace.foot)
+                                                                    : far(trace, index);
+    });
+    near.finish(carried);
+    return carried;
+  }
 } // namespace undine
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <undine/fluid/index_box.h>
 #include <undine/fluid/lattice.h>
+#include <undine/fluid/open_parts.h>
 
 #include <memory>
 #include <vector>
@@ -11,16 +12,21 @@
 namespace undine
 {
   /// One number at every point of a lattice, distributed over the ranks: each stores the points it
-  /// owns and, after exchange(), any number of layers around them. A value: copies are deep.
+  /// owns and, after exchange(), any number of layers around them. Where bodies divide a point
+  /// there is also a number for each of its parts, and that of the point is their mean (see
+  /// LatticeParts). A value: copies are deep.
   template <int dim>
   class Field
   {
   public:
+    static constexpr int dimension = dim;
+
     /// Empty.
     Field() = default;
 
-    /// Zero at every point.
-    explicit Field(std::shared_ptr<const Lattice<dim>> lattice);
+    /// Zero at every point. `open_parts`: what bodies leave of the grid; nullptr: everything.
+    explicit Field(std::shared_ptr<const Lattice<dim>>   lattice,
+                   std::shared_ptr<const OpenParts<dim>> open_parts = nullptr);
 
     const Lattice<dim> &
     lattice() const
@@ -33,6 +39,33 @@ namespace undine
     {
       return points;
     }
+
+    const std::shared_ptr<const OpenParts<dim>> &
+    open_parts() const
+    {
+      return open;
+    }
+
+    /// What is left of this field's points; nullptr: everything.
+    const LatticeParts<dim> *
+    divided() const
+    {
+      return open ? &open->of(*points) : nullptr;
+    }
+
+    /// The values of all parts that this rank knows, by their number in divided(). @{
+    const std::vector<double> &
+    parts() const
+    {
+      return part_values;
+    }
+
+    std::vector<double> &
+    parts()
+    {
+      return part_values;
+    }
+    /// @}
 
     /// The points of this rank.
     const IndexBox<dim> &
@@ -77,8 +110,8 @@ namespace undine
     /// @}
 
     /// Fetch `width[d]` layers on either side from the ranks that own them, periodic images
-    /// included. Boundary points (see Row) become stored, with unchanged or zero values.
-    /// Collective; `width` must be the same on all ranks.
+    /// included, and the parts that other ranks own. Boundary points (see Row) become stored, with
+    /// unchanged or zero values. Collective; `width` must be the same on all ranks.
     void
     exchange(const GridIndex<dim> &width);
 
@@ -108,11 +141,32 @@ namespace undine
     void
     store(const IndexBox<dim> &new_box);
 
-    std::shared_ptr<const Lattice<dim>> points;
-    IndexBox<dim>                       box;
-    std::array<std::ptrdiff_t, dim>     strides{};
-    std::vector<double>                 values;
+    std::shared_ptr<const Lattice<dim>>   points;
+    std::shared_ptr<const OpenParts<dim>> open;
+    IndexBox<dim>                         box;
+    std::array<std::ptrdiff_t, dim>       strides{};
+    std::vector<double>                   values;
+    std::vector<double>                   part_values;
   };
+
+
+  /// Call `action(value, place, index)` for every owned value of a field: those of the points that
+  /// are whole, with the point's place, and those of the parts of divided ones, with their
+  /// centroids.
+  template <class FieldType, class Action>
+  void
+  for_each_value(FieldType &field, Action &&action)
+  {
+    constexpr int dim     = FieldType::dimension;
+    const auto   *divided = field.divided();
+    for_each(field.owned(), [&](const GridIndex<dim> &index) {
+      if (!divided || divided->kind(index) == LatticeParts<dim>::Kind::whole)
+        action(field(index), field.lattice().point(index), index);
+    });
+    for (unsigned int k = 0; k < field.parts().size(); ++k)
+      if (divided->owns(k))
+        action(field.parts()[k], divided->all()[k].place, divided->all()[k].index);
+  }
 } // namespace undine
 
 #endif

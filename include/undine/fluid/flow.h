@@ -4,6 +4,10 @@
 
 #include <undine/fluid/boundary_condition.h>
 #include <undine/fluid/fluid_model.h>
+#include <undine/fluid/visible_samples.h>
+
+#include <array>
+#include <memory>
 
 namespace undine
 {
@@ -20,12 +24,25 @@ namespace undine
       bool left_domain; ///< it met an opening or an inflow there before its time was up
     };
 
-    /// `velocity` at `time` [s], for steps of length dt [s]. Collective. Throws SolveError if the
-    /// velocity is not finite.
+    /// The bodies among which the fluid moves.
+    struct Bodies
+    {
+      /// Their surfaces at the time of the step; nullptr: none.
+      const Obstruction<dim> *obstruction = nullptr;
+      /// What they leave of the grid now, and of the fields that are carried; nullptr: everything.
+      std::shared_ptr<const OpenParts<dim>> open_parts;
+    };
+
+    /// `velocity` at `time` [s], for steps of length dt [s]. It may belong to an earlier place of
+    /// the bodies. Collective. Throws SolveError if the velocity is not finite.
     Flow(const FluidModel<dim> &model,
          const Velocity<dim>   &velocity,
          const double           time,
-         const double           dt);
+         const double           dt,
+         const Bodies          &bodies = {});
+    Flow(const Flow &) = delete;
+    Flow &
+    operator=(const Flow &) = delete;
 
     const FluidModel<dim> &
     model() const;
@@ -42,7 +59,13 @@ namespace undine
     const Velocity<dim> &
     velocity() const;
 
-    /// [m/s]
+    const Bodies &
+    bodies() const;
+
+    const BodyVicinity<dim> &
+    vicinity() const;
+
+    /// [m/s] Near bodies from what can be seen, or the velocity of the nearest surface.
     dealii::Tensor<1, dim>
     velocity_at(const dealii::Point<dim> &place) const;
 
@@ -51,8 +74,9 @@ namespace undine
     width() const;
 
     /// Follow the particle at `place` for a time (negative: back to where it came from), by the
-    /// midpoint rule: x' = x + dt v(x + dt v(x) / 2). The path ends at inflows and openings; at
-    /// walls it goes on along the wall; periodic sides are passed.
+    /// midpoint rule: x' = x + dt v(x + dt v(x) / 2). The path ends at inflows and openings, and
+    /// just before surfaces of bodies; at walls it goes on along the wall; periodic sides are
+    /// passed.
     Trace
     trace(const dealii::Point<dim> &place, const double dt) const;
 
@@ -61,11 +85,14 @@ namespace undine
     Trace
     walk(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &way) const;
 
-    const FluidModel<dim> &fluid_model;
-    Velocity<dim>          frozen_velocity;
-    double                 start_time;
-    double                 step;
-    GridIndex<dim>         ghost_width;
+    const FluidModel<dim>                                &fluid_model;
+    Bodies                                                among;
+    Velocity<dim>                                         frozen_velocity;
+    double                                                start_time;
+    double                                                step;
+    GridIndex<dim>                                        ghost_width;
+    BodyVicinity<dim>                                     body_vicinity;
+    std::array<std::unique_ptr<VisibleSamples<dim>>, dim> samples; ///< nullptr: no bodies
   };
 } // namespace undine
 

@@ -35,9 +35,10 @@ namespace undine
     const PressureSolverSettings &
     pressure_solver() const;
 
-    /// The initial velocity of the scene (not yet divergence-free), no pressure, no scalars.
+    /// The initial velocity of the scene (not yet divergence-free), no pressure, no scalars, on
+    /// what bodies leave of the grid; nullptr: everything.
     FluidState<dim>
-    initial_state() const;
+    initial_state(const std::shared_ptr<const OpenParts<dim>> &open_parts = nullptr) const;
 
   private:
     struct Parameters

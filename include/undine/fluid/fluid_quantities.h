@@ -20,11 +20,6 @@ namespace undine
   double
   kinetic_energy(const FluidModel<dim> &model, const Velocity<dim> &velocity);
 
-  /// Volume of the fluid, [m^dim].
-  template <int dim>
-  double
-  fluid_volume(const FluidModel<dim> &model);
-
   /// Largest |v_f| of the faces normal to each axis, [m/s]. Throws SolveError if one is not finite.
   template <int dim>
   dealii::Tensor<1, dim>
@@ -44,7 +39,7 @@ namespace undine
   /// max over cells of |(D v)_c| / flux_area, [m/s], from the result of divergence().
   template <int dim>
   double
-  largest_divergence(const FluidModel<dim> &model, const std::vector<double> &fluxes);
+  largest_divergence(const FluidModel<dim> &model, const Field<dim> &fluxes);
 
   /// The same for a velocity.
   template <int dim>
@@ -62,7 +57,8 @@ namespace undine
   net_flux_complaint(const FluidModel<dim> &model, const Velocity<dim> &velocity);
 
   /// Integral of p n over each boundary, n out of the fluid: the force of the (reduced) pressure on
-  /// it, [N]. The pressure is continued linearly from the two nearest cells.
+  /// it, [N]. The pressure is continued linearly from the two nearest cells, but not next to
+  /// bodies.
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   pressure_forces(const FluidModel<dim> &model, const FluidState<dim> &state);
@@ -80,10 +76,12 @@ namespace undine
   double
   integral(const FluidModel<dim> &model, const Field<dim> &scalar);
 
-  /// What the fluid adds to the file `statistics`.
+  /// What the fluid adds to the file `statistics`; `divergence` [1] as the projection left it.
   template <int dim>
   Columns
-  fluid_columns(const FluidModel<dim> &model, const FluidState<dim> &state);
+  fluid_columns(const FluidModel<dim> &model,
+                const FluidState<dim> &state,
+                const double           divergence);
   /// @}
 
   /// "Force on lid, x" and so on, for walls only.

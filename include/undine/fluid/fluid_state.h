@@ -27,6 +27,13 @@ namespace undine
     {
       return components[axis];
     }
+
+    /// What bodies leave of the grid; nullptr: everything.
+    const OpenParts<dim> *
+    open_parts() const
+    {
+      return components[0].open_parts().get();
+    }
   };
 
   /// The fluid at one time, on the staggered grid: normal velocities on cell faces, the rest in

@@ -39,13 +39,20 @@ namespace undine
   {
     static constexpr double carried_share = 0.45; ///< c
 
-    /// Freezes v^n. Collective.
-    FluidStep(const FluidModel<dim>        &model,
-              FluidState<dim>              &state,
-              const dealii::Tensor<1, dim> &gravity,
-              const double                  time,
-              const double                  dt,
-              TimingTree                   &timing);
+    /// Freezes v^n. What bodies leave of the grid may have changed since then: velocity and scalars
+    /// follow when they are carried, pressure and acceleration here. Collective.
+    FluidStep(const FluidModel<dim>            &model,
+              FluidState<dim>                  &state,
+              const dealii::Tensor<1, dim>     &gravity,
+              const double                      time,
+              const double                      dt,
+              TimingTree                       &timing,
+              const typename Flow<dim>::Bodies &bodies = {});
+
+    /// Bring what no effect has carried to what bodies leave of the grid now: it stays where it
+    /// was.
+    void
+    settle();
 
     /// Ends the step, after the projection: acceleration and pressure for the next one.
     void

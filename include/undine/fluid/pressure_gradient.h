@@ -21,20 +21,25 @@ namespace undine
     GridIndex<dim> face;
     GridIndex<dim> cell;     ///< the one inside
     double         pressure; ///< reduced pressure on the face [Pa]
+    int            piece;    ///< of a divided face: which one; else -1
   };
 
   /// The openings of this rank with their pressures at `time`. Where fluid enters through an
   /// outflow, p = -rho (v.n)^2 / 2, so that it brings in no energy and cannot blow up (directional
-  /// do-nothing condition, Braack & Mucha 2014).
+  /// do-nothing condition, Braack & Mucha 2014). `open_parts`: what bodies leave of the grid, which
+  /// may have changed since `velocity`; nullptr: everything.
   template <int dim>
   std::vector<OpenFace<dim>>
-  open_faces(const FluidModel<dim> &model, const Velocity<dim> &velocity, const double time);
+  open_faces(const FluidModel<dim> &model,
+             const Velocity<dim>   &velocity,
+             const OpenParts<dim>  *open_parts,
+             const double           time);
 
-  /// (D v)_c = sum_f +-a_f v_f over the faces of every owned cell, in the order of
-  /// Field::owned_values(): the volume that leaves it, [m^dim/s]. One ghost layer of the velocity
-  /// must be up to date.
+  /// (D v)_c = sum_f +-a_f v_f over the faces of every owned cell, or over the pieces of faces
+  /// around every component: the volume that leaves it, [m^dim/s]; zero in bodies. One ghost layer
+  /// of the velocity must be up to date.
   template <int dim>
-  std::vector<double>
+  Field<dim>
   divergence(const FluidModel<dim> &model, const Velocity<dim> &velocity);
 
   /// (rho V)^-1 D^T p on the owned faces, zero on held ones, [m/s^2]: the acceleration by the
@@ -45,7 +50,7 @@ namespace undine
                         const Field<dim>                 &pressure,
                         const std::vector<OpenFace<dim>> &openings);
 
-  /// a_f^2 / (rho V_f), the entry that a face contributes to L = D (rho V)^-1 D^T.
+  /// a_f^2 / (rho V_f), the entry that a whole face contributes to L = D (rho V)^-1 D^T.
   template <int dim>
   double
   pressure_coupling(const FluidModel<dim> &model,
@@ -53,7 +58,27 @@ namespace undine
                     const GridIndex<dim>  &face);
   /// @}
 
-  /// velocity += factor * acceleration on owned faces.
+  /// Give divided points the mean of their parts, see LatticeParts; closed ones get zero. @{
+  template <int dim>
+  void
+  set_means(Field<dim> &field, const MacGrid<dim> &grid);
+
+  template <int dim>
+  void
+  set_means(Velocity<dim> &velocity, const MacGrid<dim> &grid);
+  /// @}
+
+  /// Volume of the fluid in every owned cell and component [m^dim].
+  template <int dim>
+  void
+  set_volumes(Field<dim> &volumes, const MacGrid<dim> &grid);
+
+  /// field += factor * change on owned points and all parts.
+  template <int dim>
+  void
+  add(Field<dim> &field, const double factor, const Field<dim> &change);
+
+  /// velocity += factor * acceleration on owned faces and pieces.
   template <int dim>
   void
   add(Velocity<dim> &velocity, const double factor, const Velocity<dim> &acceleration);

@@ -3,22 +3,28 @@
 #define undine_fluid_pressure_matrix_h
 
 #include <undine/fluid/fluid_model.h>
+#include <undine/fluid/pressure_numbers.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <vector>
+
 namespace undine
 {
-  /// Build L = D (rho V)^-1 D^T, face by face: a face between two cells adds a^2/(rho V) to the
-  /// diagonal of each and couples them by minus that; one on an opening adds a^2/(rho V) to the
-  /// diagonal of the cell inside. Rows are the numbers of the cell lattice. Collective.
+  /// Build L = D (rho V)^-1 D^T, face by face: a face or piece between two pressures adds
+  /// a^2/(rho V) to the diagonal of each and couples them by minus that; one on an opening adds
+  /// a^2/(rho V) to the diagonal of the pressure inside. Collective.
   ///
-  /// Without opening L has the constant as its kernel. Then L_00 is added to the diagonal of row 0:
-  /// for right sides whose entries sum to zero the solution is one of the original equation, the
-  /// one with p_0 = 0.
+  /// A region without opening leaves a constant free. One pressure of each such region is named in
+  /// `pinned` by the rank that owns it, and its diagonal is doubled: for right sides whose entries
+  /// sum to zero over the region the solution is one of the original equation, the one with zero
+  /// there. A region that is one component without open piece gets the diagonal 1.
   template <int dim>
   void
-  build_pressure_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix,
-                        const FluidModel<dim>                  &model);
+  build_pressure_matrix(dealii::TrilinosWrappers::SparseMatrix                   &matrix,
+                        const FluidModel<dim>                                    &model,
+                        const PressureNumbers<dim>                               &numbers,
+                        const std::vector<typename PressureNumbers<dim>::Number> &pinned);
 } // namespace undine
 
 #endif

@@ -2,9 +2,11 @@
 #ifndef undine_fluid_projection_h
 #define undine_fluid_projection_h
 
+#include <undine/fluid/closed_regions.h>
 #include <undine/fluid/fluid_model.h>
 #include <undine/fluid/fluid_quantities.h>
 #include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/pressure_numbers.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -37,30 +39,36 @@ namespace undine
     explicit Projection(const FluidModel<dim> &model);
 
     /// v* in `state` becomes v^{n+1} at `time` = t^{n+1}, its pressure p. Sets the velocity on
-    /// walls and inflows first. Throws InputError if a domain without opening has a net inflow,
+    /// walls and inflows first. Throws InputError if a region without opening has a net inflow,
     /// SolveError if the solver does not converge. Collective.
+    ///
+    /// `carrying` = v^n tells where fluid enters through openings. v* cannot: friction adds
+    /// h grad p^n / rho to it, which may point inwards in a steady outflow. `body_fluxes`: volume
+    /// that surfaces of bodies push out of each component, (B u)_c [m^dim/s]; empty: none.
+    Report
+    project(FluidState<dim>           &state,
+            const Velocity<dim>       &carrying,
+            const double               time,
+            const double               dt,
+            const std::vector<double> &body_fluxes = {});
+
+    /// The same with v* in the place of v^n.
     Report
     project(FluidState<dim> &state, const double time, const double dt);
-
-    /// The same within a step: `carrying` = v^n tells where fluid enters through openings. v*
-    /// cannot: friction adds h grad p^n / rho to it, which may point inwards in a steady outflow.
-    Report
-    project(FluidState<dim>     &state,
-            const Velocity<dim> &carrying,
-            const double         time,
-            const double         dt);
 
     /// The divergence-free velocity nearest to the one given, for a start at `time`; the state's
     /// pressure becomes zero.
     Report
-    make_divergence_free(FluidState<dim> &state, const double time);
+    make_divergence_free(FluidState<dim>           &state,
+                         const double               time,
+                         const std::vector<double> &body_fluxes = {});
 
   private:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-    /// Matrix and multigrid hierarchy.
+    /// Matrix and multigrid hierarchy, unless they are there, for what bodies leave of the grid.
     void
-    set_up();
+    prepare(const std::shared_ptr<const OpenParts<dim>> &open_parts);
 
     /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm.
     unsigned int
@@ -72,9 +80,12 @@ namespace undine
     Report
     remove_divergence(Velocity<dim>              &velocity,
                       Field<dim>                 &impulse,
-                      std::vector<OpenFace<dim>> &openings);
+                      std::vector<OpenFace<dim>> &openings,
+                      const std::vector<double>  &body_fluxes);
 
     const FluidModel<dim>                                     &model;
+    std::unique_ptr<const PressureNumbers<dim>>                numbers;
+    std::unique_ptr<const ClosedRegions<dim>>                  closed_regions;
     std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    matrix;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid;
     double                                                     smallest_area = 0; ///< [m^(dim-1)]

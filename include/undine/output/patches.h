@@ -14,7 +14,8 @@ namespace undine
 {
   /// A part of the solution as pictures need it: this rank's pieces of space with numbers at their
   /// points. Every rank has the same fields, perhaps no pieces.
-  template <int dim>
+  /// Pieces have `dim` directions and lie in a space of `spacedim`.
+  template <int dim, int spacedim = dim>
   struct Patches
   {
     using Ranges =
@@ -30,28 +31,28 @@ namespace undine
       discontinuous
     };
 
-    std::string                                  name; ///< "bodies", "fluid"
-    std::vector<dealii::DataOutBase::Patch<dim>> patches;
-    std::vector<std::string>                     components; ///< names, as rows of patch.data
-    Ranges                                       vectors;    ///< components that form vectors
-    std::map<std::string, std::string>           units;      ///< of fields, by name
-    Continuity                                   continuity = Continuity::discontinuous;
+    std::string                                            name; ///< "bodies", "fluid"
+    std::vector<dealii::DataOutBase::Patch<dim, spacedim>> patches;
+    std::vector<std::string>           components; ///< names, as rows of patch.data
+    Ranges                             vectors;    ///< components that form vectors
+    std::map<std::string, std::string> units;      ///< of fields, by name
+    Continuity                         continuity = Continuity::discontinuous;
 
     /// Append a field of one component, of which patch.data has the row next in turn.
     void
     add_scalar(const std::string &field, const std::string &unit);
 
-    /// Append a field of `dim` components.
+    /// Append a field of `spacedim` components.
     void
     add_vector(const std::string &field, const std::string &unit);
   };
 
   /// One compressed .vtu file from the patches of all ranks. Collective. Throws FileError.
-  template <int dim>
+  template <int dim, int spacedim>
   void
   write_vtu(MPI_Comm                             communicator,
             const std::filesystem::path         &path,
-            const Patches<dim>                  &patches,
+            const Patches<dim, spacedim>        &patches,
             const dealii::DataOutBase::VtkFlags &flags);
 
   /// One HDF5 file from the patches of all ranks: arrays `nodes` [m], `cells` (indices of nodes)

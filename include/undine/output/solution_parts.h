@@ -22,6 +22,11 @@ namespace undine
                  const State<dim>  &state,
                  Configuration      configuration = Configuration::rest);
 
+  /// The surfaces in the fluid, if there are any: of obstacles, and as cells cut them. Collective.
+  template <int dim>
+  std::vector<Patches<dim - 1, dim>>
+  surface_parts(const Models<dim> &models, const State<dim> &state);
+
   /// "solution/fluid_000120.vtu", within the folder of the run.
   std::filesystem::path
   solution_file(const std::string &part, const Clock &clock, const std::string &extension);

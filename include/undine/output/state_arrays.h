@@ -19,9 +19,24 @@ namespace undine
     std::vector<double> values;
   };
 
-  /// Everything in `state` but its clock. Nodal vectors are in the order of
-  /// SolidModel::canonical_order(), each rank holding a stretch of equal length; fields of the
-  /// fluid are in the order of their lattice, the first direction running fastest. Collective.
+  /// Where the surfaces of what stands in the fluid were, node by node: it decides which parts the
+  /// fields of pack() have. No array if nothing does. The reverse leaves all fields zero, on the
+  /// grid as those surfaces cut it. Collective. @{
+  template <int dim>
+  std::vector<StateArray>
+  pack_surface(const Models<dim> &models, const State<dim> &state);
+
+  template <int dim>
+  void
+  unpack_surface(State<dim>                    &state,
+                 const Models<dim>             &models,
+                 const std::vector<StateArray> &arrays);
+  /// @}
+
+  /// Everything else in `state` but its clock. Nodal vectors are in the order of
+  /// SolidModel::canonical_order(); fields of the fluid are in the order of their lattice, the
+  /// first direction running fastest, and so are the parts of its divided points. Of nodes and
+  /// parts each rank holds a stretch of equal length. Collective.
   template <int dim>
   std::vector<StateArray>
   pack(const Models<dim> &models, const State<dim> &state);

@@ -30,17 +30,11 @@ namespace undine
            const BoundaryCondition<dim> &condition) const override
     {
       const bool limited = condition.obeys_maximum_principle();
-      Field<dim> source  = field;
-      source.exchange(flow.width());
-      fill_boundary_points(source, flow.model(), condition, flow.velocity(), flow.time());
-      Field<dim> carried(field.shared_lattice());
-      for_each(carried.owned(), [&](const GridIndex<dim> &index) {
-        const auto trace = flow.trace(carried.lattice().point(index), -flow.dt());
+      const auto source  = completed(flow, field, condition);
+      return carry(flow, source, [&](const auto &trace, const GridIndex<dim> &) {
         const auto found = interpolate_cubic(source, trace.foot);
-        carried(index) =
-          limited ? std::clamp(found.value, found.smallest, found.largest) : found.value;
+        return limited ? std::clamp(found.value, found.smallest, found.largest) : found.value;
       });
-      return carried;
     }
   };
 

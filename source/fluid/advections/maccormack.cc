@@ -34,38 +34,36 @@ namespace undine
            const Field<dim>             &field,
            const BoundaryCondition<dim> &condition) const override
     {
-      const auto                &model   = flow.model();
-      const bool                 limited = condition.obeys_maximum_principle();
-      const double               dt      = flow.dt();
-      Field<dim>                 source  = field;
-      Field<dim>                 predicted(field.shared_lattice());
-      std::vector<BoundedValue>  predictions;
-      std::vector<unsigned char> left;
+      struct Prediction
+      {
+        GridIndex<dim> index;
+        BoundedValue   found;
+      };
+      std::vector<Prediction> predictions; // where the way back may correct them
 
-      source.exchange(flow.width());
-      fill_boundary_points(source, model, condition, flow.velocity(), flow.time());
-      for_each(field.owned(), [&](const GridIndex<dim> &index) {
-        const auto trace = flow.trace(field.lattice().point(index), -dt);
-        predictions.push_back(interpolate_with_bounds(source, trace.foot));
-        left.push_back(trace.left_domain);
-        predicted(index) = predictions.back().value;
+      const bool limited   = condition.obeys_maximum_principle();
+      const auto source    = completed(flow, field, condition);
+      auto       corrected = carry(flow, source, [&](const auto &trace, const auto &index) {
+        const auto found = interpolate_with_bounds(source, trace.foot);
+        if (!trace.left_domain)
+          predictions.push_back({index, found});
+        return found.value;
       });
 
+      auto predicted = corrected;
       predicted.exchange(flow.width());
-      fill_boundary_points(predicted, model, condition, flow.velocity(), flow.time() + dt);
-      Field<dim>  corrected = predicted;
-      std::size_t k         = 0;
-      for_each(field.owned(), [&](const GridIndex<dim> &index) {
-        const auto &bounds = predictions[k];
-        const auto  trace  = flow.trace(field.lattice().point(index), dt);
-        if (!left[k] && !trace.left_domain)
-          {
-            const double returned = interpolate(predicted, trace.foot);
-            const double value    = bounds.value + (source(index) - returned) / 2;
-            corrected(index) = limited ? std::clamp(value, bounds.smallest, bounds.largest) : value;
-          }
-        ++k;
-      });
+      fill_boundary_points(
+        predicted, flow.model(), condition, flow.velocity(), flow.time() + flow.dt());
+      for (const auto &[index, found] : predictions)
+        {
+          const auto place = field.lattice().point(index);
+          const auto trace = flow.trace(place, flow.dt());
+          if (trace.left_domain || flow.vicinity().is_near(place, trace.foot))
+            continue;
+          const double returned = interpolate(predicted, trace.foot);
+          const double value    = found.value + (source(index) - returned) / 2;
+          corrected(index) = limited ? std::clamp(value, found.smallest, found.largest) : value;
+        }
       return corrected;
     }
   };

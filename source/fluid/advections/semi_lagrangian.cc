@@ -26,15 +26,10 @@ namespace undine
            const Field<dim>             &field,
            const BoundaryCondition<dim> &condition) const override
     {
-      Field<dim> source = field;
-      source.exchange(flow.width());
-      fill_boundary_points(source, flow.model(), condition, flow.velocity(), flow.time());
-      Field<dim> carried(field.shared_lattice());
-      for_each(carried.owned(), [&](const GridIndex<dim> &index) {
-        const auto trace = flow.trace(carried.lattice().point(index), -flow.dt());
-        carried(index)   = interpolate(source, trace.foot);
+      const auto source = completed(flow, field, condition);
+      return carry(flow, source, [&](const auto &trace, const GridIndex<dim> &) {
+        return interpolate(source, trace.foot);
       });
-      return carried;
     }
   };
 

@@ -34,7 +34,7 @@ namespace undine
     columns(const Models<dim> &models, const State<dim> &state) const override
     {
       const auto             &grid = models.fluid->grid();
-      const FluidSampler<dim> sampler(*models.fluid, state.fluid, state.clock.time);
+      const FluidSampler<dim> sampler(models, state);
       std::vector<double>     values(dim + 1 + sampler.scalar_names().size());
       if (grid.cells()->owned().contains(grid.cell_at(point)))
         values = measure(sampler);

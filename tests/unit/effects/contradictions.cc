@@ -30,7 +30,7 @@ namespace
       const FluidModel<2>     fluid(options, MPI_COMM_WORLD);
       const SolidModel<2>     solid(options, MPI_COMM_WORLD);
       Effect<2>::Surroundings around{
-        has_fluid ? &fluid : nullptr, has_solid ? &solid : nullptr, {}, {}};
+        has_fluid ? &fluid : nullptr, has_solid ? &solid : nullptr, false, {}, {}};
       const Effect<2> *asked = nullptr;
       auto             names = options.section("Effects").named_sections("effect");
       std::sort(names.begin(), names.end());

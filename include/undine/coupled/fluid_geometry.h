@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_fluid_geometry_h
+#define undine_coupled_fluid_geometry_h
+
+#include <undine/base/core/column.h>
+#include <undine/base/core/timing.h>
+#include <undine/coupled/models.h>
+#include <undine/coupled/state.h>
+#include <undine/fluid/flow.h>
+#include <undine/interface/boundary_flux.h>
+#include <undine/interface/cut_block.h>
+#include <undine/interface/cut_parts.h>
+#include <undine/interface/cut_report.h>
+#include <undine/interface/immersed_surface.h>
+#include <undine/interface/surface_queries.h>
+#include <undine/interface/void_regions.h>
+
+#include <memory>
+#include <vector>
+
+namespace undine
+{
+  /// The grid as the surfaces of everything in the fluid cut it, at the beginning of a step.
+  /// Nothing is done again as long as nothing moves.
+  template <int dim>
+  class FluidGeometry
+  {
+  public:
+    using Positions  = std::vector<dealii::Point<dim>>;
+    using Velocities = std::vector<dealii::Tensor<1, dim>>;
+
+    /// For a scene with a surface in the fluid. The models must outlive it.
+    explicit FluidGeometry(const Models<dim> &models);
+
+    /// Cut. The surfaces are at `now` and move with `velocities`; when the fields of the fluid were
+    /// computed they were at `before`. Collective. Throws SolveError if the surfaces are beyond
+    /// use.
+    void
+    place(const Positions &before, const Positions &now, const Velocities &velocities);
+
+    /// The step that place() began has been accepted.
+    void
+    accept();
+
+    typename Flow<dim>::Bodies
+    bodies() const;
+
+    /// Of this rank's block, with a halo.
+    const CutCells<dim> &
+    cut_cells() const
+    {
+      return cells;
+    }
+
+    /// What they leave to the fluid.
+    const CutParts<dim> &
+    cut_parts() const
+    {
+      return parts;
+    }
+
+    /// B u: volume that the surfaces push out of each component of the fluid [m^dim/s].
+    std::vector<double>
+    fluxes() const;
+
+    /// Forces of the pressure at `time` on each body [N], with g also their parts; and how the
+    /// cutting went. Collective.
+    Columns
+    columns(const Field<dim> &pressure, const dealii::Tensor<1, dim> &gravity, double time) const;
+
+    /// What was wrong with the surfaces, where; empty if nothing was.
+    const std::string &
+    complaint() const;
+
+  private:
+    void
+    cut();
+
+    const ImmersedSurface<dim>                &surface;
+    const FluidModel<dim>                     &model;
+    const VoidRegions<dim>                    *void_regions; ///< nullptr: none
+    VoidParts                                  voids, accepted_voids;
+    Positions                                  positions; ///< for which `cells` holds
+    Velocities                                 velocities;
+    CutCells<dim>                              cells;
+    CutWorkspace<dim>                          work;
+    CutParts<dim>                              parts;
+    CutReport                                  cut_report;
+    std::unique_ptr<const BoundaryFlux<dim>>   boundary_flux;
+    std::unique_ptr<const SurfaceQueries<dim>> queries;
+  };
+
+  /// The grid as it was cut when the fluid's fields of a state were computed, with surfaces that
+  /// stand still. nullptr if nothing stands in the fluid. Collective. Throws SolveError as place()
+  /// does.
+  template <int dim>
+  std::unique_ptr<FluidGeometry<dim>>
+  geometry_of(const Models<dim> &models, const State<dim> &state);
+} // namespace undine
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_obstruction_h
+#define undine_fluid_obstruction_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+namespace undine
+{
+  /// The surfaces of bodies as the fluid meets them during one step: where they are, at the end of
+  /// their last motion, and what they have passed over in it.
+  template <int dim>
+  class Obstruction
+  {
+  public:
+    virtual ~Obstruction() = default;
+
+    /// The share of the way from `from` to `to` at which a surface is met first; infinity if none
+    /// is. Ways that touch a surface, or begin or end on it, meet it.
+    virtual double
+    first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const = 0;
+
+    /// True if a surface has passed over `place` in the last motion: what was measured there before
+    /// says nothing about the fluid that is there now.
+    virtual bool
+    swept(const dealii::Point<dim> &place) const = 0;
+
+    /// Velocity of the surface point nearest to `place` [m/s].
+    virtual dealii::Tensor<1, dim>
+    nearest_velocity(const dealii::Point<dim> &place) const = 0;
+  };
+} // namespace undine
+
+#endif

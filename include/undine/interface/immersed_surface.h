@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_interface_immersed_surface_h
+#define undine_interface_immersed_surface_h
+
+#include <undine/fluid/mac_grid.h>
+#include <undine/interface/body_surface.h>
+#include <undine/interface/obstacles.h>
+#include <undine/solid/solid_state.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace undine
+{
+  /// The surface of everything in the fluid: first the nodes and facets of deformable bodies, then
+  /// those of obstacles. Replicated on all ranks.
+  ///
+  /// Bodies may reach out of the domain, also over a whole side, but not to a periodic side.
+  template <int dim>
+  class ImmersedSurface
+  {
+  public:
+    /// `solid`: nullptr if there are no bodies. The grid must outlive this. Throws InputError if a
+    /// surface is not closed or reaches a periodic side at rest, or if a body and an obstacle have
+    /// the same name. Collective.
+    ImmersedSurface(const Options &scene, const SolidModel<dim> *solid, const MacGrid<dim> &grid);
+
+    const Surface<dim> &
+    surface() const
+    {
+      return *all_facets;
+    }
+
+    /// nullptr if there are none.
+    const BodySurface<dim> *
+    bodies() const
+    {
+      return body_surface ? &*body_surface : nullptr;
+    }
+
+    const Obstacles<dim> &
+    obstacles() const
+    {
+      return all_obstacles;
+    }
+
+    /// The nodes of bodies are the first ones.
+    unsigned int
+    n_body_nodes() const
+    {
+      return body_surface ? body_surface->n_nodes() : 0;
+    }
+
+    /// Where the nodes are, given the bodies' displacement and the time for the obstacles [m].
+    /// Throws SolveError as check() does. Collective.
+    std::vector<dealii::Point<dim>>
+    positions(const SolidState &state, const double time) const;
+
+    /// How they move, bodies by their velocity, obstacles in a step of `dt` from `time` on [m/s].
+    /// Collective.
+    std::vector<dealii::Tensor<1, dim>>
+    velocities(const SolidState &state, const double time, const double dt) const;
+
+    /// Throws SolveError, naming the body, if a position is not finite, a body inside out or at a
+    /// periodic side.
+    void
+    check(const std::vector<dealii::Point<dim>> &positions) const;
+
+    /// Add values in the nodes, the same on all ranks, to a vector of the bodies' owned degrees of
+    /// freedom; obstacles do not feel them.
+    void
+    add_to_bodies(typename SolidModel<dim>::Vector          &vector,
+                  const std::vector<dealii::Tensor<1, dim>> &values) const;
+
+  private:
+    std::string
+    periodic_complaint(const std::vector<dealii::Point<dim>> &positions) const;
+
+    const MacGrid<dim>                   &grid;
+    std::optional<const BodySurface<dim>> body_surface;
+    const Obstacles<dim>                  all_obstacles;
+    std::unique_ptr<const Surface<dim>>   all_facets;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_interface_sampled_regions_h
+#define undine_interface_sampled_regions_h
+
+#include <undine/interface/cut_workspace.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <vector>
+
+namespace undine
+{
+  /// The fluid in a box found by sampling n_along^dim points: for cells in which bodies overlap or
+  /// are inside out. Volumes are as good as the samples, connections as wide as their distance.
+  template <int dim>
+  class SampledRegions
+  {
+  public:
+    static constexpr int n_along = 8;
+
+    using Simplex = std::array<dealii::Point<dim>, dim>;
+
+    struct Region
+    {
+      double             volume = 0; ///< [m^dim]
+      dealii::Point<dim> centroid;   ///< [m]
+    };
+
+    /// The box [lower, lower + widths]; `corner_winding` is the winding number of its lower corner
+    /// and `simplices` are the facets in it, normals out of the solid.
+    SampledRegions(const dealii::Point<dim>     &lower,
+                   const dealii::Tensor<1, dim> &widths,
+                   const int                     corner_winding,
+                   const std::vector<Simplex>   &simplices);
+
+    const std::vector<Region> &
+    regions() const
+    {
+      return all_regions;
+    }
+
+    /// The region of the sample in the fluid nearest to `place`; -1 if there is no fluid.
+    int
+    nearest(const dealii::Point<dim> &place) const;
+
+  private:
+    dealii::Point<dim>
+    sample(const GridIndex<dim> &index) const;
+
+    int
+    winding(const dealii::Point<dim> &place, const int corner_winding) const;
+
+    /// Give region number `region` to all samples joined to `start`.
+    void
+    flood(const GridIndex<dim> &start, const int region);
+
+    dealii::Point<dim>     lower;
+    dealii::Tensor<1, dim> widths;
+    std::vector<Simplex>   simplices;
+    IndexBox<dim>          samples;
+    std::vector<int>       region_of; ///< of each sample; -1 solid, -2 not yet known
+    std::vector<Region>    all_regions;
+  };
+
+
+  /// Sample the fluid in cell number `cell` of cut.cells, given its fragments.
+  template <int dim>
+  SampledRegions<dim>
+  sample_fluid(const CutCells<dim> &cut, const int cell);
+
+
+  /// Append the pieces of the last face by sampling.
+  void
+  sample_face(CutCells<3> &cut, CutWorkspace<3> &work);
+
+
+  /// Replace the components of the last cell by sampled ones. Every fragment goes to the nearest
+  /// component, so that the flux of a body's motion in this cell (B u) stays exact in sum; closure
+  /// is lost.
+  template <int dim>
+  void
+  sample_cell(CutCells<dim> &cut, const CutWorkspace<dim> &work);
+} // namespace undine
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/fluid_geometry.h>
+#include <undine/interface/body_forces.h>
+
+namespace undine
+{
+  template <int dim>
+  FluidGeometry<dim>::FluidGeometry(const Models<dim> &models)
+    : surface(*models.surface)
+    , model(*models.fluid)
+    , void_regions(models.void_regions.get())
+    , cells(block_of_rank(model.grid()))
+  {
+  }
+
+
+  template <int dim>
+  void
+  FluidGeometry<dim>::cut()
+  {
+    const auto &grid = model.grid();
+    cut_block(cells, work, {surface.surface(), positions}, grid.cells()->blocks());
+    cut_report    = report(cells, surface.surface(), grid.communicator());
+    parts         = make_open_parts(grid, cells);
+    boundary_flux = std::make_unique<const BoundaryFlux<dim>>(cells, surface.surface());
+    if (void_regions != nullptr)
+      {
+        voids = void_regions->find(cells, parts, *queries, accepted_voids);
+        parts = make_open_parts(grid, cells, voids);
+      }
+  }
+
+
+  template <int dim>
+  void
+  FluidGeometry<dim>::place(const Positions  &before,
+                            const Positions  &now,
+                            const Velocities &new_velocities)
+  {
+    const bool moved = now != positions;
+    if (moved)
+      surface.check(now);
+    if (moved || before != now || new_velocities != velocities)
+      queries = std::make_unique<const SurfaceQueries<dim>>(
+        model.grid(), MovedSurface<dim>{&surface.surface(), before, now, new_velocities});
+    velocities = new_velocities;
+    if (moved)
+      {
+        positions = now;
+        cut();
+      }
+  }
+
+
+  template <int dim>
+  void
+  FluidGeometry<dim>::accept()
+  {
+    accepted_voids = voids;
+  }
+
+
+  template <int dim>
+  typename Flow<dim>::Bodies
+  FluidGeometry<dim>::bodies() const
+  {
+    return {queries.get(), parts.open};
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  FluidGeometry<dim>::fluxes() const
+  {
+    return parts.of_open_parts(boundary_flux->flux(velocities));
+  }
+
+
+  template <int dim>
+  Columns
+  FluidGeometry<dim>::columns(const Field<dim>             &pressure,
+                              const dealii::Tensor<1, dim> &gravity,
+                              const double                  time) const
+  {
+    const auto          communicator = model.grid().communicator();
+    PressureForces<dim> forces;
+    auto                pressures = parts.of_cut_cells(pressure.parts());
+    if (void_regions != nullptr)
+      {
+        const auto given = void_regions->pressures(voids, time);
+        for (std::size_t c = 0; c < pressures.size(); ++c)
+          pressures[c] += given[c]; // either is zero
+      }
+    forces.reduced = nodal_forces(*boundary_flux, pressures, communicator);
+    if (gravity.norm() > 0)
+      forces.gravity = gravity_loads(
+        cells,
+        surface.surface(),
+        positions,
+        parts.of_cut_cells(std::vector<double>(pressure.parts().size(), model.density())),
+        gravity,
+        communicator);
+    auto columns = pressure_force_columns(surface.surface(), forces);
+    columns.push_back({"Cut cells", "1", double(cut_report.cut_cells)});
+    columns.push_back({"Flagged cells", "1", double(cut_report.flagged_cells)});
+    return columns;
+  }
+
+
+  template <int dim>
+  const std::string &
+  FluidGeometry<dim>::complaint() const
+  {
+    return cut_report.message;
+  }
+
+
+  template <int dim>
+  std::unique_ptr<FluidGeometry<dim>>
+  geometry_of(const Models<dim> &models, const State<dim> &state)
+  {
+    if (!models.fluid || !models.surface || state.surface_positions.empty())
+      return nullptr;
+    auto geometry = std::make_unique<FluidGeometry<dim>>(models);
+    geometry->place(state.surface_positions,
+                    state.surface_positions,
+                    typename FluidGeometry<dim>::Velocities(state.surface_positions.size()));
+    return geometry;
+  }
+
+
+  template class FluidGeometry<2>;
+  template class FluidGeometry<3>;
+  template std::unique_ptr<FluidGeometry<2>>
+  geometry_of(const Models<2> &, const State<2> &);
+  template std::unique_ptr<FluidGeometry<3>>
+  geometry_of(const Models<3> &, const State<3> &);
+} // namespace undine

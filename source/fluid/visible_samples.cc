@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/visible_samples.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace undine
+{
+  namespace
+  {
+    /// Share that a visible point has even where its multilinear weight is zero, if those with more
+    /// weight are hidden.
+    constexpr double least_weight = 1e-3;
+  } // namespace
+
+
+  template <int dim>
+  VisibleSamples<dim>::VisibleSamples(const Field<dim>        &field_,
+                                      const GridIndex<dim>    &width,
+                                      const Obstruction<dim>  &obstruction_,
+                                      const BodyVicinity<dim> &vicinity_)
+    : field(field_)
+    , obstruction(obstruction_)
+    , vicinity(vicinity_)
+    , kinds(field.shared_lattice())
+  {
+    if (const auto *divided = field.divided())
+      for_each(kinds.owned(), [&](const GridIndex<dim> &index) {
+        kinds(index) = static_cast<int>(divided->kind(index));
+      });
+    kinds.exchange(width);
+    gather_parts(width);
+  }
+
+
+  template <int dim>
+  void
+  VisibleSamples<dim>::gather_parts(const GridIndex<dim> &width)
+  {
+    const auto         &lattice = field.lattice();
+    const IndexBox<dim> whole{{}, lattice.shape()};
+    const auto         *divided = field.divided();
+    const unsigned int  n_ranks = lattice.blocks().n_ranks();
+    using Named                 = std::array<double, dim + 2>; // position, place, value
+    std::map<unsigned int, std::vector<Named>> outgoing;
+    for (unsigned int rank = 0; divided && rank < n_ranks; ++rank)
+      {
+        const auto box = lattice.with_ghosts(rank, width);
+        for (std::size_t k = 0; k < field.parts().size(); ++k)
+          if (const auto &part = divided->all()[k]; divided->owns(k))
+            {
+              // Images of the rank's box may reach the part across a periodic side.
+              bool wanted = true;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  const int period = lattice.row(d).periodic() ? lattice.row(d).size() : 0;
+                  bool      inside = false;
+                  for (const int shift : {-period, 0, period})
+                    inside = inside || (part.index[d] + shift >= box.lower[d] &&
+                                        part.index[d] + shift < box.upper[d]);
+                  wanted = wanted && inside;
+                }
+              if (!wanted)
+                continue;
+              Named named{};
+              named[0] = whole.position(part.index);
+              for (unsigned int d = 0; d < dim; ++d)
+                named[1 + d] = part.place[d];
+              named[dim + 1] = field.parts()[k];
+              outgoing[rank].push_back(named);
+            }
+      }
+    const auto received =
+      dealii::Utilities::MPI::some_to_some(lattice.blocks().communicator(), outgoing);
+    for (const auto &message : received)
+      for (const auto &named : message.second)
+        {
+          Sample sample;
+          for (unsigned int d = 0; d < dim; ++d)
+            sample.place[d] = named[1 + d];
+          sample.value = named[dim + 1];
+          if (!obstruction.swept(sample.place))
+            parts[static_cast<std::size_t>(named[0])].push_back(sample);
+        }
+  }
+
+
+  template <int dim>
+  bool
+  VisibleSamples<dim>::is_visible(const dealii::Point<dim> &sample,
+                                  const dealii::Point<dim> &place) const
+  {
+    return vicinity.is_clear(place, sample) ||
+           obstruction.first_hit(place, sample) == std::numeric_limits<double>::infinity();
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  VisibleSamples<dim>::value_of(const GridIndex<dim> &index, const dealii::Point<dim> &place) const
+  {
+    using Kind          = typename LatticeParts<dim>::Kind;
+    const auto &lattice = field.lattice();
+    auto        inside  = index; // a boundary point continues what lies inside
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!lattice.row(d).periodic())
+        inside[d] = std::clamp(inside[d], 0, lattice.row(d).size() - 1);
+    const auto kind = static_cast<Kind>(static_cast<int>(kinds(inside)));
+    if (kind == Kind::closed)
+      return {};
+    if (kind == Kind::whole)
+      {
+        const auto sample = lattice.point(index);
+        const bool counts = is_visible(sample, place) && !obstruction.swept(sample);
+        return counts ? std::optional<double>(field(index)) : std::nullopt;
+      }
+    const auto found =
+      parts.find(IndexBox<dim>{{}, lattice.shape()}.position(lattice.wrapped(inside)));
+    if (found == parts.end())
+      return {};
+    const auto image = lattice.point(inside) - lattice.point(lattice.wrapped(inside));
+    double     sum = 0, n_visible = 0;
+    for (const auto &sample : found->second)
+      if (is_visible(sample.place + image, place))
+        {
+          sum += sample.value;
+          n_visible += 1;
+        }
+    return n_visible > 0 ? std::optional<double>(sum / n_visible) : std::nullopt;
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  VisibleSamples<dim>::at(const dealii::Point<dim> &place) const
+  {
+    GridIndex<dim>          lower;
+    std::array<double, dim> weights;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const auto bracket = field.lattice().row(d).locate(place[d]);
+        lower[d]           = bracket.lower;
+        weights[d]         = bracket.weight;
+      }
+    double sum = 0, total = 0, raised_sum = 0, raised_total = 0;
+    for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+      {
+        auto   index  = lower;
+        double weight = 1;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const int upper = (corner >> d) & 1;
+            index[d] += upper;
+            weight *= upper == 1 ? weights[d] : 1 - weights[d];
+          }
+        if (const auto value = value_of(index, place))
+          {
+            sum += weight * *value;
+            total += weight;
+            raised_sum += (weight + least_weight) * *value;
+            raised_total += weight + least_weight;
+          }
+      }
+    if (total > least_weight)
+      return sum / total;
+    return raised_total > 0 ? std::optional<double>(raised_sum / raised_total) : std::nullopt;
+  }
+
+
+  template class VisibleSamples<2>;
+  template class VisibleSamples<3>;
+} // namespace undine

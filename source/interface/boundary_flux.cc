@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/interface/boundary_flux.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace undine
+{
+  namespace
+  {
+    /// Call action(fragment) for all fragments of owned cells that fluid touches.
+    template <int dim, class Action>
+    void
+    for_each_wet_fragment(const CutCells<dim> &cut, const Action &action)
+    {
+      for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
+        if (cut.block.owned().contains(cut.cells[cell].index))
+          for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
+            if (cut.fragments[f].component != cut.no_component)
+              action(cut.fragments[f]);
+    }
+
+
+    template <int dim>
+    std::vector<dealii::Tensor<1, dim>>
+    summed_over_ranks(const std::vector<dealii::Tensor<1, dim>> &values,
+                      const MPI_Comm                             communicator)
+    {
+      std::vector<double> numbers;
+      for (const auto &value : values)
+        numbers.insert(numbers.end(), value.begin_raw(), value.end_raw());
+      dealii::Utilities::MPI::sum(numbers, communicator, numbers);
+      std::vector<dealii::Tensor<1, dim>> result(values.size());
+      for (std::size_t k = 0; k < numbers.size(); ++k)
+        result[k / dim][k % dim] = numbers[k];
+      return result;
+    }
+  } // namespace
+
+
+  template <int dim>
+  BoundaryFlux<dim>::BoundaryFlux(const CutCells<dim> &cut, const Surface<dim> &surface)
+    : n_components(cut.components.size())
+    , n_nodes(surface.n_nodes())
+  {
+    for_each_wet_fragment(cut, [&](const auto &fragment) {
+      for (unsigned int k = 0; k < dim; ++k)
+        all_entries.push_back({fragment.component,
+                               surface.facets()[fragment.facet][k],
+                               fragment.mean[k] * fragment.area_vector});
+    });
+    // Stable: sums do not depend on what else a rank knows.
+    std::stable_sort(all_entries.begin(), all_entries.end(), [](const Entry &a, const Entry &b) {
+      return std::tie(a.component, a.node) < std::tie(b.component, b.node);
+    });
+    std::size_t n = 0;
+    for (const auto &entry : all_entries)
+      if (n > 0 && all_entries[n - 1].component == entry.component &&
+          all_entries[n - 1].node == entry.node)
+        all_entries[n - 1].value += entry.value;
+      else
+        all_entries[n++] = entry;
+    all_entries.resize(n);
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  BoundaryFlux<dim>::flux(const std::vector<dealii::Tensor<1, dim>> &velocities) const
+  {
+    AssertDimension(velocities.size(), n_nodes);
+    std::vector<double> result(n_components, 0.);
+    for (const auto &entry : all_entries)
+      result[entry.component] += entry.value * velocities[entry.node];
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  BoundaryFlux<dim>::local_forces(const std::vector<double> &pressures) const
+  {
+    AssertDimension(pressures.size(), n_components);
+    std::vector<dealii::Tensor<1, dim>> result(n_nodes);
+    for (const auto &entry : all_entries)
+      result[entry.node] += pressures[entry.component] * entry.value;
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  nodal_forces(const BoundaryFlux<dim>   &boundary_flux,
+               const std::vector<double> &pressures,
+               const MPI_Comm             communicator)
+  {
+    return summed_over_ranks<dim>(boundary_flux.local_forces(pressures), communicator);
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  gravity_loads(const CutCells<dim>                   &cut,
+                const Surface<dim>                    &surface,
+                const std::vector<dealii::Point<dim>> &positions,
+                const std::vector<double>             &densities,
+                const dealii::Tensor<1, dim>          &gravity,
+                const MPI_Comm                         communicator)
+  {
+    AssertDimension(densities.size(), cut.components.size());
+    std::vector<dealii::Tensor<1, dim>> result(surface.n_nodes());
+    for_each_wet_fragment(cut, [&](const auto &fragment) {
+      const auto &nodes = surface.facets()[fragment.facet];
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          double mean = 0; // of (g.x) N_i
+          for (unsigned int j = 0; j < dim; ++j)
+            mean += gravity * positions[nodes[j]] * fragment.product(i, j);
+          result[nodes[i]] += densities[fragment.component] * mean * fragment.area_vector;
+        }
+    });
+    return summed_over_ranks<dim>(result, communicator);
+  }
+
+
+  // clang-format off
+#define INSTANTIATE(dim)                                                                           \
+  template class BoundaryFlux<dim>;                                                                \
+  template std::vector<dealii::Tensor<1, dim>> nodal_forces(const BoundaryFlux<dim> &,             \
+                                                            const std::vector<double> &, MPI_Comm);\
+  template std::vector<dealii::Tensor<1, dim>> gravity_loads(                                      \
+    const CutCells<dim> &, const Surface<dim> &, const std::vector<dealii::Point<dim>> &,          \
+    const std::vector<double> &, const dealii::Tensor<1, dim> &, MPI_Comm);
+  // clang-format on
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace undine

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/interface/immersed_surface.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  namespace
+  {
+    /// Bodies, then obstacles.
+    template <class Value>
+    std::vector<Value>
+    joined(std::vector<Value> of_bodies, const std::vector<Value> &of_obstacles)
+    {
+      of_bodies.insert(of_bodies.end(), of_obstacles.begin(), of_obstacles.end());
+      return of_bodies;
+    }
+
+
+    /// Two surfaces side by side.
+    template <int dim>
+    Surface<dim>
+    joined(const Surface<dim> &first, const Surface<dim> &second)
+    {
+      auto                      facets = first.facets();
+      std::vector<unsigned int> bodies;
+      for (unsigned int facet = 0; facet < first.facets().size(); ++facet)
+        bodies.push_back(first.body(facet));
+      for (unsigned int facet = 0; facet < second.facets().size(); ++facet)
+        {
+          facets.push_back(second.facets()[facet]);
+          for (auto &node : facets.back())
+            node += first.n_nodes();
+          bodies.push_back(first.body_names().size() + second.body(facet));
+        }
+      return Surface<dim>(first.n_nodes() + second.n_nodes(),
+                          facets,
+                          bodies,
+                          joined(first.body_names(), second.body_names()));
+    }
+  } // namespace
+
+
+  template <int dim>
+  ImmersedSurface<dim>::ImmersedSurface(const Options         &scene,
+                                        const SolidModel<dim> *solid,
+                                        const MacGrid<dim>    &grid)
+    : grid(grid)
+    , all_obstacles(scene)
+  {
+    auto rest = all_obstacles.positions(0);
+    if (solid == nullptr)
+      all_facets = std::make_unique<const Surface<dim>>(all_obstacles.surface());
+    else
+      {
+        body_surface.emplace(*solid);
+        const auto &names = body_surface->surface().body_names();
+        for (const auto &name : all_obstacles.surface().body_names())
+          if (std::find(names.begin(), names.end(), name) != names.end())
+            throw scene.section("Obstacles")
+              .section(name)
+              .error("", "a body has the same name", "Try: another name for one of them.");
+        all_facets = std::make_unique<const Surface<dim>>(
+          joined(body_surface->surface(), all_obstacles.surface()));
+        rest = joined(body_surface->positions(solid->vector()), rest);
+      }
+    check_closed(*all_facets, rest);
+    const auto complaint = periodic_complaint(rest);
+    if (!complaint.empty())
+      throw InputError(complaint);
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Point<dim>>
+  ImmersedSurface<dim>::positions(const SolidState &state, const double time) const
+  {
+    auto result = all_obstacles.positions(time);
+    if (body_surface)
+      result = joined(body_surface->positions(state.displacement), result);
+    check(result);
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  ImmersedSurface<dim>::velocities(const SolidState &state,
+                                   const double      time,
+                                   const double      dt) const
+  {
+    auto result = all_obstacles.velocities(time, dt);
+    if (body_surface)
+      result = joined(body_surface->gather(state.velocity), result);
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  ImmersedSurface<dim>::check(const std::vector<dealii::Point<dim>> &positions) const
+  {
+    check_positions(*all_facets, positions);
+    const auto complaint = periodic_complaint(positions);
+    if (!complaint.empty())
+      throw SolveError(complaint);
+  }
+
+
+  template <int dim>
+  void
+  ImmersedSurface<dim>::add_to_bodies(typename SolidModel<dim>::Vector          &vector,
+                                      const std::vector<dealii::Tensor<1, dim>> &values) const
+  {
+    AssertDimension(values.size(), all_facets->n_nodes());
+    if (body_surface)
+      body_surface->add(vector, {values.begin(), values.begin() + n_body_nodes()});
+  }
+
+
+  template <int dim>
+  std::string
+  ImmersedSurface<dim>::periodic_complaint(const std::vector<dealii::Point<dim>> &positions) const
+  {
+    for (unsigned int facet = 0; facet < all_facets->facets().size(); ++facet)
+      for (const unsigned int node : all_facets->facets()[facet])
+        for (unsigned int d = 0; d < dim; ++d)
+          if (const auto &x = positions[node];
+              grid.periodic(d) && !(x[d] > grid.lower()[d] && x[d] < grid.upper()[d]))
+            return fmt::format("Body '{}' reaches a periodic side of the domain at ({:.6g}). Try: "
+                               "move it, or the domain, so that it lies between the sides.",
+                               all_facets->body_names()[all_facets->body(facet)],
+                               fmt::join(x.begin_raw(), x.begin_raw() + dim, ", "));
+    return "";
+  }
+
+
+  template class ImmersedSurface<2>;
+  template class ImmersedSurface<3>;
+} // namespace undine

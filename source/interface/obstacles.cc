@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/interface/face_facets.h>
+#include <undine/interface/obstacles.h>
+#include <undine/solid/body_shape.h>
+
+#include <deal.II/grid/manifold.h>
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <map>
+
+namespace undine
+{
+  namespace
+  {
+    constexpr unsigned int refinements_of_curved_shapes = 4;
+
+
+    /// What a scene says about one obstacle.
+    template <int dim>
+    struct Obstacle
+    {
+      Obstacle(const std::string &name, const Options &options)
+        : name(name)
+        , options(options)
+        , shape(options.choose<BodyShape<dim>>("Shape", "box", "The shape at rest."))
+        , has_map(options.given("Map"))
+        , has_refinements(options.given("Refinements"))
+      {
+        options.add("Map",
+                    map,
+                    "m",
+                    Allowed::anything(),
+                    "Where each vertex of the refined shape is at rest, as a function of where the "
+                    "shape has it; not given: there.");
+        options.add("Refinements",
+                    refinements,
+                    "1",
+                    Allowed::between(0, 12),
+                    "How often each facet of the surface is split in two along every direction; "
+                    "not given: 4 times if the shape is curved or has a map, else not at all.");
+        options.add("Displacement",
+                    displacement,
+                    "m",
+                    Allowed::anything(),
+                    "At time t, of the point that rests at x: a prescribed motion.");
+      }
+
+      std::string                     name;
+      Options                         options;
+      std::unique_ptr<BodyShape<dim>> shape;
+      Expression<dim, dim>            map;
+      bool                            has_map, has_refinements;
+      unsigned int                    refinements = 0;
+      Expression<dim, dim>            displacement;
+    };
+
+
+    template <int dim>
+    std::vector<Obstacle<dim>>
+    read_obstacles(const Options &scene)
+    {
+      const auto                 section = scene.section("Obstacles");
+      std::vector<Obstacle<dim>> result;
+      for (const auto &name : section.named_sections("pillar"))
+        result.emplace_back(name, section.section(name));
+      return result;
+    }
+
+
+    template <int dim>
+    bool
+    is_curved(const dealii::Triangulation<dim> &mesh)
+    {
+      for (const auto &cell : mesh.active_cell_iterators())
+        for (const unsigned int face : cell->face_indices())
+          if (cell->at_boundary(face) && dynamic_cast<const dealii::FlatManifold<dim> *>(
+                                           &cell->face(face)->get_manifold()) == nullptr)
+            return true;
+      return false;
+    }
+
+
+    /// Split all faces of the boundary; cells inside only as far as they must follow.
+    template <int dim>
+    void
+    refine_boundary(dealii::Triangulation<dim> &mesh)
+    {
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (cell->at_boundary())
+          cell->set_refine_flag();
+      mesh.execute_coarsening_and_refinement();
+    }
+
+
+    /// The boundary of one obstacle.
+    template <int dim>
+    struct Boundary
+    {
+      std::vector<dealii::Point<dim>>           nodes;
+      std::vector<typename Surface<dim>::Facet> facets;
+    };
+
+
+    template <int dim>
+    Boundary<dim>
+    collect_boundary(const dealii::Triangulation<dim> &mesh)
+    {
+      const auto                           facets_of_face = face_facets<dim>(1);
+      std::map<unsigned int, unsigned int> numbers; // by vertex
+      Boundary<dim>                        result;
+      for (const auto &cell : mesh.active_cell_iterators())
+        for (const unsigned int face : cell->face_indices())
+          if (cell->at_boundary(face))
+            for (auto facet : facets_of_face[face])
+              {
+                for (auto &corner : facet)
+                  {
+                    const auto found =
+                      numbers.emplace(cell->vertex_index(corner), result.nodes.size());
+                    if (found.second)
+                      result.nodes.push_back(cell->vertex(corner));
+                    corner = found.first->second;
+                  }
+                result.facets.push_back(facet);
+              }
+      return result;
+    }
+
+
+    template <int dim>
+    Boundary<dim>
+    make_boundary(const Obstacle<dim> &obstacle)
+    {
+      dealii::Triangulation<dim> mesh;
+      obstacle.shape->make_mesh(mesh);
+      unsigned int refinements = obstacle.refinements;
+      if (!obstacle.has_refinements && (obstacle.has_map || is_curved(mesh)))
+        refinements = refinements_of_curved_shapes;
+      for (unsigned int level = 0; level < refinements; ++level)
+        refine_boundary(mesh);
+      auto result = collect_boundary(mesh);
+      if (obstacle.has_map)
+        for (auto &node : result.nodes)
+          node = dealii::Point<dim>(obstacle.map.vector(node, 0.));
+
+      const Surface<dim> surface(result.nodes.size(),
+                                 result.facets,
+                                 std::vector<unsigned int>(result.facets.size(), 0),
+                                 {obstacle.name});
+      if (!(body_volumes(surface, result.nodes)[0] > 0))
+        throw obstacle.options.error(obstacle.has_map ? "Map" : "Shape",
+                                     "makes an obstacle that is inside out or has no volume",
+                                     "Try: a map that is one-to-one and keeps the orientation.");
+      return result;
+    }
+  } // namespace
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::declare(const Options &scene)
+  {
+    read_obstacles<dim>(scene);
+  }
+
+
+  template <int dim>
+  Obstacles<dim>::Obstacles(const Options &scene)
+  {
+    std::vector<typename Surface<dim>::Facet> facets;
+    std::vector<unsigned int>                 obstacle_of_facet;
+    std::vector<std::string>                  names;
+    for (const auto &obstacle : read_obstacles<dim>(scene))
+      {
+        const auto         boundary = make_boundary(obstacle);
+        const unsigned int first    = rest_positions.size();
+        for (auto facet : boundary.facets)
+          {
+            for (auto &node : facet)
+              node += first;
+            facets.push_back(facet);
+          }
+        obstacle_of_facet.resize(facets.size(), names.size());
+        rest_positions.insert(rest_positions.end(), boundary.nodes.begin(), boundary.nodes.end());
+        obstacle_of_node.resize(rest_positions.size(), names.size());
+        displacements.push_back(obstacle.displacement);
+        names.push_back(obstacle.name);
+      }
+    all_facets =
+      std::make_unique<const Surface<dim>>(rest_positions.size(), facets, obstacle_of_facet, names);
+  }
+
+
+  template <int dim>
+  bool
+  Obstacles<dim>::move() const
+  {
+    return std::any_of(displacements.begin(), displacements.end(), [](const auto &displacement) {
+      return !displacement.is_zero();
+    });
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Point<dim>>
+  Obstacles<dim>::positions(const double time) const
+  {
+    auto result = rest_positions;
+    for (unsigned int node = 0; node < result.size(); ++node)
+      if (const auto &displacement = displacements[obstacle_of_node[node]]; !displacement.is_zero())
+        result[node] += displacement.vector(rest_positions[node], time);
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  Obstacles<dim>::velocities(const double time, const double dt) const
+  {
+    const auto                          before = positions(time), after = positions(time + dt);
+    std::vector<dealii::Tensor<1, dim>> result(before.size());
+    for (unsigned int node = 0; node < result.size(); ++node)
+      result[node] = (after[node] - before[node]) / dt;
+    return result;
+  }
+
+
+  template class Obstacles<2>;
+  template class Obstacles<3>;
+} // namespace undine

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/interface/facet_geometry.h>
+#include <undine/interface/surface_queries.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <boost/function_output_iterator.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace undine
+{
+  namespace
+  {
+    template <int dim>
+    using Leaf = std::pair<dealii::BoundingBox<dim>, unsigned int>;
+
+    template <int dim>
+    using Tree = dealii::RTree<Leaf<dim>>;
+
+
+    /// Call action(facet) for all facets whose boxes meet a box.
+    template <int dim, class Action>
+    void
+    for_each_near(const Tree<dim> &tree, const dealii::BoundingBox<dim> &box, const Action &action)
+    {
+      tree.query(
+        boost::geometry::index::intersects(box),
+        boost::make_function_output_iterator([&](const Leaf<dim> &leaf) { action(leaf.second); }));
+    }
+
+
+    template <int dim, std::size_t n>
+    dealii::BoundingBox<dim>
+    box_around(const std::array<dealii::Point<dim>, n> &points, const double thickness)
+    {
+      std::pair<dealii::Point<dim>, dealii::Point<dim>> corners(points[0], points[0]);
+      for (const auto &point : points)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            corners.first[d]  = std::min(corners.first[d], point[d]);
+            corners.second[d] = std::max(corners.second[d], point[d]);
+          }
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          corners.first[d] -= thickness;
+          corners.second[d] += thickness;
+        }
+      return dealii::BoundingBox<dim>(corners);
+    }
+
+    template <int dim>
+    dealii::BoundingBox<dim>
+    box_around(const dealii::Point<dim> &point, const double thickness)
+    {
+      return box_around(std::array<dealii::Point<dim>, 1>{{point}}, thickness);
+    }
+
+    template <int dim>
+    dealii::BoundingBox<dim>
+    box_around(const dealii::Point<dim> &a, const dealii::Point<dim> &b, const double thickness)
+    {
+      return box_around(std::array<dealii::Point<dim>, 2>{{a, b}}, thickness);
+    }
+
+
+    /// Call action(shift) for the vectors of whole periods by which the box [lower, upper] can be
+    /// moved to meet `target`; in directions that are not periodic it is not moved.
+    template <int dim, class Action>
+    void
+    for_each_shift(const dealii::Point<dim>       &lower,
+                   const dealii::Point<dim>       &upper,
+                   const dealii::BoundingBox<dim> &target,
+                   const std::array<double, dim>  &periods,
+                   const Action                   &action)
+    {
+      IndexBox<dim> shifts{{}, all_directions<dim>(1)};
+      for (unsigned int d = 0; d < dim; ++d)
+        if (periods[d] > 0)
+          {
+            shifts.lower[d] = std::ceil((target.lower_bound(d) - upper[d]) / periods[d]);
+            shifts.upper[d] = std::floor((target.upper_bound(d) - lower[d]) / periods[d]) + 1;
+          }
+      for_each(shifts, [&](const GridIndex<dim> &index) {
+        dealii::Tensor<1, dim> shift;
+        for (unsigned int d = 0; d < dim; ++d)
+          shift[d] = index[d] * periods[d];
+        action(shift);
+      });
+    }
+  } // namespace
+
+
+  template <int dim>
+  struct SurfaceQueries<dim>::Trees
+  {
+    Trees(const std::vector<Leaf<dim>> &boxes, const std::vector<Leaf<dim>> &swept_boxes)
+      : facets(dealii::pack_rtree(boxes))
+      , swept(dealii::pack_rtree(swept_boxes))
+      , box(join(boxes))
+      , swept_box(join(swept_boxes))
+    {
+    }
+
+    static dealii::BoundingBox<dim>
+    join(const std::vector<Leaf<dim>> &leaves)
+    {
+      dealii::BoundingBox<dim> result;
+      for (std::size_t k = 0; k < leaves.size(); ++k)
+        if (k == 0)
+          result = leaves[k].first;
+        else
+          result.merge_with(leaves[k].first);
+      return result;
+    }
+
+    Tree<dim>                facets; ///< where they are
+    Tree<dim>                swept;  ///< what those that moved have passed over
+    dealii::BoundingBox<dim> box;    ///< around the former
+    dealii::BoundingBox<dim> swept_box;
+  };
+
+
+  template <int dim>
+  SurfaceQueries<dim>::SurfaceQueries(const MacGrid<dim> &grid, MovedSurface<dim> moved_surface)
+    : moved(std::move(moved_surface))
+  {
+    double largest = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        periods[d] = grid.periodic(d) ? grid.upper()[d] - grid.lower()[d] : 0.;
+        largest    = std::max({largest, std::abs(grid.lower()[d]), std::abs(grid.upper()[d])});
+      }
+    thickness = tolerance * largest;
+
+    std::vector<Leaf<dim>> boxes, swept_boxes;
+    const auto            &facets = moved.surface->facets();
+    for (unsigned int facet = 0; facet < facets.size(); ++facet)
+      {
+        const auto after = nodes(facet), before = old_nodes(facet);
+        boxes.emplace_back(box_around(after, thickness), facet);
+        if (after == before)
+          continue;
+        swept_boxes.emplace_back(boxes.back().first, facet);
+        swept_boxes.back().first.merge_with(box_around(before, thickness));
+      }
+    trees = std::make_unique<const Trees>(boxes, swept_boxes);
+  }
+
+
+  template <int dim>
+  SurfaceQueries<dim>::~SurfaceQueries() = default;
+
+
+  template <int dim>
+  std::array<dealii::Point<dim>, dim>
+  SurfaceQueries<dim>::nodes(const unsigned int facet) const
+  {
+    FacetNodes<dim> result;
+    for (unsigned int k = 0; k < dim; ++k)
+      result[k] = moved.positions[moved.surface->facets()[facet][k]];
+    return result;
+  }
+
+
+  template <int dim>
+  std::array<dealii::Point<dim>, dim>
+  SurfaceQueries<dim>::old_nodes(const unsigned int facet) const
+  {
+    FacetNodes<dim> result;
+    for (unsigned int k = 0; k < dim; ++k)
+      result[k] = moved.old_positions[moved.surface->facets()[facet][k]];
+    return result;
+  }
+
+
+  template <int dim>
+  double
+  SurfaceQueries<dim>::first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
+  {
+    double result = std::numeric_limits<double>::infinity();
+    if (trees->facets.empty())
+      return result;
+    const auto box     = box_around(from, to, thickness);
+    const auto try_way = [&](const dealii::Tensor<1, dim> &shift) {
+      const dealii::Point<dim> start = from + shift, end = to + shift;
+      for_each_near(
+        trees->facets, box_around(start, end, thickness), [&](const unsigned int facet) {
+          result = std::min(result, undine::first_hit<dim>(nodes(facet), start, end, thickness));
+        });
+    };
+    for_each_shift<dim>(box.get_boundary_points().first,
+                        box.get_boundary_points().second,
+                        trees->box,
+                        periods,
+                        try_way);
+    return result;
+  }
+
+
+  template <int dim>
+  bool
+  SurfaceQueries<dim>::swept(const dealii::Point<dim> &place) const
+  {
+    bool result = false;
+    if (trees->swept.empty())
+      return result;
+    for_each_shift<dim>(
+      place, place, trees->swept_box, periods, [&](const dealii::Tensor<1, dim> &shift) {
+        const dealii::Point<dim> moved_place = place + shift;
+        for_each_near(
+          trees->swept, box_around(moved_place, thickness), [&](const unsigned int facet) {
+            if (result)
+              return;
+            const auto                   &numbers = moved.surface->facets()[facet];
+            std::array<unsigned int, dim> order;
+            for (unsigned int k = 0; k < dim; ++k)
+              order[k] = k;
+            std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+              return numbers[a] < numbers[b];
+            });
+            result =
+              passes_over<dim>(old_nodes(facet), nodes(facet), order, moved_place, thickness);
+          });
+      });
+    return result;
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  SurfaceQueries<dim>::nearest_velocity(const dealii::Point<dim> &place) const
+  {
+    dealii::Tensor<1, dim> velocity;
+    if (trees->facets.empty())
+      return velocity;
+    double     least    = std::numeric_limits<double>::infinity(); // square of the distance
+    const auto consider = [&](const unsigned int facet, const dealii::Point<dim> &image) {
+      const auto         corners     = nodes(facet);
+      const auto         coordinates = nearest_point(corners, image);
+      dealii::Point<dim> nearest;
+      for (unsigned int k = 0; k < dim; ++k)
+        nearest += coordinates[k] * corners[k];
+      const double square = nearest.distance_square(image);
+      if (square >= least)
+        return;
+      least    = square;
+      velocity = 0;
+      for (unsigned int k = 0; k < dim; ++k)
+        velocity += coordinates[k] * moved.velocities[moved.surface->facets()[facet][k]];
+    };
+
+    // The facet with the nearest box tells how far one has to look at most.
+    namespace index = boost::geometry::index;
+    auto reach      = trees->box;
+    reach.extend(*std::max_element(periods.begin(), periods.end()));
+    for (unsigned int pass = 0; pass < 2; ++pass)
+      {
+        for_each_shift<dim>(place, place, reach, periods, [&](const dealii::Tensor<1, dim> &shift) {
+          const dealii::Point<dim> image = place + shift;
+          if (pass == 0)
+            trees->facets.query(index::nearest(image, 1),
+                                boost::make_function_output_iterator(
+                                  [&](const Leaf<dim> &leaf) { consider(leaf.second, image); }));
+          else
+            for_each_near(trees->facets,
+                          box_around(image, std::sqrt(least)),
+                          [&](const unsigned int facet) { consider(facet, image); });
+        });
+        reach = trees->box;
+        reach.extend(std::sqrt(least));
+      }
+    return velocity;
+  }
+
+
+  template class SurfaceQueries<2>;
+  template class SurfaceQueries<3>;
+} // namespace undine

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/interface/cut_report.h>
+
+#include <catch2/catch.hpp>
+#include <interface/wrong_bodies.h>
+
+#include <limits>
+
+using namespace undine_tests;
+using Catch::Matchers::Contains;
+
+namespace
+{
+  template <int dim>
+  Surface<dim>
+  without_first_facet(const Bodies<dim> &bodies)
+  {
+    auto fewer = bodies;
+    fewer.facets.erase(fewer.facets.begin());
+    fewer.bodies.erase(fewer.bodies.begin());
+    return fewer.surface();
+  }
+
+
+  template <int dim>
+  std::array<int, dim>
+  cells_of_one()
+  {
+    std::array<int, dim> result;
+    result.fill(1);
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  check_surfaces()
+  {
+    const auto body = box<dim>(all_equal<dim>(1.), all_equal<dim>(2.), cells_of_one<dim>());
+    CHECK_NOTHROW(check_closed(body.surface(), body.nodes));
+    CHECK_THROWS_WITH(check_closed(without_first_facet(body), body.nodes),
+                      Contains("'body 0' is open"));
+
+    auto twice = body;
+    twice.append_to_body(body, 0);
+    for (auto &facet : twice.facets)
+      for (auto &node : facet)
+        node %= body.nodes.size();
+    CHECK_THROWS_WITH(check_closed(twice.surface(), twice.nodes), Contains("branches"));
+
+    auto one_flipped = body;
+    std::swap(one_flipped.facets[0][0], one_flipped.facets[0][1]);
+    CHECK_THROWS_AS(check_closed(one_flipped.surface(), one_flipped.nodes), InputError);
+
+    auto shared      = body;
+    shared.bodies[0] = 1;
+    shared.n_bodies  = 2;
+    CHECK_THROWS_WITH(check_closed(shared.surface(), shared.nodes), Contains("another body"));
+
+    auto degenerate         = body;
+    degenerate.facets[0][1] = degenerate.facets[0][0];
+    CHECK_THROWS_AS(degenerate.surface(), InputError);
+    degenerate.facets[0][1] = 1000;
+    CHECK_THROWS_AS(degenerate.surface(), InputError);
+  }
+
+
+  template <int dim>
+  void
+  check_inside_out()
+  {
+    auto body = ball<dim>(1, 2.);
+    CHECK_NOTHROW(check_positions(body.surface(), body.nodes));
+    body.flip();
+    CHECK_THROWS_WITH(check_positions(body.surface(), body.nodes),
+                      Contains("'body 0' is inside out"));
+    auto nan  = body.nodes;
+    nan[0][1] = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(check_positions(body.surface(), nan), SolveError);
+    Planes<dim> planes;
+    planes.fill({0., 1., 2.});
+    const auto surface = body.surface();
+    CHECK_THROWS_AS(cut_all<dim>(planes, surface, nan), SolveError);
+  }
+} // namespace
+
+
+TEST_CASE("Surfaces that are not closed are named", "[interface]")
+{
+  check_surfaces<2>();
+  check_surfaces<3>();
+}
+
+
+TEST_CASE("Bodies that are inside out or nowhere are named", "[interface]")
+{
+  check_inside_out<2>();
+  check_inside_out<3>();
+}
+
+
+TEST_CASE("Wrong bodies give results that are well formed", "[interface]")
+{
+  for (const auto &kind : wrong_kinds<2>())
+    for (int number = 0; number < 20; ++number)
+      CHECK_NOTHROW(try_wrong(kind, 3, number));
+  for (const auto &kind : wrong_kinds<3>())
+    for (int number = 0; number < 4; ++number)
+      {
+        const auto outcome = try_wrong(kind, 3, number);
+        INFO(kind.name << ' ' << number << ": " << outcome.text());
+        CHECK(outcome.closure <= 1e-13);
+        if (kind.name != "overlapping balls")
+          CHECK(outcome.flagged > 0);
+      }
+}
+
+
+TEST_CASE("Overlaps without a node in them are flagged and close exactly", "[interface]")
+{
+  auto bodies = box<3>({1.25, 1.25, 1.25}, {2.75, 2.75, 2.75}, {{1, 1, 1}});
+  bodies.append(box<3>({2.25, 1.5, 1.5}, {4.25, 3.5, 3.5}, {{1, 1, 1}}));
+  Planes<3> planes;
+  planes.fill({0., 1., 2., 3., 4., 5.});
+  const auto surface = bodies.surface();
+  const auto cut     = cut_all<3>(planes, surface, bodies.nodes);
+  const auto result  = report(cut, surface, MPI_COMM_SELF);
+  CHECK(result.flagged_cells > 0);
+  CHECK(result.sampled_cells == 0);
+  CHECK_THAT(result.message,
+             Contains("Bodies 'body 0' and 'body 1' near (") && Contains("wrong order"));
+  Random     random(1);
+  const auto defects = check_cut(cut, bodies, surface, random);
+  CHECK(defects.closure <= 1e-12);
+  CHECK(defects.volume <= 1e-14);
+}
+
+
+TEST_CASE("Overlaps with a node in them are sampled", "[interface]")
+{
+  auto bodies = box<3>({1.25, 1.25, 1.25}, {3.25, 3.25, 3.25}, {{1, 1, 1}});
+  bodies.append(box<3>({2.75, 1.5, 1.5}, {4.25, 3.5, 3.5}, {{1, 1, 1}}));
+  Planes<3> planes;
+  planes.fill({0., 1., 2., 3., 4., 5.});
+  const auto surface = bodies.surface();
+  const auto cut     = cut_all<3>(planes, surface, bodies.nodes);
+  const auto result  = report(cut, surface, MPI_COMM_SELF);
+  CHECK(result.sampled_cells > 0);
+  CHECK(result.sampled_cells < result.cut_cells);
+  CHECK_THAT(result.message, Contains("'body 0'") && Contains("two bodies"));
+
+  // Samples give the volume of the union to a part of a sample in each direction.
+  double volume = 0;
+  for (const double region : fluid_regions(cut, 0))
+    volume += region;
+  const double exact = 125 - 8 - 6 + .5 * 1.75 * 1.75;
+  CHECK(volume == Approx(exact).margin(.35));
+
+  // Every fragment of a sampled cell with fluid in it belongs to one of its components.
+  for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
+    for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
+      if (cut.cells[cell].flags != 0 && cut.end_component(cell) > cut.cells[cell].first_component)
+        {
+          CHECK(cut.fragments[f].component >= cut.cells[cell].first_component);
+          CHECK(cut.fragments[f].component < cut.end_component(cell));
+        }
+}
+
+
+TEST_CASE("An inverted body is flagged in every cell with a node in it", "[interface]")
+{
+  auto body = ball<2>(2, 1.2);
+  body.flip();
+  body.shift(dealii::Tensor<1, 2>({2., 2.}));
+  Planes<2> planes;
+  planes.fill({0., 1., 2., 3., 4.});
+  const auto surface = body.surface();
+  const auto result  = report(cut_all<2>(planes, surface, body.nodes), surface, MPI_COMM_SELF);
+  CHECK(result.flagged_cells == result.cut_cells);
+  CHECK_THAT(result.message, Contains("inside-out"));
+}
