@@ -68,8 +68,8 @@ namespace undine
 
   /// Energies and momentum; volume, its drift (V / V(t = 0) - 1), centre of mass, largest speed and
   /// balance of momentum of every body; and the force of every support ("reaction beam/root x").
-  /// `report` is that of the step that led to `state`: with an empty one, balances and reactions are
-  /// zero. In 2D energies and forces are those of 1 m of depth. Collective.
+  /// `report` is that of the step that led to `state`: with an empty one, balances and reactions
+  /// are zero. In 2D energies and forces are those of 1 m of depth. Collective.
   template <int dim>
   Columns
   solid_columns(const SolidModel<dim>       &model,
