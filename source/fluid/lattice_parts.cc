@@ -15,22 +15,6 @@ namespace undine
     using Name = std::pair<std::size_t, int>;
 
 
-    /// The owned points of this rank and one layer around them, as far as there are points.
-    template <int dim>
-    IndexBox<dim>
-    known_points(const Lattice<dim> &lattice)
-    {
-      auto box = lattice.owned().grown(all_directions<dim>(1));
-      for (unsigned int d = 0; d < dim; ++d)
-        if (!lattice.row(d).periodic())
-          {
-            box.lower[d] = std::max(box.lower[d], 0);
-            box.upper[d] = std::min(box.upper[d], lattice.row(d).size());
-          }
-      return box;
-    }
-
-
     template <int dim>
     unsigned int
     owner(const Lattice<dim> &lattice, const GridIndex<dim> &index)
@@ -43,6 +27,21 @@ namespace undine
       return blocks.rank_of_block(block);
     }
   } // namespace
+
+
+  template <int dim>
+  IndexBox<dim>
+  known_points(const Lattice<dim> &lattice)
+  {
+    auto box = lattice.owned().grown(all_directions<dim>(1));
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!lattice.row(d).periodic())
+        {
+          box.lower[d] = std::max(box.lower[d], 0);
+          box.upper[d] = std::min(box.upper[d], lattice.row(d).size());
+        }
+    return box;
+  }
 
 
   template <int dim>
@@ -134,6 +133,10 @@ namespace undine
   }
 
 
+  template IndexBox<2>
+  known_points(const Lattice<2> &);
+  template IndexBox<3>
+  known_points(const Lattice<3> &);
   template class LatticeParts<2>;
   template class LatticeParts<3>;
 } // namespace undine

@@ -24,21 +24,6 @@ namespace undine
 
 
   template <int dim>
-  IndexBox<dim>
-  known_points(const Lattice<dim> &lattice)
-  {
-    auto box = lattice.owned().grown(all_directions<dim>(1));
-    for (unsigned int d = 0; d < dim; ++d)
-      if (!lattice.row(d).periodic())
-        {
-          box.lower[d] = std::max(box.lower[d], 0);
-          box.upper[d] = std::min(box.upper[d], lattice.row(d).size());
-        }
-    return box;
-  }
-
-
-  template <int dim>
   LatticeParts<dim>
   make_exchanged_parts(
     const std::shared_ptr<const Lattice<dim>>                                          &lattice,
@@ -90,11 +75,10 @@ namespace undine
   }
 
 
-#define UNDINE_INSTANTIATE(dim)                                  \
-  template IndexBox<dim>     known_points(const Lattice<dim> &); \
-  template LatticeParts<dim> make_exchanged_parts(               \
-    const std::shared_ptr<const Lattice<dim>> &,                 \
-    Field<dim>,                                                  \
+#define UNDINE_INSTANTIATE(dim)                    \
+  template LatticeParts<dim> make_exchanged_parts( \
+    const std::shared_ptr<const Lattice<dim>> &,   \
+    Field<dim>,                                    \
     const std::function<typename LatticeParts<dim>::Part(const GridIndex<dim> &, int)> &);
 
   UNDINE_INSTANTIATE(2)

@@ -68,10 +68,17 @@ namespace undine
           joined(body_surface->surface(), all_obstacles.surface()));
         rest = joined(body_surface->positions(solid->vector()), rest);
       }
-    check_closed(*all_facets, rest);
-    const auto complaint = periodic_complaint(rest);
-    if (!complaint.empty())
-      throw InputError(complaint);
+    try
+      {
+        check_closed(*all_facets, rest);
+        const auto complaint = periodic_complaint(rest);
+        if (!complaint.empty())
+          throw InputError(complaint);
+      }
+    catch (const InputError &error)
+      {
+        throw InputError(fmt::format("{}: {}", scene.file().name(), error.what()));
+      }
   }
 
 
@@ -93,6 +100,7 @@ namespace undine
                                    const double      time,
                                    const double      dt) const
   {
+    positions(state, time + dt); // obstacles must arrive somewhere
     auto result = all_obstacles.velocities(time, dt);
     if (body_surface)
       result = joined(body_surface->gather(state.velocity), result);

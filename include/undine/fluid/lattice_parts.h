@@ -13,6 +13,11 @@
 
 namespace undine
 {
+  /// The owned points of this rank and one layer around them, as far as there are points.
+  template <int dim>
+  IndexBox<dim>
+  known_points(const Lattice<dim> &lattice);
+
   /// How bodies divide the points of a lattice: a cell into the connected components of its fluid,
   /// a face into its open pieces. At a divided point a field has one value for each part (see
   /// Field::part) and its value on the lattice is a mean: of a cell over the volume of its fluid,

@@ -27,12 +27,6 @@ namespace undine
     for_each(box, [&](const GridIndex<dim> &first) { action(first, n); });
   }
 
-  /// The owned points of this rank and one layer around them, as far as there are points: those
-  /// that LatticeParts knows.
-  template <int dim>
-  IndexBox<dim>
-  known_points(const Lattice<dim> &lattice);
-
   /// The parts of a lattice's points, from those of the points that each rank owns: their counts,
   /// and part(index, number in its point). Images lie where their points have images. Collective.
   template <int dim>

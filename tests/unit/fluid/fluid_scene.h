@@ -9,6 +9,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <fmt/format.h>
+#include <message_of.h>
 
 #include <cmath>
 #include <cstdio>
@@ -136,23 +137,6 @@ namespace undine_tests
     for_each(lattice.owned(),
              [&](const GridIndex<dim> &index) { result = std::max(result, value(index)); });
     return dealii::Utilities::MPI::max(result, lattice.blocks().communicator());
-  }
-
-
-  /// What an action's InputError or SolveError says.
-  template <class Action>
-  std::string
-  message_of(const Action &action)
-  {
-    try
-      {
-        action();
-      }
-    catch (const Error &error)
-      {
-        return error.what();
-      }
-    return "no error";
   }
 } // namespace undine_tests
 

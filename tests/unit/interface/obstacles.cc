@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <interface/cut_checks.h>
 #include <interface/immersed.h>
+#include <message_of.h>
 #include <solid/solid_scene.h>
 
 #include <cmath>
@@ -32,22 +33,6 @@ namespace
       for (int i = 0; i <= cells; ++i)
         planes[d].push_back(i / double(cells));
     return planes;
-  }
-
-
-  template <class Action>
-  std::string
-  message_of(const Action &action)
-  {
-    try
-      {
-        action();
-      }
-    catch (const Error &error)
-      {
-        return error.what();
-      }
-    return "no error";
   }
 
 
