@@ -169,7 +169,8 @@ namespace undine
         file.set(assignment);
       // The copy of the scene in the folder of the run must find the same files.
       if (file.find("Folder of files") == nullptr)
-        file.set("Folder of files=" + std::filesystem::absolute(file.folder()).string());
+        file.set("Folder of files=" +
+                 std::filesystem::absolute("." / file.folder()).lexically_normal().string());
       return file;
     }
   } // namespace

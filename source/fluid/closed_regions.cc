@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/boundary_condition.h>
 #include <undine/fluid/closed_regions.h>
 #include <undine/fluid/fluid_quantities.h>
 #include <undine/fluid/fluid_regions.h>
@@ -139,17 +140,27 @@ namespace undine
           complain(complaint);
         return;
       }
-    // Faces between cells cancel in the sum over a region; what remains is held.
-    auto held = velocity;
+    // Faces between cells cancel in the sum over a region; only what is held counts.
+    Velocity<dim> held;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      held[axis] = Field<dim>(velocity[axis].shared_lattice(), velocity[axis].open_parts());
+    set_boundary_velocity(held, model, time);
     exchange(held);
-    auto fluxes = divergence(model, held);
-    for (std::size_t c = 0; c < body_fluxes.size(); ++c)
-      fluxes.parts()[c] += body_fluxes[c];
-    std::vector<double> net;
-    for_each_value(fluxes,
-                   [&](const double flux, const auto &, const auto &) { net.push_back(flux); });
-    const auto sum  = sums([&](const std::size_t k) { return net[k]; });
-    const auto size = sums([&](const std::size_t k) { return std::abs(net[k]); });
+    const auto fluxes = divergence(model, held);
+    Field<dim> pushed(fluxes.shared_lattice(), fluxes.open_parts());
+    std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
+    const auto values = [](const Field<dim> &field) {
+      std::vector<double> result;
+      for_each_value(
+        field, [&](const double value, const auto &, const auto &) { result.push_back(value); });
+      return result;
+    };
+    const auto through_boundary = values(fluxes), from_bodies = values(pushed);
+    const auto sum =
+      sums([&](const std::size_t k) { return through_boundary[k] + from_bodies[k]; });
+    const auto size = sums([&](const std::size_t k) {
+      return std::abs(through_boundary[k]) + std::abs(from_bodies[k]);
+    });
     for (std::size_t region = 0; region < sum.size(); ++region)
       if (std::abs(sum[region]) > 1e-8 * size[region])
         complain(fmt::format("in sum {:.6g} m^{}/s flow out of a part of the fluid of {:.6g} m^{} "

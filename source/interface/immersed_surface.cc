@@ -68,10 +68,17 @@ namespace undine
           joined(body_surface->surface(), all_obstacles.surface()));
         rest = joined(body_surface->positions(solid->vector()), rest);
       }
-    check_closed(*all_facets, rest);
-    const auto complaint = periodic_complaint(rest);
-    if (!complaint.empty())
-      throw InputError(complaint);
+    try
+      {
+        check_closed(*all_facets, rest);
+        const auto complaint = periodic_complaint(rest);
+        if (!complaint.empty())
+          throw InputError(complaint);
+      }
+    catch (const InputError &error)
+      {
+        throw InputError(fmt::format("{}: {}", scene.file().name(), error.what()));
+      }
   }
 
 

@@ -48,8 +48,8 @@ namespace undine
     double
     value_at(const dealii::Point<dim> &foot) const;
 
-    /// Components to which nothing was brought take the mean of their neighbours, the nearer ones
-    /// first; divided points take the mean of their parts. Collective.
+    /// Cells and components to which nothing was brought take the mean of their neighbours, the
+    /// nearer ones first; divided points take the mean of their parts. Collective.
     void
     finish(Field<dim> &carried) const;
 
