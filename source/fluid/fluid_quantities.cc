@@ -123,9 +123,12 @@ namespace undine
   largest_divergence(const FluidModel<dim> &model, const Field<dim> &fluxes)
   {
     double largest = 0;
+    bool   finite  = true;
     for_each_value(fluxes, [&](const double flux, const auto &, const GridIndex<dim> &cell) {
+      finite  = finite && std::isfinite(flux);
       largest = std::max(largest, std::abs(flux) / flux_area(model.grid(), cell));
     });
+    check_finite(finite, model.grid().communicator());
     return dealii::Utilities::MPI::max(largest, model.grid().communicator());
   }
 

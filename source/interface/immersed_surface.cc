@@ -100,6 +100,7 @@ namespace undine
                                    const double      time,
                                    const double      dt) const
   {
+    positions(state, time + dt); // obstacles must arrive somewhere
     auto result = all_obstacles.velocities(time, dt);
     if (body_surface)
       result = joined(body_surface->gather(state.velocity), result);

@@ -58,7 +58,7 @@ namespace undine
     positions(const SolidState &state, const double time) const;
 
     /// How they move, bodies by their velocity, obstacles in a step of `dt` from `time` on [m/s].
-    /// Collective.
+    /// Throws SolveError as check() does if obstacles cannot be at its end. Collective.
     std::vector<dealii::Tensor<1, dim>>
     velocities(const SolidState &state, const double time, const double dt) const;
 
