@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace undine
 {
@@ -59,6 +60,31 @@ namespace undine
     for_each(box,
              [&](const GridIndex<dim> &cell) { touched[box.position(cell)] = marks(cell) > 0; });
     vicinity = dilated(touched, box, margin);
+    find_extent();
+  }
+
+
+  template <int dim>
+  void
+  BodyVicinity<dim>::find_extent()
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    lowest.fill(infinity);
+    highest.fill(-infinity);
+    for_each(box, [&](const GridIndex<dim> &cell) {
+      if (!vicinity[box.position(cell)])
+        return;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const int  last     = grid->cells_along()[d] - 1;
+          const bool periodic = grid->periodic(d);
+          // Places beyond a boundary belong to the cell there.
+          const double low  = periodic || cell[d] <= 0 ? -infinity : grid->planes(d)[cell[d]];
+          const double high = periodic || cell[d] >= last ? infinity : grid->planes(d)[cell[d] + 1];
+          lowest[d]         = std::min(lowest[d], low);
+          highest[d]        = std::max(highest[d], high);
+        }
+    });
   }
 
 
@@ -68,6 +94,9 @@ namespace undine
   {
     if (grid == nullptr)
       return false;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (std::max(from[d], to[d]) < lowest[d] || std::min(from[d], to[d]) > highest[d])
+        return false;
     const auto begin = grid->cell_at(from), end = grid->cell_at(to);
     int        longest = 0;
     for (unsigned int d = 0; d < dim; ++d)

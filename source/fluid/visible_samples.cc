@@ -99,7 +99,9 @@ namespace undine
 
   template <int dim>
   std::optional<double>
-  VisibleSamples<dim>::value_of(const GridIndex<dim> &index, const dealii::Point<dim> &place) const
+  VisibleSamples<dim>::value_of(const GridIndex<dim>     &index,
+                                const dealii::Point<dim> &place,
+                                const bool                all_visible) const
   {
     using Kind          = typename LatticeParts<dim>::Kind;
     const auto &lattice = field.lattice();
@@ -113,7 +115,8 @@ namespace undine
     if (kind == Kind::whole)
       {
         const auto sample = lattice.point(index);
-        const bool counts = is_visible(sample, place) && !obstruction.swept(sample);
+        const bool counts =
+          (all_visible || is_visible(sample, place)) && !obstruction.swept(sample);
         return counts ? std::optional<double>(field(index)) : std::nullopt;
       }
     const auto found =
@@ -144,6 +147,11 @@ namespace undine
         lower[d]           = bracket.lower;
         weights[d]         = bracket.weight;
       }
+    auto upper = lower;
+    for (unsigned int d = 0; d < dim; ++d)
+      ++upper[d];
+    const bool all_visible =
+      vicinity.is_clear(field.lattice().point(lower), field.lattice().point(upper));
     double sum = 0, total = 0, raised_sum = 0, raised_total = 0;
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {
@@ -151,11 +159,11 @@ namespace undine
         double weight = 1;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const int upper = (corner >> d) & 1;
-            index[d] += upper;
-            weight *= upper == 1 ? weights[d] : 1 - weights[d];
+            const int above = (corner >> d) & 1;
+            index[d] += above;
+            weight *= above == 1 ? weights[d] : 1 - weights[d];
           }
-        if (const auto value = value_of(index, place))
+        if (const auto value = value_of(index, place, all_visible))
           {
             sum += weight * *value;
             total += weight;

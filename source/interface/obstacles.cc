@@ -154,6 +154,41 @@ namespace undine
                                      "Try: a map that is one-to-one and keeps the orientation.");
       return result;
     }
+
+
+    /// Add to the velocities along the normals what makes the flux through the surface at `before`
+    /// the rate at which the volume of each obstacle grows from `before` to `after`.
+    template <int dim>
+    void
+    balance_volumes(std::vector<dealii::Tensor<1, dim>>   &velocities,
+                    const Surface<dim>                    &surface,
+                    const std::vector<dealii::Point<dim>> &before,
+                    const std::vector<dealii::Point<dim>> &after,
+                    const double                           dt)
+    {
+      const auto                          old_volumes = body_volumes(surface, before);
+      const auto                          new_volumes = body_volumes(surface, after);
+      std::vector<dealii::Tensor<1, dim>> normals(before.size()); // int N n dGamma of each node
+      std::vector<unsigned int>           body_of_node(before.size(), 0);
+      for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
+        for (const unsigned int node : surface.facets()[facet])
+          {
+            normals[node] += area_vector(surface, facet, before) / dim;
+            body_of_node[node] = surface.body(facet);
+          }
+      std::vector<double> missing(old_volumes.size()), areas(old_volumes.size(), 0.);
+      for (unsigned int b = 0; b < missing.size(); ++b)
+        missing[b] = (new_volumes[b] - old_volumes[b]) / dt;
+      for (unsigned int node = 0; node < before.size(); ++node)
+        {
+          missing[body_of_node[node]] -= velocities[node] * normals[node];
+          areas[body_of_node[node]] += normals[node].norm();
+        }
+      for (unsigned int node = 0; node < before.size(); ++node)
+        if (const double area = normals[node].norm(); area > 0)
+          velocities[node] +=
+            missing[body_of_node[node]] / areas[body_of_node[node]] / area * normals[node];
+    }
   } // namespace
 
 
@@ -222,6 +257,8 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>> result(before.size());
     for (unsigned int node = 0; node < result.size(); ++node)
       result[node] = (after[node] - before[node]) / dt;
+    if (move())
+      balance_volumes(result, *all_facets, before, after, dt);
     return result;
   }
 

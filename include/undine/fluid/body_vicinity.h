@@ -5,6 +5,7 @@
 #include <undine/fluid/field.h>
 #include <undine/fluid/mac_grid.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -41,10 +42,16 @@ namespace undine
     is_clear(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
 
   private:
+    void
+    find_extent();
+
     const MacGrid<dim>       *grid = nullptr; ///< nullptr: no bodies
     IndexBox<dim>             box;
     std::vector<std::uint8_t> touched;  ///< cells with a body in them
     std::vector<std::uint8_t> vicinity; ///< and `margin` layers around
+
+    /// Around all of `vicinity` [m]; infinite where it reaches a boundary or along periodic axes.
+    std::array<double, dim> lowest, highest;
   };
 } // namespace undine
 

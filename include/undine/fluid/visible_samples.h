@@ -44,9 +44,11 @@ namespace undine
     bool
     is_visible(const dealii::Point<dim> &sample, const dealii::Point<dim> &place) const;
 
-    /// Mean of what can be seen of one point of the lattice.
+    /// Mean of what can be seen of one point of the lattice; `all_visible`: nothing can hide it.
     std::optional<double>
-    value_of(const GridIndex<dim> &index, const dealii::Point<dim> &place) const;
+    value_of(const GridIndex<dim>     &index,
+             const dealii::Point<dim> &place,
+             const bool                all_visible) const;
 
     const Field<dim>                          &field;
     const Obstruction<dim>                    &obstruction;

@@ -39,8 +39,10 @@ namespace undine
     std::vector<dealii::Point<dim>>
     positions(const double time) const;
 
-    /// Of the nodes in a step from `time` on: (x(time + dt) - x(time)) / dt [m/s], so that they
-    /// arrive where they shall be.
+    /// Of the nodes in a step from `time` on [m/s]: (x(time + dt) - x(time)) / dt, so that they
+    /// arrive where they shall be, and a little along the normals, so that the flux through the
+    /// surface at `time` is the growth of the obstacle's volume in the step: none if it is rigid,
+    /// also if it turns.
     std::vector<dealii::Tensor<1, dim>>
     velocities(const double time, const double dt) const;
 

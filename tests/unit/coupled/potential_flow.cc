@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <coupled/obstacle_run.h>
+
+using namespace undine_tests;
+
+namespace
+{
+  constexpr double density = 700, radius = .3, step = .01;
+
+  /// The pressure impulse of a cylinder or ball of speed 1 along x that starts in a fluid at rest,
+  /// -rho phi (Lamb, Hydrodynamics, articles 68 and 92) [Pa s].
+  template <int dim>
+  double
+  impulse(const dealii::Point<dim> &place)
+  {
+    return density * place[0] * std::pow(radius / place.norm(), dim) / (dim - 1);
+  }
+
+
+  /// Of the fluid around a body, rho times its added volume [kg].
+  template <int dim>
+  constexpr double added_mass =
+    dim == 2 ? density *M_PI *radius *radius : 2. / 3 * M_PI *density *radius *radius *radius;
+
+
+  struct Errors
+  {
+    double pressure; ///< root mean square over the surface, of the impulse
+    double largest;  ///< at the surface
+    double force;    ///< relative
+  };
+
+
+  /// The body starts in a box on whose sides the exact pressure is given.
+  template <int dim>
+  Errors
+  start_impulsively(const unsigned int cells, const dealii::Tensor<1, dim> &shift)
+  {
+    std::string centre, corner, number, square;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const std::string comma = d == 0 ? "" : ", ";
+        centre += comma + "0";
+        corner += fmt::format("{}{:.17g}", comma, shift[d]);
+        number += comma + std::to_string(cells);
+        square += std::string(d == 0 ? "" : "+") + "xyz"[d] + "^2";
+      }
+    std::string upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      upper += fmt::format("{}{:.17g}", d == 0 ? "" : ", ", shift[d] + 2);
+    const std::string exact = fmt::format(
+      "{:.17g}*x/({})^({}/2)", density * std::pow(radius, dim) / (dim - 1) / step, square, dim);
+    const auto options = read_scene_text(
+      section("Domain",
+              "set Lower corner = " + corner + "\nset Upper corner = " + upper +
+                "\nset Cells = " + number) +
+      section(
+        "Fluid",
+        fmt::format("set Density = {}\n", density) +
+          section("Boundaries",
+                  boundary("far", every_side<dim>(), "pressure", "set Pressure = " + exact))) +
+      section("Obstacles",
+              obstacle("body",
+                       "ball",
+                       "set Centre = " + centre + fmt::format("\nset Radius = {}", radius) +
+                         "\nset Refinements = " + (dim == 2 ? "8" : "4"))));
+    const auto models   = make_models<dim>(options);
+    const auto nodes    = models.surface->positions({}, 0);
+    auto       velocity = std::vector<dealii::Tensor<1, dim>>(nodes.size());
+    for (auto &v : velocity)
+      v[0] = 1;
+    FluidGeometry<dim> geometry(models);
+    geometry.place(nodes, nodes, velocity);
+    auto            state = models.fluid->initial_state(geometry.bodies().open_parts);
+    Projection<dim> projection(*models.fluid);
+    projection.project(state, state.velocity, 0, step, geometry.fluxes());
+
+    Errors errors{};
+    double area = 0;
+    // Components at the surface: their pressures against the exact one where the surface is near.
+    for_each_value(state.pressure,
+                   [&](const double p, const dealii::Point<dim> &place, const auto &) {
+                     const double distance = place.norm() - radius;
+                     if (distance > 1. / cells)
+                       return;
+                     const double error =
+                       p * step - impulse<dim>(dealii::Point<dim>(radius / place.norm() * place));
+                     area += 1;
+                     errors.pressure += error * error;
+                     errors.largest = std::max(errors.largest, std::abs(error));
+                   });
+    area = dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD);
+    errors.pressure =
+      std::sqrt(dealii::Utilities::MPI::sum(errors.pressure, MPI_COMM_WORLD) / area) /
+      (density * radius);
+    errors.largest =
+      dealii::Utilities::MPI::max(errors.largest, MPI_COMM_WORLD) / (density * radius);
+    for (const auto &column : geometry.columns(state.pressure, {}, 0))
+      if (column.name == "pressure force body x")
+        errors.force = std::abs(column.value * step / added_mass<dim> + 1);
+    return errors;
+  }
+
+
+  /// Mean over several places of the grid, which errors depend on.
+  template <int dim>
+  Errors
+  mean_errors(const unsigned int cells)
+  {
+    Errors             mean{};
+    constexpr unsigned n_places = dim == 2 ? 5 : 2;
+    for (unsigned int place = 0; place < n_places; ++place)
+      {
+        dealii::Tensor<1, dim> shift;
+        for (unsigned int d = 0; d < dim; ++d)
+          shift[d] = -1 + .11 * std::sin(1. + 3 * place + 5 * d);
+        const auto errors = start_impulsively<dim>(cells, shift);
+        mean.pressure += errors.pressure / n_places;
+        mean.largest += errors.largest / n_places;
+        mean.force += errors.force / n_places;
+      }
+    return mean;
+  }
+
+
+  template <int dim>
+  void
+  check_orders(const unsigned int coarse, const unsigned int fine)
+  {
+    const auto   on_coarse = mean_errors<dim>(coarse), on_fine = mean_errors<dim>(fine);
+    const double ratio = std::log(double(fine) / coarse);
+    const auto   order = [&](const double a, const double b) { return std::log(a / b) / ratio; };
+    const double of_pressure = order(on_coarse.pressure, on_fine.pressure);
+    const double of_largest  = order(on_coarse.largest, on_fine.largest);
+    const double of_force    = order(on_coarse.force, on_fine.force);
+    INFO(fmt::format("{}D, {} and {} cells: pressure {:.2e} {:.2e} order {:.2f}, largest {:.2e} "
+                     "{:.2e} order {:.2f}, force {:.2e} {:.2e} order {:.2f}",
+                     dim,
+                     coarse,
+                     fine,
+                     on_coarse.pressure,
+                     on_fine.pressure,
+                     of_pressure,
+                     on_coarse.largest,
+                     on_fine.largest,
+                     of_largest,
+                     on_coarse.force,
+                     on_fine.force,
+                     of_force));
+    CHECK(of_pressure > .8);
+    CHECK(of_largest > .6);
+    CHECK(of_force > .8);
+  }
+} // namespace
+
+
+TEST_CASE("Potential flow about a cylinder and a ball converges to the exact one", "[coupled]")
+{
+  SECTION("2D")
+  {
+    check_orders<2>(20, 80);
+  }
+  SECTION("3D")
+  {
+    check_orders<3>(12, 36);
+  }
+}
