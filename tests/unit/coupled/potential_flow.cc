@@ -31,29 +31,31 @@ namespace
   };
 
 
-  /// The body starts in a box on whose sides the exact pressure is given.
+  /// A box of side 2 from `corner` on, on whose sides the exact pressure is given, and a ball at 0.
   template <int dim>
-  Errors
-  start_impulsively(const unsigned int cells, const dealii::Tensor<1, dim> &shift)
+  Options
+  scene(const unsigned int cells, const dealii::Point<dim> &corner)
   {
-    std::string centre, corner, number, square;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const std::string comma = d == 0 ? "" : ", ";
-        centre += comma + "0";
-        corner += fmt::format("{}{:.17g}", comma, shift[d]);
-        number += comma + std::to_string(cells);
-        square += std::string(d == 0 ? "" : "+") + "xyz"[d] + "^2";
-      }
-    std::string upper;
-    for (unsigned int d = 0; d < dim; ++d)
-      upper += fmt::format("{}{:.17g}", d == 0 ? "" : ", ", shift[d] + 2);
-    const std::string exact = fmt::format(
-      "{:.17g}*x/({})^({}/2)", density * std::pow(radius, dim) / (dim - 1) / step, square, dim);
-    const auto options = read_scene_text(
+    const auto along_all = [](const std::string &separator, const auto &value) {
+      std::string list;
+      for (unsigned int d = 0; d < dim; ++d)
+        list += (d == 0 ? "" : separator) + value(d);
+      return list;
+    };
+    const auto number = [](const double value) { return fmt::format("{:.17g}", value); };
+    const auto exact  = fmt::format(
+      "{:.17g}*x/({})^({}/2)",
+      density * std::pow(radius, dim) / (dim - 1) / step,
+      along_all("+", [](const unsigned int d) { return std::string(1, "xyz"[d]) + "^2"; }),
+      dim);
+    const auto lower = along_all(", ", [&](const unsigned int d) { return number(corner[d]); });
+    const auto upper = along_all(", ", [&](const unsigned int d) { return number(corner[d] + 2); });
+    const auto count = along_all(", ", [&](const unsigned int) { return number(cells); });
+    const auto zero  = along_all(", ", [&](const unsigned int) { return number(0); });
+    return read_scene_text(
       section("Domain",
-              "set Lower corner = " + corner + "\nset Upper corner = " + upper +
-                "\nset Cells = " + number) +
+              "set Lower corner = " + lower + "\nset Upper corner = " + upper +
+                "\nset Cells = " + count) +
       section(
         "Fluid",
         fmt::format("set Density = {}\n", density) +
@@ -62,9 +64,40 @@ namespace
       section("Obstacles",
               obstacle("body",
                        "ball",
-                       "set Centre = " + centre + fmt::format("\nset Radius = {}", radius) +
+                       "set Centre = " + zero + "\nset Radius = " + number(radius) +
                          "\nset Refinements = " + (dim == 2 ? "8" : "4"))));
-    const auto models   = make_models<dim>(options);
+  }
+
+
+  /// Of the pressure at the surface against the exact one.
+  template <int dim>
+  void
+  measure_pressure(Errors &errors, const Field<dim> &pressure, const double spacing)
+  {
+    double n = 0;
+    for_each_value(pressure, [&](const double p, const dealii::Point<dim> &place, const auto &) {
+      if (place.norm() - radius > spacing / 2)
+        return;
+      const auto   at_surface = dealii::Point<dim>(radius / place.norm() * place);
+      const double error      = p * step - impulse<dim>(at_surface);
+      n += 1;
+      errors.pressure += error * error;
+      errors.largest = std::max(errors.largest, std::abs(error));
+    });
+    namespace mpi = dealii::Utilities::MPI;
+    errors.pressure =
+      std::sqrt(mpi::sum(errors.pressure, MPI_COMM_WORLD) / mpi::sum(n, MPI_COMM_WORLD)) /
+      (density * radius);
+    errors.largest = mpi::max(errors.largest, MPI_COMM_WORLD) / (density * radius);
+  }
+
+
+  /// The body starts with speed 1 along x.
+  template <int dim>
+  Errors
+  start_impulsively(const unsigned int cells, const dealii::Point<dim> &corner)
+  {
+    const auto models   = make_models<dim>(scene<dim>(cells, corner));
     const auto nodes    = models.surface->positions({}, 0);
     auto       velocity = std::vector<dealii::Tensor<1, dim>>(nodes.size());
     for (auto &v : velocity)
@@ -76,25 +109,7 @@ namespace
     projection.project(state, state.velocity, 0, step, geometry.fluxes());
 
     Errors errors{};
-    double area = 0;
-    // Components at the surface: their pressures against the exact one where the surface is near.
-    for_each_value(state.pressure,
-                   [&](const double p, const dealii::Point<dim> &place, const auto &) {
-                     const double distance = place.norm() - radius;
-                     if (distance > 1. / cells)
-                       return;
-                     const double error =
-                       p * step - impulse<dim>(dealii::Point<dim>(radius / place.norm() * place));
-                     area += 1;
-                     errors.pressure += error * error;
-                     errors.largest = std::max(errors.largest, std::abs(error));
-                   });
-    area = dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD);
-    errors.pressure =
-      std::sqrt(dealii::Utilities::MPI::sum(errors.pressure, MPI_COMM_WORLD) / area) /
-      (density * radius);
-    errors.largest =
-      dealii::Utilities::MPI::max(errors.largest, MPI_COMM_WORLD) / (density * radius);
+    measure_pressure(errors, state.pressure, 2. / cells);
     for (const auto &column : geometry.columns(state.pressure, {}, 0))
       if (column.name == "pressure force body x")
         errors.force = std::abs(column.value * step / added_mass<dim> + 1);
@@ -111,10 +126,10 @@ namespace
     constexpr unsigned n_places = dim == 2 ? 5 : 2;
     for (unsigned int place = 0; place < n_places; ++place)
       {
-        dealii::Tensor<1, dim> shift;
+        dealii::Point<dim> corner;
         for (unsigned int d = 0; d < dim; ++d)
-          shift[d] = -1 + .11 * std::sin(1. + 3 * place + 5 * d);
-        const auto errors = start_impulsively<dim>(cells, shift);
+          corner[d] = -1 + .11 * std::sin(1. + 3 * place + 5 * d);
+        const auto errors = start_impulsively<dim>(cells, corner);
         mean.pressure += errors.pressure / n_places;
         mean.largest += errors.largest / n_places;
         mean.force += errors.force / n_places;

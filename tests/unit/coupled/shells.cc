@@ -133,23 +133,18 @@ namespace
   }
 
 
-  /// Fluid of its own speed and smoke in a closed thin shell; a stream outside.
+  /// Fluid of the speed of the shell and smoke in it; a stream of other fluid outside.
   template <int dim>
-  void
-  check_shell(const double shell_speed, const std::string &method)
+  ObstacleRun<dim>
+  shell_in_stream(const std::string &file, const double shell_speed, const std::string &method)
   {
-    MeshFile file;
-    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      write_shell(file, std::integral_constant<int, dim>());
-    MPI_Barrier(MPI_COMM_WORLD);
-    const std::string name = dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, file.name);
     const std::string inside =
       fmt::format(plane_or_space<dim>("(x-.5)^2 + (y-.51)^2 < {0}^2",
                                       "(x-.5)^2 + (y-.51)^2 + (z-.52)^2 < {0}^2"),
                   middle<dim>);
     const std::string map  = plane_or_space<dim>("x+.5; y+.51", "x+.5; y+.51; z+.52");
     const std::string zero = plane_or_space<dim>("; 0", "; 0; 0");
-    ObstacleRun<dim>  run(
+    return ObstacleRun<dim>(
       section("Domain",
               plane_or_space<dim>("set Upper corner = 1.5, 1\nset Cells = 39, 26",
                                   "set Upper corner = 1.5, 1, 1\nset Cells = 24, 16, 16")) +
@@ -163,7 +158,7 @@ namespace
       obstacle(
         "shell",
         "gmsh",
-        "set File = " + name + "\nset Map = " + map +
+        "set File = " + file + "\nset Map = " + map +
           "\nset Refinements = 0\nset Displacement = " + fmt::format("{}*t{}", shell_speed, zero)),
       convection(method) +
         section(
@@ -172,6 +167,19 @@ namespace
             section("smoke", "set Initial value = if(" + inside + ", 1, 0)") +
             section("clean", "set Initial value = if(" + inside + ", 0, 1)\nset Inflow value = 1")),
       .02);
+  }
+
+
+  template <int dim>
+  void
+  check_shell(const double shell_speed, const std::string &method)
+  {
+    MeshFile file;
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      write_shell(file, std::integral_constant<int, dim>());
+    MPI_Barrier(MPI_COMM_WORLD);
+    auto run = shell_in_stream<dim>(
+      dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, file.name), shell_speed, method);
     const auto is_inside = [&](const dealii::Point<dim> &place) {
       return place.distance(centre_at<dim>(run.state.clock.time - run.dt, shell_speed)) <
              middle<dim>;
