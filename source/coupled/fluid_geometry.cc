@@ -22,7 +22,7 @@ namespace undine
     cut_block(cells, work, {surface.surface(), positions}, grid.cells()->blocks());
     cut_report    = report(cells, surface.surface(), grid.communicator());
     parts         = make_open_parts(grid, cells);
-    boundary_flux = std::make_unique<const BoundaryFlux<dim>>(cells, surface.surface());
+    flux_operator = std::make_unique<const BoundaryFlux<dim>>(cells, surface.surface());
     if (void_regions != nullptr)
       {
         voids = void_regions->find(cells, parts, *queries, accepted_voids);
@@ -70,9 +70,66 @@ namespace undine
 
   template <int dim>
   std::vector<double>
+  FluidGeometry<dim>::fluxes(const Velocities &given) const
+  {
+    return parts.of_open_parts(flux_operator->flux(given));
+  }
+
+
+  template <int dim>
+  std::vector<double>
   FluidGeometry<dim>::fluxes() const
   {
-    return parts.of_open_parts(boundary_flux->flux(velocities));
+    return fluxes(velocities);
+  }
+
+
+  template <int dim>
+  typename FluidGeometry<dim>::Velocities
+  FluidGeometry<dim>::pressure_forces(const Field<dim> &pressure) const
+  {
+    return nodal_forces(
+      *flux_operator, parts.of_cut_cells(pressure.parts()), model.grid().communicator());
+  }
+
+
+  template <int dim>
+  typename FluidGeometry<dim>::Velocities
+  FluidGeometry<dim>::gravity_forces(const dealii::Tensor<1, dim> &gravity) const
+  {
+    const std::vector<double> densities(parts.open->cells.all().size(), model.density());
+    return gravity_loads(cells,
+                         surface.surface(),
+                         positions,
+                         parts.of_cut_cells(densities),
+                         gravity,
+                         model.grid().communicator());
+  }
+
+
+  template <int dim>
+  typename FluidGeometry<dim>::Velocities
+  FluidGeometry<dim>::void_forces(const double time) const
+  {
+    return nodal_forces(
+      *flux_operator, void_regions->pressures(voids, time), model.grid().communicator());
+  }
+
+
+  template <int dim>
+  typename FluidGeometry<dim>::Velocities
+  FluidGeometry<dim>::other_forces(const dealii::Tensor<1, dim> &gravity, const double time) const
+  {
+    Velocities forces(positions.size());
+    const auto add = [&](const Velocities &more) {
+      for (std::size_t node = 0; node < forces.size(); ++node)
+        forces[node] += more[node];
+    };
+    if (gravity.norm() > 0)
+      add(gravity_forces(gravity));
+    if (void_regions != nullptr)
+      add(void_forces(time));
+    return forces;
   }
 
 
@@ -82,24 +139,16 @@ namespace undine
                               const dealii::Tensor<1, dim> &gravity,
                               const double                  time) const
   {
-    const auto          communicator = model.grid().communicator();
     PressureForces<dim> forces;
-    auto                pressures = parts.of_cut_cells(pressure.parts());
+    forces.reduced = pressure_forces(pressure);
     if (void_regions != nullptr)
       {
-        const auto given = void_regions->pressures(voids, time);
-        for (std::size_t c = 0; c < pressures.size(); ++c)
-          pressures[c] += given[c]; // either is zero
+        const auto of_voids = void_forces(time);
+        for (std::size_t node = 0; node < of_voids.size(); ++node)
+          forces.reduced[node] += of_voids[node];
       }
-    forces.reduced = nodal_forces(*boundary_flux, pressures, communicator);
     if (gravity.norm() > 0)
-      forces.gravity = gravity_loads(
-        cells,
-        surface.surface(),
-        positions,
-        parts.of_cut_cells(std::vector<double>(pressure.parts().size(), model.density())),
-        gravity,
-        communicator);
+      forces.gravity = gravity_forces(gravity);
     auto columns = pressure_force_columns(surface.surface(), forces);
     columns.push_back({"Cut cells", "1", double(cut_report.cut_cells)});
     columns.push_back({"Flagged cells", "1", double(cut_report.flagged_cells)});

@@ -1,120 +1,185 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/scheme.h>
-#include <undine/coupled/single_physics.h>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <undine/coupled/coupled_equations.h>
+#include <undine/coupled/fluid_side.h>
+#include <undine/coupled/stepping_scheme.h>
+#include <undine/interface/flux_matrix.h>
+#include <undine/solid/solid_columns.h>
+#include <undine/solid/solid_step.h>
 
 namespace undine
 {
-  namespace
-  {
-    /// Throws SolveError naming the first quantity that is no finite number.
-    void
-    assert_finite(const Columns &columns)
-    {
-      for (const auto &column : columns)
-        if (!std::isfinite(column.value))
-          throw SolveError("'" + column.name +
-                           "' is not a finite number. Check the expressions of the scene at this "
-                           "time, or try a smaller Time/Step.");
-    }
-  } // namespace
-
-
-  /// The main scheme. A step of length h from t^n:
+  /// Bodies in a fluid, solved together. A step of length h from t^n:
   ///
   ///  1. fluid: transport, forces, implicit terms of every effect that is on; v^n becomes v*
-  ///  2. bodies: Newton's method for u^{n+1}
-  ///  3. fluid: projection; v* becomes v^{n+1}, p
-  ///
-  /// A step that fails is redone from the saved state with half its length, a stated number of
-  /// times. The next step has the length that went well, and those after it double it up to the
-  /// length asked for; a resumed run begins with the latter.
+  ///  2. Newton's method for u^{n+1} and p                                     (CoupledEquations)
+  ///  3. bodies: d^{n+1} from u^{n+1}; fluid: v^{n+1} = v* + h (rho V)^-1 D^T p
   template <int dim>
-  class Simultaneous : public Scheme<dim>
+  class SimultaneousPhysics : public Physics<dim>
+  {
+  public:
+    SimultaneousPhysics(const Models<dim>         &models,
+                        TimingTree                &timing,
+                        const BlockSolverSettings &settings)
+      : models(models)
+      , timing(timing)
+      , environment(models.environment())
+      , fluid_side(models, timing)
+      , solid_step(*models.solid)
+      , solver(*models.solid, settings)
+    {
+    }
+
+    void
+    initialize(State<dim> &state, const double dt, Report &report) override
+    {
+      state.solid = solid_step.initialize(environment, state.clock.time, dt);
+      Projection<dim> projection(*models.fluid);
+      fluid_side.initialize(state, projection, dt, report);
+      add_solid_columns(report, state, state.clock.time, {});
+    }
+
+    void
+    step(State<dim> &state, Report &report) override
+    {
+      const auto  fluid = fluid_side.predict(state, report.dt);
+      double      divergence;
+      SolidReport solid;
+      {
+        const auto timed = timing.section("couple");
+        solid            = couple(state, *fluid, divergence);
+      }
+      report.newton_iterations += solid.newton.iterations;
+      report.linear_iterations += solid.newton.linear_iterations;
+      report.note           = solid.note;
+      const auto &residuals = solid.newton.residuals;
+      if (!residuals.empty() && residuals.front() > 0)
+        report.newton_reduction = residuals.back() / residuals.front();
+      fluid_side.finish(*fluid, state, report, divergence);
+      add_solid_columns(report, state, fluid->time + fluid->dt, solid);
+    }
+
+  private:
+    using Vector = BlockSystem::Vector;
+
+    SolidReport
+    couple(State<dim> &state, const FluidStep<dim> &fluid, double &divergence)
+    {
+      const auto &model    = *models.solid;
+      const auto &geometry = *fluid_side.geometry();
+      auto        numbers  = std::make_unique<const PressureNumbers<dim>>(models.fluid->grid(),
+                                                                  geometry.bodies().open_parts);
+      BlockSystem::Matrix flux_matrix;
+      build_flux_matrix(flux_matrix,
+                        geometry.boundary_flux(),
+                        geometry.cut_parts(),
+                        *numbers,
+                        *models.surface,
+                        model);
+      PressureEquations<dim> pressures(
+        *models.fluid, std::move(numbers), filled_rows(flux_matrix), fluid.dt);
+      auto other = model.vector();
+      models.surface->add_to_bodies(other,
+                                    geometry.other_forces(fluid.gravity, fluid.time + fluid.dt));
+      SolidEquations<dim> equations(
+        model, solid_step.mass(), state.solid, environment, fluid.time, fluid.dt, timing, other);
+      CoupledEquations<dim> problem(
+        models, geometry, flux_matrix, equations, pressures, solver, timing);
+      pressures.start(state.fluid.velocity,
+                      fluid.flow.velocity(),
+                      fluid.time + fluid.dt,
+                      problem.fluxes(equations.guess()));
+
+      SolidReport report;
+      auto        x = problem.vector();
+      report.newton = solve(x, state, problem, equations);
+      report.note   = solver.note();
+
+      const auto &velocity = x.block(0), &pressure = x.block(1);
+      equations.add_forces(problem.forces(pressure));
+      report.reactions          = equations.reactions(velocity);
+      report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
+      pressures.accelerate(state.fluid.velocity, pressure);
+      divergence           = pressures.divergence(state.fluid.velocity, problem.fluxes(velocity));
+      state.fluid.pressure = pressures.field(pressure);
+      pressures.closed_regions().remove_means(state.fluid.pressure);
+      set_means(state.fluid.pressure, models.fluid->grid());
+      state.solid = equations.end_state(velocity);
+      return report;
+    }
+
+    /// From u^n and p^n; if that fails, from bodies that keep their place.
+    NewtonReport
+    solve(BlockSystem::BlockVector  &x,
+          const State<dim>          &state,
+          CoupledEquations<dim>     &problem,
+          const SolidEquations<dim> &equations)
+    {
+      const auto &options = models.solid->numerics().newton;
+      solver.start_step();
+      copy_to_vector(x.block(1), state.fluid.pressure);
+      if (options.fixed_iterations == 0)
+        try
+          {
+            x.block(0) = equations.guess();
+            return solve_newton(problem, x, options);
+          }
+        catch (const SolveError &)
+          {
+          }
+      x.block(0) = equations.guess_at_rest();
+      copy_to_vector(x.block(1), state.fluid.pressure);
+      return solve_newton(problem, x, options);
+    }
+
+    void
+    add_solid_columns(Report            &report,
+                      const State<dim>  &state,
+                      const double       time,
+                      const SolidReport &solid) const
+    {
+      const auto measured = timing.section("measure");
+      report.columns.push_back(
+        {"Most iterations of a solve", "1", double(solver.most_iterations())});
+      append(report.columns,
+             solid_columns(*models.solid, solid_step, environment, state.solid, time, solid));
+    }
+
+    const Models<dim>          &models;
+    TimingTree                 &timing;
+    const SolidEnvironment<dim> environment;
+    FluidSide<dim>              fluid_side;
+    SolidStep<dim>              solid_step;
+    BlockSolver<dim>            solver;
+  };
+
+
+  /// The main scheme.
+  template <int dim>
+  class Simultaneous : public SteppingScheme<dim>
   {
   public:
     void
     add_options(const Options &options) override
     {
-      const auto time = options.section("Time");
-      time.require("Step", asked_step, "s", Allowed::positive(), "Length of a time step.");
-      time.add("Maximum cuts",
-               maximum_cuts,
-               "",
-               Allowed::between(0, 20),
-               "How often a step that fails is halved and redone before the run stops.");
+      SteppingScheme<dim>::add_options(options);
+      settings.add_options(options.section("Coupling"));
     }
 
-    Report
-    initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) override
+  protected:
+    std::unique_ptr<Physics<dim>>
+    couple(const Models<dim> &models, TimingTree &timing) const override
     {
-      if (models.solid)
-        solid = std::make_unique<SolidAlone<dim>>(models, timing);
-      if (models.fluid)
-        fluid = std::make_unique<FluidAlone<dim>>(models, timing);
-
-      Report report;
-      if (solid)
-        solid->initialize(state, choose_dt(state), report);
-      if (fluid)
-        fluid->initialize(state, choose_dt(state), report);
-      return report;
-    }
-
-    double
-    choose_dt(const State<dim> &state) const override
-    {
-      return state.clock.land(std::min(asked_step, allowed_step));
-    }
-
-    Report
-    step(State<dim> &state, const double asked) override
-    {
-      const State<dim> saved = state;
-      for (Report report;; ++report.cuts)
-        try
-          {
-            report.dt = asked / (1u << report.cuts);
-            if (solid)
-              solid->step(state, report);
-            if (fluid)
-              fluid->step(state, report);
-            assert_finite(report.columns);
-            allowed_step = report.cuts > 0 ? report.dt : 2 * allowed_step;
-            return report;
-          }
-        catch (const SolveError &error)
-          {
-            state                    = saved;
-            report.newton_iterations = report.linear_iterations = 0;
-            report.columns.clear();
-            if (report.cuts == maximum_cuts)
-              throw SolveError(fmt::format("the step of {:.4g} s failed, and so did {} shorter "
-                                           "one(s), down to {:.4g} s: {}",
-                                           asked,
-                                           maximum_cuts,
-                                           report.dt,
-                                           error.what()));
-          }
+      return std::make_unique<SimultaneousPhysics<dim>>(models, timing, settings);
     }
 
   private:
-    double                           asked_step   = 0.01; // [s]
-    unsigned int                     maximum_cuts = 3;
-    double                           allowed_step = std::numeric_limits<double>::infinity(); // [s]
-    std::unique_ptr<SolidAlone<dim>> solid;
-    std::unique_ptr<FluidAlone<dim>> fluid;
+    BlockSolverSettings settings;
   };
 
 
   namespace
   {
     const RegisterForDimensions<Scheme, Simultaneous>
-      simultaneous("simultaneous", "fluid pressures and velocities of bodies are solved together");
+      simultaneous("simultaneous", "Fluid pressures and velocities of bodies are solved together.");
   }
 } // namespace undine

@@ -4,16 +4,6 @@
 
 namespace undine
 {
-  namespace
-  {
-    void
-    append(Columns &columns, const Columns &more)
-    {
-      columns.insert(columns.end(), more.begin(), more.end());
-    }
-  } // namespace
-
-
   template <int dim>
   SolidAlone<dim>::SolidAlone(const Models<dim> &models, TimingTree &timing)
     : model(*models.solid)
@@ -26,7 +16,7 @@ namespace undine
 
   template <int dim>
   void
-  SolidAlone<dim>::initialize(State<dim> &state, const double dt, Report &report) const
+  SolidAlone<dim>::initialize(State<dim> &state, const double dt, Report &report)
   {
     const double time = state.clock.time;
     state.solid       = solid_step.initialize(environment, time, dt);

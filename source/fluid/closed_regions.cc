@@ -16,16 +16,20 @@ namespace undine
 {
   namespace
   {
-    /// For each region whether the pressure is given somewhere on its boundary. Collective.
+    /// For each region whether the pressure is given somewhere on its boundary, or gives rise to
+    /// flow there. Collective.
     template <int dim>
     std::vector<int>
-    openness(const FluidModel<dim>           &model,
-             const PressureNumbers<dim>      &numbers,
-             const std::vector<unsigned int> &regions,
-             const unsigned int               n_regions)
+    openness(const FluidModel<dim>                                    &model,
+             const PressureNumbers<dim>                               &numbers,
+             const FluidRegions<dim>                                  &all,
+             const std::vector<typename PressureNumbers<dim>::Number> &yielding)
     {
-      std::vector<int>    is_open(n_regions, 0);
-      const auto         &owned = numbers.owned();
+      std::vector<int> is_open(all.size(), 0);
+      const auto      &owned   = numbers.owned();
+      const auto      &regions = all.of_pressures();
+      for (const auto number : yielding)
+        is_open[regions[owned.index_within_set(number)]] = 1;
       const Velocity<dim> still = model.initial_state().velocity;
       for (const auto &opening : open_faces(model, still, numbers.open_parts().get(), 0.))
         {
@@ -44,7 +48,8 @@ namespace undine
 
   template <int dim>
   ClosedRegions<dim>::ClosedRegions(const FluidModel<dim>      &model_,
-                                    const PressureNumbers<dim> &numbers_)
+                                    const PressureNumbers<dim> &numbers_,
+                                    const std::vector<Number>  &yielding)
     : model(model_)
     , numbers(numbers_)
   {
@@ -52,7 +57,7 @@ namespace undine
     if (!numbers.open_parts() && model.boundaries().has_opening())
       return;
     const FluidRegions<dim> all(grid, numbers);
-    const auto              is_open = openness(model, numbers, all.of_pressures(), all.size());
+    const auto              is_open = openness(model, numbers, all, yielding);
     std::vector<int>        closed_number(all.size(), open_region);
     int                     n_closed = 0;
     for (unsigned int r = 0; r < all.size(); ++r)

@@ -109,6 +109,21 @@ namespace undine
 
 
   template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  ImmersedSurface<dim>::with_bodies(const typename SolidModel<dim>::Vector &vector,
+                                    std::vector<dealii::Tensor<1, dim>>     values) const
+  {
+    AssertDimension(values.size(), all_facets->n_nodes());
+    if (body_surface)
+      {
+        const auto of_bodies = body_surface->gather(vector);
+        std::copy(of_bodies.begin(), of_bodies.end(), values.begin());
+      }
+    return values;
+  }
+
+
+  template <int dim>
   void
   ImmersedSurface<dim>::check(const std::vector<dealii::Point<dim>> &positions) const
   {

@@ -209,12 +209,13 @@ namespace undine
       throw options.error("",
                           "the scene has neither a fluid nor a body",
                           "Try: add a subsection 'Fluid' or a subsection 'Bodies'.");
-    if (options.section("Obstacles").given())
+    const bool has_obstacles = options.section("Obstacles").given();
+    if (has_obstacles && !scene.models.fluid)
+      throw options.error("Obstacles",
+                          "obstacles stand in a fluid, but the scene has none",
+                          "Try: add a subsection 'Fluid' or remove the obstacles.");
+    if (scene.models.fluid && (scene.models.solid || has_obstacles))
       {
-        if (!scene.models.fluid)
-          throw options.error("Obstacles",
-                              "obstacles stand in a fluid, but the scene has none",
-                              "Try: add a subsection 'Fluid' or remove the obstacles.");
         scene.models.surface = std::make_unique<const ImmersedSurface<dim>>(
           options, scene.models.solid.get(), scene.models.fluid->grid());
         const auto &fluid = *scene.models.fluid;
@@ -224,11 +225,6 @@ namespace undine
           scene.models.void_regions = std::move(voids);
       }
     options.assert_all_used();
-    if (scene.models.solid && scene.models.fluid)
-      throw options.error("",
-                          "the scene has both a fluid and bodies, but their interface is not part "
-                          "of this version",
-                          "Try: remove the subsection 'Fluid' or the subsection 'Bodies'.");
     check_effects(scene, options);
     if (scene.models.fluid)
       check_boundaries(scene, options);

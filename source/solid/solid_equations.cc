@@ -139,13 +139,28 @@ namespace undine
         if (stage.position == 0)
           add_stage(known, stage, old_state.displacement);
       }
-    if (nodal_forces.size() > 0)
-      {
-        note_size(nodal_forces, 1);
-        dead.add(1., nodal_forces);
-      }
     known.add(-1., dead);
     largest_known = largest_term;
+    if (nodal_forces.size() > 0)
+      {
+        const Vector forces = nodal_forces;
+        nodal_forces        = 0;
+        add_forces(forces);
+      }
+  }
+
+
+  template <int dim>
+  void
+  SolidEquations<dim>::add_forces(const Vector &more)
+  {
+    if (nodal_forces.size() == 0)
+      nodal_forces = model.vector();
+    nodal_forces.add(1., more);
+    note_size(more, 1);
+    largest_known = std::max(largest_known, more.l2_norm());
+    dead.add(1., more);
+    known.add(-1., more);
   }
 
 

@@ -1,50 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/solid/loads.h>
-#include <undine/solid/rigid_motions.h>
 #include <undine/solid/sparse.h>
+#include <undine/solid/tangent_multigrid.h>
 #include <undine/solid/tangent_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/trilinos_precondition.h>
-
-#include <Teuchos_ParameterList.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace undine
 {
-  namespace
-  {
-    /// Smoothed aggregation. A has to live as long as the result.
-    template <int dim>
-    void
-    initialize_multigrid(dealii::TrilinosWrappers::PreconditionAMG    &multigrid,
-                         const dealii::TrilinosWrappers::SparseMatrix &A,
-                         const SolidModel<dim>                        &model,
-                         Epetra_MultiVector                           &motions)
-    {
-      dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
-      data.elliptic              = true;
-      data.higher_order_elements = model.numerics().degree > 1;
-      data.smoother_sweeps       = 2;
-      data.aggregation_threshold = 1e-2;
-
-      Teuchos::ParameterList              parameters;
-      std::unique_ptr<Epetra_MultiVector> no_constant_modes;
-      data.set_parameters(parameters, no_constant_modes, A);
-      parameters.set("PDE equations", dim);
-      parameters.set("null space: type", "pre-computed");
-      parameters.set("null space: dimension", motions.NumVectors());
-      parameters.set("null space: vectors", motions.Values());
-      parameters.set("null space: add default vectors", false);
-      multigrid.initialize(A, parameters);
-    }
-  } // namespace
-
-
   template <int dim>
   TangentSolver<dim>::TangentSolver(const SolidModel<dim> &model)
     : model(model)
@@ -57,22 +24,7 @@ namespace undine
   bool
   TangentSolver<dim>::is_direct() const
   {
-    const std::string &choice = model.numerics().linear_solver;
-    if (choice != "auto")
-      return choice == "direct";
-    if (gave_up)
-      return true;
-    // Where a factorisation costs as much as multigrid. Elements with a dilatation of their own
-    // need more iterations: at a Poisson's ratio of 0.48 in 3D both cost the same with 20000
-    // unknowns, at 0.4999 the iteration does not converge.
-    const std::array<unsigned int, 2> most_in_2d_and_3d{{30000, 6000}};
-    const std::array<unsigned int, 2> most_if_separated{{100000, 20000}};
-    const bool                        separated =
-      std::any_of(model.bodies().begin(), model.bodies().end(), [](auto &body) {
-        return body.kinematics->separates_volumetric_part(*body.material);
-      });
-    const auto &most = separated ? most_if_separated : most_in_2d_and_3d;
-    return model.dof_handler().n_dofs() <= most[dim - 2];
+    return solves_directly(model) || (gave_up && model.numerics().linear_solver == "auto");
   }
 
 
@@ -114,10 +66,9 @@ namespace undine
         multigrid = std::make_unique<Multigrid>();
         multigrid->matrix.reinit(A);
         add_matrix(multigrid->matrix, 1, A);
-        auto motions = rigid_motions(model, displacement);
-        failed       = !std::isfinite(A.frobenius_norm());
+        failed = !std::isfinite(A.frobenius_norm());
         if (!failed)
-          initialize_multigrid(multigrid->hierarchy, multigrid->matrix, model, motions);
+          initialize_multigrid(multigrid->hierarchy, multigrid->matrix, model, displacement);
       }
     catch (const std::exception &)
       {

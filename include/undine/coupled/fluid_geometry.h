@@ -45,6 +45,20 @@ namespace undine
     typename Flow<dim>::Bodies
     bodies() const;
 
+    /// Of all nodes, where place() was told that they are now.
+    const Positions &
+    surface_positions() const
+    {
+      return positions;
+    }
+
+    /// As place() was told.
+    const Velocities &
+    surface_velocities() const
+    {
+      return velocities;
+    }
+
     /// Of this rank's block, with a halo.
     const CutCells<dim> &
     cut_cells() const
@@ -59,9 +73,29 @@ namespace undine
       return parts;
     }
 
-    /// B u: volume that the surfaces push out of each component of the fluid [m^dim/s].
+    /// B at the place where the surfaces are.
+    const BoundaryFlux<dim> &
+    boundary_flux() const
+    {
+      return *flux_operator;
+    }
+
+    /// B u: volume that surfaces push out of each component of the fluid [m^dim/s]; moving with the
+    /// velocities given, or as place() was told. @{
+    std::vector<double>
+    fluxes(const Velocities &velocities) const;
     std::vector<double>
     fluxes() const;
+    /// @}
+
+    /// In all nodes the forces of the fluid's reduced pressure, J p = B^T p [N]. Collective.
+    Velocities
+    pressure_forces(const Field<dim> &pressure) const;
+
+    /// In all nodes what else the fluid does to the surfaces: the weight that the reduced pressure
+    /// leaves out, and the pressures of void regions at `time` [N]. Collective.
+    Velocities
+    other_forces(const dealii::Tensor<1, dim> &gravity, double time) const;
 
     /// Forces of the pressure at `time` on each body [N], with g also their parts; and how the
     /// cutting went. Collective.
@@ -75,6 +109,10 @@ namespace undine
   private:
     void
     cut();
+    Velocities
+    gravity_forces(const dealii::Tensor<1, dim> &gravity) const;
+    Velocities
+    void_forces(double time) const;
 
     const ImmersedSurface<dim>                &surface;
     const FluidModel<dim>                     &model;
@@ -86,7 +124,7 @@ namespace undine
     CutWorkspace<dim>                          work;
     CutParts<dim>                              parts;
     CutReport                                  cut_report;
-    std::unique_ptr<const BoundaryFlux<dim>>   boundary_flux;
+    std::unique_ptr<const BoundaryFlux<dim>>   flux_operator;
     std::unique_ptr<const SurfaceQueries<dim>> queries;
   };
 

@@ -3,32 +3,26 @@
 #define undine_coupled_single_physics_h
 
 #include <undine/base/core/timing.h>
-#include <undine/coupled/fluid_geometry.h>
-#include <undine/coupled/models.h>
-#include <undine/coupled/report.h>
-#include <undine/coupled/state.h>
+#include <undine/coupled/fluid_side.h>
+#include <undine/coupled/physics.h>
 #include <undine/fluid/projection.h>
 #include <undine/solid/solid_step.h>
 
-#include <memory>
-
 namespace undine
 {
-  /// Bodies without a fluid. Each function advances one physics and adds to the report.
+  /// Bodies without a fluid.
   template <int dim>
-  class SolidAlone
+  class SolidAlone : public Physics<dim>
   {
   public:
     /// The references must outlive it. Collective.
     SolidAlone(const Models<dim> &models, TimingTree &timing);
 
-    /// `dt` [s] is the length of the first step.
     void
-    initialize(State<dim> &state, double dt, Report &report) const;
+    initialize(State<dim> &state, double dt, Report &report) override;
 
-    /// A step of report.dt [s]. Throws SolveError; the state may then be half advanced.
     void
-    step(State<dim> &state, Report &report);
+    step(State<dim> &state, Report &report) override;
 
   private:
     const SolidModel<dim> &model;
@@ -39,33 +33,22 @@ namespace undine
 
   /// A fluid without deformable bodies; obstacles may stand and move in it.
   template <int dim>
-  class FluidAlone
+  class FluidAlone : public Physics<dim>
   {
   public:
     /// The references must outlive it. Collective.
     FluidAlone(const Models<dim> &models, TimingTree &timing);
 
-    /// `dt` [s] is the length of the first step.
     void
-    initialize(State<dim> &state, double dt, Report &report);
+    initialize(State<dim> &state, double dt, Report &report) override;
 
-    /// A step of report.dt [s]. Throws SolveError; the state may then be half advanced.
     void
-    step(State<dim> &state, Report &report);
+    step(State<dim> &state, Report &report) override;
 
   private:
-    /// Cut the grid by obstacles where they are at the beginning of a step of dt [s].
-    void
-    place_obstacles(const State<dim> &state, double dt);
-
-    void
-    add_columns(Report &report, const FluidState<dim> &state, double divergence, double time) const;
-
-    const Models<dim>                  &models;
-    const FluidModel<dim>              &model;
-    TimingTree                         &timing;
-    Projection<dim>                     projection;
-    std::unique_ptr<FluidGeometry<dim>> geometry; ///< nullptr: no obstacles
+    TimingTree     &timing;
+    FluidSide<dim>  fluid_side;
+    Projection<dim> projection;
   };
 } // namespace undine
 

@@ -11,19 +11,24 @@
 
 namespace undine
 {
-  /// The regions of the fluid on whose boundary the pressure is given nowhere: there it is known up
-  /// to a constant, and what flows in must flow out.
+  /// The regions of the fluid on whose boundary the pressure is given nowhere and nothing gives
+  /// way: there it is known up to a constant, and what flows in must flow out.
   template <int dim>
   class ClosedRegions
   {
   public:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-    /// The references must outlive it. Collective.
-    ClosedRegions(const FluidModel<dim> &model, const PressureNumbers<dim> &numbers);
+    using Number = typename PressureNumbers<dim>::Number;
+
+    /// `yielding`: owned pressures at surfaces of bodies that move as pressure makes them. The
+    /// references must outlive it. Collective.
+    ClosedRegions(const FluidModel<dim>      &model,
+                  const PressureNumbers<dim> &numbers,
+                  const std::vector<Number>  &yielding = {});
 
     /// One pressure of each closed region, if this rank owns it.
-    const std::vector<typename PressureNumbers<dim>::Number> &
+    const std::vector<Number> &
     pinned() const
     {
       return pins;
@@ -54,12 +59,12 @@ namespace undine
     std::vector<double>
     sums(const Contribution &contribution) const;
 
-    const FluidModel<dim>                             &model;
-    const PressureNumbers<dim>                        &numbers;
-    std::vector<int>                                   regions; ///< closed one of each pressure
-    std::vector<double>                                volumes; ///< of each pressure [m^dim]
-    std::vector<double>                                region_volumes;
-    std::vector<typename PressureNumbers<dim>::Number> pins;
+    const FluidModel<dim>      &model;
+    const PressureNumbers<dim> &numbers;
+    std::vector<int>            regions; ///< closed one of each pressure
+    std::vector<double>         volumes; ///< of each pressure [m^dim]
+    std::vector<double>         region_volumes;
+    std::vector<Number>         pins;
   };
 } // namespace undine
 

@@ -62,6 +62,12 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>>
     velocities(const SolidState &state, const double time, const double dt) const;
 
+    /// `values` in all nodes, but in those of bodies what a vector over their owned degrees of
+    /// freedom says. Collective.
+    std::vector<dealii::Tensor<1, dim>>
+    with_bodies(const typename SolidModel<dim>::Vector &vector,
+                std::vector<dealii::Tensor<1, dim>>     values) const;
+
     /// Throws SolveError, naming the body, if a position is not finite, a body inside out or at a
     /// periodic side.
     void

@@ -59,6 +59,10 @@ namespace undine
     LinearSystem
     motion_predictor() const;
 
+    /// More nodal forces [N] that act during the whole step.
+    void
+    add_forces(const Vector &more);
+
     /// The left side of the balance for u [N], zero at fixed degrees of freedom. Throws SolveError.
     Vector
     residual(const Vector &velocity);
@@ -131,7 +135,7 @@ namespace undine
     const double                 time;
     const double                 dt;
     TimingTree                  &timing;
-    const Vector                 nodal_forces;
+    Vector                       nodal_forces;
     const StepCoefficients       coefficients;
     const bool                   has_pressure;
     Matrix                       damping_stiffness; ///< K'(d^n + r h u^n); empty without damping

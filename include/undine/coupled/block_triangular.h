@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_block_triangular_h
+#define undine_coupled_block_triangular_h
+
+#include <undine/coupled/block_preconditioner.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+
+namespace undine
+{
+  /// [A -B^T; 0 S]^{-1} with one multigrid cycle (ML) for S^{-1}: pressures first, bodies under
+  /// these.
+  class BlockTriangular : public BlockPreconditioner
+  {
+  public:
+    void
+    add_options(const Options &options) override;
+
+    void
+    initialize(const BlockSystem                   &system,
+               const std::shared_ptr<const Matrix> &schur,
+               const ApplyInverse                  &tangent_inverse) override;
+
+    void
+    vmult(BlockVector &result, const BlockVector &right_side) const override;
+
+  private:
+    const BlockSystem                        *system = nullptr;
+    std::shared_ptr<const Matrix>             schur;
+    ApplyInverse                              tangent_inverse;
+    dealii::TrilinosWrappers::PreconditionAMG multigrid;
+  };
+} // namespace undine
+
+#endif

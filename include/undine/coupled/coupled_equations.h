@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_coupled_equations_h
+#define undine_coupled_coupled_equations_h
+
+#include <undine/coupled/block_solver.h>
+#include <undine/coupled/fluid_geometry.h>
+#include <undine/coupled/models.h>
+#include <undine/fluid/pressure_equations.h>
+#include <undine/solid/solid_equations.h>
+
+namespace undine
+{
+  /// The equations of a step for the bodies' velocities u = u^{n+1} and the fluid's pressures p, as
+  /// Newton's method sees them (Newton):
+  ///
+  ///     R(u) - B^T p = 0             [N]         R: SolidEquations
+  ///     D v* + B u + h L p = 0       [m^dim/s]
+  ///
+  /// Norms are sums of both, each relative to the largest of its terms.
+  template <int dim>
+  class CoupledEquations
+  {
+  public:
+    using Unknown = BlockSystem::BlockVector;
+    using Vector  = BlockSystem::Vector;
+
+    /// The references must outlive it.
+    CoupledEquations(const Models<dim>            &models,
+                     const FluidGeometry<dim>     &geometry,
+                     const BlockSystem::Matrix    &flux_matrix,
+                     SolidEquations<dim>          &solid,
+                     const PressureEquations<dim> &fluid,
+                     BlockSolver<dim>             &solver,
+                     TimingTree                   &timing);
+
+    double
+    evaluate(const Unknown &x);
+
+    Unknown
+    correction(const Unknown &x);
+
+    double
+    scale() const;
+
+    double
+    rounding() const;
+
+    unsigned int
+    linear_iterations() const;
+
+    /// B u of all that moves in the fluid [m^dim/s], as of the components of the fluid. Collective.
+    std::vector<double>
+    fluxes(const Vector &velocity) const;
+
+    /// J p over the bodies' degrees of freedom [N], fixed ones included. Collective.
+    Vector
+    forces(const Vector &pressure) const;
+
+    /// Zero, with a place for all velocities and pressures.
+    Unknown
+    vector() const;
+
+  private:
+    const Models<dim>            &models;
+    const FluidGeometry<dim>     &geometry;
+    const BlockSystem::Matrix    &flux_matrix; ///< B
+    SolidEquations<dim>          &solid;
+    const PressureEquations<dim> &fluid;
+    BlockSolver<dim>             &solver;
+    TimingTree                   &timing;
+    Unknown                       residual;
+    double                        largest_force = 0; ///< [N]
+    double                        largest_flux  = 0; ///< [m^dim/s]
+    double                        last_norm     = 0;
+  };
+} // namespace undine
+
+#endif

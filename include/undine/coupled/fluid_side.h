@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_fluid_side_h
+#define undine_coupled_fluid_side_h
+
+#include <undine/base/core/timing.h>
+#include <undine/coupled/fluid_geometry.h>
+#include <undine/coupled/models.h>
+#include <undine/coupled/report.h>
+#include <undine/coupled/state.h>
+#include <undine/fluid/fluid_step.h>
+#include <undine/fluid/projection.h>
+
+#include <memory>
+
+namespace undine
+{
+  /// What a step does to the fluid whatever is in it: all but the pressures.
+  template <int dim>
+  class FluidSide
+  {
+  public:
+    /// The references must outlive it. Collective.
+    FluidSide(const Models<dim> &models, TimingTree &timing);
+
+    /// The fluid at the start; what stands in it is where `state` says. `dt` [s] is the length of
+    /// the first step. Collective. Throws SolveError.
+    void
+    initialize(State<dim> &state, Projection<dim> &projection, double dt, Report &report);
+
+    /// Cut the grid by what stands in the fluid, then transport, forces and implicit terms of every
+    /// effect that is on: v^n in `state` becomes v*. Collective. Throws SolveError.
+    std::unique_ptr<FluidStep<dim>>
+    predict(State<dim> &state, double dt);
+
+    /// The end of the step that predict() began, after the velocity has been made divergence-free
+    /// up to `divergence` [1]. Collective.
+    void
+    finish(const FluidStep<dim> &fluid, State<dim> &state, Report &report, double divergence);
+
+    /// Where surfaces cut the grid; nullptr if nothing stands in the fluid.
+    const FluidGeometry<dim> *
+    geometry() const
+    {
+      return cut.get();
+    }
+
+    const dealii::Tensor<1, dim> &
+    gravity() const
+    {
+      return uniform_gravity;
+    }
+
+  private:
+    void
+    place_surfaces(const State<dim> &state, double dt);
+    typename Flow<dim>::Bodies
+    bodies() const;
+    void
+    add_columns(Report &report, const FluidState<dim> &state, double divergence, double time) const;
+
+    const Models<dim>                  &models;
+    const FluidModel<dim>              &model;
+    TimingTree                         &timing;
+    const dealii::Tensor<1, dim>        uniform_gravity; ///< [m/s^2]
+    std::unique_ptr<FluidGeometry<dim>> cut;
+  };
+} // namespace undine
+
+#endif

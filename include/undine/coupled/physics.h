@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_physics_h
+#define undine_coupled_physics_h
+
+#include <undine/coupled/report.h>
+#include <undine/coupled/state.h>
+
+namespace undine
+{
+  /// The equations of a scene: a fluid, bodies, or both in one of the ways to couple them.
+  template <int dim>
+  class Physics
+  {
+  public:
+    virtual ~Physics() = default;
+
+    /// Bring an empty state to the time of its clock and add to the report. `dt` [s] is the length
+    /// of the first step. Collective.
+    virtual void
+    initialize(State<dim> &state, double dt, Report &report) = 0;
+
+    /// A step of report.dt [s] from the time of the state's clock, which stays; add to the report.
+    /// Collective. Throws SolveError; the state may then be half advanced.
+    virtual void
+    step(State<dim> &state, Report &report) = 0;
+  };
+
+
+  inline void
+  append(Columns &columns, const Columns &more)
+  {
+    columns.insert(columns.end(), more.begin(), more.end());
+  }
+} // namespace undine
+
+#endif

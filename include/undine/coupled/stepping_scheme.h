@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_stepping_scheme_h
+#define undine_coupled_stepping_scheme_h
+
+#include <undine/coupled/physics.h>
+#include <undine/coupled/scheme.h>
+
+#include <limits>
+#include <memory>
+
+namespace undine
+{
+  /// What all schemes have in common: the length of steps.
+  ///
+  /// A step that fails is redone from the saved state with half its length, a stated number of
+  /// times. The next step has the length that went well, and those after it double it up to the
+  /// length asked for; a resumed run begins with the latter.
+  template <int dim>
+  class SteppingScheme : public Scheme<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override;
+
+    Report
+    initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) override;
+
+    double
+    choose_dt(const State<dim> &state) const override;
+
+    Report
+    step(State<dim> &state, double asked) override;
+
+  protected:
+    /// Fluid and bodies together.
+    virtual std::unique_ptr<Physics<dim>>
+    couple(const Models<dim> &models, TimingTree &timing) const = 0;
+
+  private:
+    double                        asked_step   = 0.01; // [s]
+    unsigned int                  maximum_cuts = 3;
+    double                        allowed_step = std::numeric_limits<double>::infinity(); // [s]
+    std::unique_ptr<Physics<dim>> physics;
+  };
+} // namespace undine
+
+#endif

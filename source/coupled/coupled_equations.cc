@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/coupled_equations.h>
+#include <undine/solid/prescribed_motion.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  namespace
+  {
+    /// 0 / 0 = 0: where there are no terms, there is no residual.
+    double
+    relative(const double value, const double scale)
+    {
+      return value == 0 ? 0. : value / scale;
+    }
+  } // namespace
+
+
+  template <int dim>
+  CoupledEquations<dim>::CoupledEquations(const Models<dim>            &models,
+                                          const FluidGeometry<dim>     &geometry,
+                                          const BlockSystem::Matrix    &flux_matrix,
+                                          SolidEquations<dim>          &solid,
+                                          const PressureEquations<dim> &fluid,
+                                          BlockSolver<dim>             &solver,
+                                          TimingTree                   &timing)
+    : models(models)
+    , geometry(geometry)
+    , flux_matrix(flux_matrix)
+    , solid(solid)
+    , fluid(fluid)
+    , solver(solver)
+    , timing(timing)
+  {
+    residual = vector();
+  }
+
+
+  template <int dim>
+  typename CoupledEquations<dim>::Unknown
+  CoupledEquations<dim>::vector() const
+  {
+    return Unknown({models.solid->locally_owned(), fluid.numbers().owned()},
+                   models.solid->communicator());
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  CoupledEquations<dim>::fluxes(const Vector &velocity) const
+  {
+    return geometry.fluxes(models.surface->with_bodies(velocity, geometry.surface_velocities()));
+  }
+
+
+  template <int dim>
+  typename CoupledEquations<dim>::Vector
+  CoupledEquations<dim>::forces(const Vector &pressure) const
+  {
+    auto result = models.solid->vector();
+    models.surface->add_to_bodies(result, geometry.pressure_forces(fluid.field(pressure)));
+    return result;
+  }
+
+
+  template <int dim>
+  double
+  CoupledEquations<dim>::evaluate(const Unknown &x)
+  {
+    const auto timed   = timing.section("evaluate");
+    auto       pushing = forces(x.block(1));
+    clear_fixed(pushing, *models.solid);
+    residual.block(0) = solid.residual(x.block(0));
+    residual.block(0).add(-1., pushing);
+
+    const auto pushed = fluid.from_components(fluxes(x.block(0)));
+    fluid.matrix().vmult(residual.block(1), x.block(1));
+    const double by_pressure = residual.block(1).l2_norm();
+    residual.block(1).add(1., pushed, 1., fluid.predicted_flux());
+    fluid.closed_regions().balance(residual.block(1));
+
+    // What rounding leaves of the forces counts as converged.
+    const double tolerance = models.solid->numerics().newton.relative_tolerance;
+    largest_force =
+      std::max({largest_force, solid.scale(), pushing.l2_norm(), solid.rounding() / tolerance});
+    largest_flux =
+      std::max({largest_flux, by_pressure, pushed.l2_norm(), fluid.predicted_flux().l2_norm()});
+    last_norm = std::hypot(relative(residual.block(0).l2_norm(), largest_force),
+                           relative(residual.block(1).l2_norm(), largest_flux));
+    return last_norm;
+  }
+
+
+  template <int dim>
+  typename CoupledEquations<dim>::Unknown
+  CoupledEquations<dim>::correction(const Unknown &x)
+  {
+    const auto        tangent = solid.jacobian(x.block(0));
+    const auto        timed   = timing.section("solve linear system");
+    const BlockSystem system(tangent, flux_matrix, 1., fluid.matrix());
+    residual *= -1.;
+    // No better than Newton's method needs it.
+    const double enough = 0.01 * models.solid->numerics().newton.relative_tolerance / last_norm;
+    return solver.solve(system, residual, solid.displacement(x.block(0)), enough);
+  }
+
+
+  template <int dim>
+  double
+  CoupledEquations<dim>::scale() const
+  {
+    return 1;
+  }
+
+
+  template <int dim>
+  double
+  CoupledEquations<dim>::rounding() const
+  {
+    return relative(solid.rounding(), largest_force);
+  }
+
+
+  template <int dim>
+  unsigned int
+  CoupledEquations<dim>::linear_iterations() const
+  {
+    return solver.iterations();
+  }
+
+
+  template class CoupledEquations<2>;
+  template class CoupledEquations<3>;
+} // namespace undine

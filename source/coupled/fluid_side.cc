@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/fluid_side.h>
+#include <undine/coupled/physics.h>
+#include <undine/fluid/fluid_quantities.h>
+
+namespace undine
+{
+  template <int dim>
+  FluidSide<dim>::FluidSide(const Models<dim> &models, TimingTree &timing)
+    : models(models)
+    , model(*models.fluid)
+    , timing(timing)
+    , uniform_gravity(models.environment().gravity)
+  {
+    if (models.surface)
+      cut = std::make_unique<FluidGeometry<dim>>(models);
+  }
+
+
+  template <int dim>
+  typename Flow<dim>::Bodies
+  FluidSide<dim>::bodies() const
+  {
+    return cut ? cut->bodies() : typename Flow<dim>::Bodies();
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::place_surfaces(const State<dim> &state, const double dt)
+  {
+    if (!cut)
+      return;
+    const auto   phase = timing.section("cut cells");
+    const double time  = state.clock.time;
+    const auto   now   = models.surface->positions(state.solid, time);
+    cut->place(state.surface_positions.empty() ? now : state.surface_positions,
+               now,
+               models.surface->velocities(state.solid, time, dt));
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::initialize(State<dim>      &state,
+                             Projection<dim> &projection,
+                             const double     dt,
+                             Report          &report)
+  {
+    place_surfaces(state, dt);
+    const double time = state.clock.time;
+    state.fluid       = model.initial_state(bodies().open_parts);
+    for (const auto &effect : models.effects)
+      effect->initialize(model, state.fluid);
+    const auto projected = projection.make_divergence_free(
+      state.fluid, time, cut ? cut->fluxes() : std::vector<double>());
+    report.linear_iterations += projected.iterations;
+    if (cut)
+      {
+        cut->accept();
+        state.surface_positions = models.surface->positions(state.solid, time);
+      }
+    add_columns(report, state.fluid, projected.divergence, time);
+  }
+
+
+  template <int dim>
+  std::unique_ptr<FluidStep<dim>>
+  FluidSide<dim>::predict(State<dim> &state, const double dt)
+  {
+    place_surfaces(state, dt);
+    auto fluid = std::make_unique<FluidStep<dim>>(
+      model, state.fluid, uniform_gravity, state.clock.time, dt, timing, bodies());
+    {
+      const auto phase = timing.section("transport");
+      for (const auto &effect : models.effects)
+        effect->transport(*fluid);
+      fluid->settle();
+    }
+    {
+      const auto phase = timing.section("accelerate");
+      for (const auto &effect : models.effects)
+        effect->accelerate(*fluid);
+    }
+    {
+      const auto phase = timing.section("diffuse");
+      for (const auto &effect : models.effects)
+        effect->diffuse(*fluid);
+    }
+    return fluid;
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::finish(const FluidStep<dim> &fluid,
+                         State<dim>           &state,
+                         Report               &report,
+                         const double          divergence)
+  {
+    fluid.finish();
+    if (cut)
+      {
+        cut->accept();
+        state.surface_positions = cut->surface_positions();
+        report.note += cut->complaint();
+      }
+    report.linear_iterations += fluid.linear_iterations;
+    const auto phase = timing.section("measure");
+    add_columns(report, state.fluid, divergence, fluid.time + fluid.dt);
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::add_columns(Report                &report,
+                              const FluidState<dim> &state,
+                              const double           divergence,
+                              const double           time) const
+  {
+    append(report.columns, fluid_columns(model, state, divergence));
+    for (const auto &effect : models.effects)
+      append(report.columns, effect->columns(model, state, time));
+    if (cut)
+      append(report.columns, cut->columns(state.pressure, uniform_gravity, time));
+  }
+
+
+  template class FluidSide<2>;
+  template class FluidSide<3>;
+} // namespace undine

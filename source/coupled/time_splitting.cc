@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/fluid_side.h>
+#include <undine/coupled/stepping_scheme.h>
+#include <undine/solid/solid_columns.h>
+#include <undine/solid/solid_step.h>
+
+namespace undine
+{
+  /// Bodies in a fluid, one after the other; all else as in the simultaneous scheme. A step of
+  /// length h from t^n:
+  ///
+  ///  1. fluid: transport, forces, implicit terms of every effect that is on; v^n becomes v*
+  ///  2. bodies: Newton's method for u^{n+1} under the pressure p^n
+  ///  3. fluid: projection between surfaces that move as the bodies did; v* becomes v^{n+1},
+  ///  p^{n+1}
+  template <int dim>
+  class SplitPhysics : public Physics<dim>
+  {
+  public:
+    SplitPhysics(const Models<dim> &models, TimingTree &timing, const std::string &driven_by)
+      : models(models)
+      , timing(timing)
+      , driven_by(driven_by)
+      , environment(models.environment())
+      , fluid_side(models, timing)
+      , solid_step(*models.solid)
+      , projection(*models.fluid)
+    {
+    }
+
+    void
+    initialize(State<dim> &state, const double dt, Report &report) override
+    {
+      state.solid = solid_step.initialize(environment, state.clock.time, dt);
+      fluid_side.initialize(state, projection, dt, report);
+      add_solid_columns(report, state, state.clock.time, {});
+    }
+
+    void
+    step(State<dim> &state, Report &report) override
+    {
+      auto         forces   = pressure_forces(state);
+      const auto   fluid    = fluid_side.predict(state, report.dt);
+      const auto  &geometry = *fluid_side.geometry();
+      const double end      = fluid->time + fluid->dt;
+      models.surface->add_to_bodies(forces, geometry.other_forces(fluid->gravity, end));
+
+      auto       change = state.solid.displacement;
+      const auto solid =
+        solid_step.step(state.solid, environment, fluid->time, fluid->dt, timing, forces);
+      change.sadd(-1 / fluid->dt, 1 / fluid->dt, state.solid.displacement);
+
+      const auto &moves = driven_by == "velocity" ? state.solid.velocity : change;
+      typename Projection<dim>::Report projected;
+      {
+        const auto phase = timing.section("project");
+        projected        = projection.project(
+          state.fluid,
+          fluid->flow.velocity(),
+          end,
+          fluid->dt,
+          geometry.fluxes(models.surface->with_bodies(moves, geometry.surface_velocities())));
+      }
+      report.newton_iterations += solid.newton.iterations;
+      report.linear_iterations += solid.newton.linear_iterations + projected.iterations;
+      report.note = solid.note;
+      fluid_side.finish(*fluid, state, report, projected.divergence);
+      add_solid_columns(report, state, end, solid);
+    }
+
+  private:
+    using Vector = typename SolidModel<dim>::Vector;
+
+    /// J p^n, where the grid was cut when p^n was computed [N].
+    Vector
+    pressure_forces(const State<dim> &state) const
+    {
+      auto result = models.solid->vector();
+      models.surface->add_to_bodies(
+        result, geometry_of(models, state)->pressure_forces(state.fluid.pressure));
+      return result;
+    }
+
+    void
+    add_solid_columns(Report            &report,
+                      const State<dim>  &state,
+                      const double       time,
+                      const SolidReport &solid) const
+    {
+      const auto measured = timing.section("measure");
+      append(report.columns,
+             solid_columns(*models.solid, solid_step, environment, state.solid, time, solid));
+    }
+
+    const Models<dim>          &models;
+    TimingTree                 &timing;
+    const std::string           driven_by; ///< velocity | displacement
+    const SolidEnvironment<dim> environment;
+    FluidSide<dim>              fluid_side;
+    SolidStep<dim>              solid_step;
+    Projection<dim>             projection;
+  };
+
+
+  /// What the simultaneous scheme is compared with.
+  template <int dim>
+  class TimeSplitting : public SteppingScheme<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override
+    {
+      SteppingScheme<dim>::add_options(options);
+      options.section("Coupling")
+        .add("Fluid driven by",
+             driven_by,
+             "",
+             Allowed::one_of({"velocity", "displacement"}),
+             "What moves the surfaces in the fluid: the bodies' velocity at the end of the step, "
+             "or their "
+             "displacement in it over its length.");
+    }
+
+  protected:
+    std::unique_ptr<Physics<dim>>
+    couple(const Models<dim> &models, TimingTree &timing) const override
+    {
+      return std::make_unique<SplitPhysics<dim>>(models, timing, driven_by);
+    }
+
+  private:
+    std::string driven_by = "velocity";
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Scheme, TimeSplitting>
+      time_splitting("time_splitting",
+                     "Bodies move under the last pressure, then the fluid follows them.");
+  }
+} // namespace undine
