@@ -31,9 +31,12 @@ namespace undine
   ///  2. bodies: Newton's method for u^{n+1}
   ///  3. fluid: projection; v* becomes v^{n+1}, p
   ///
-  /// A step that fails is redone from the saved state with half its length, a stated number of
-  /// times. The next step has the length that went well, and those after it double it up to the
-  /// length asked for; a resumed run begins with the latter.
+  /// A step that fails is redone from the saved state with half its length, as long as that is not
+  /// below the shortest one, Time/Step halved `Maximum cuts` times. The next step has the length
+  /// that went well, and those after it double it up to the length asked for; a resumed run begins
+  /// with the latter. The limit is one of lengths, not of cuts of each step: short of a time that
+  /// no step gets past, every accepted step would allow yet shorter ones. Wrong input fails at
+  /// once.
   template <int dim>
   class Simultaneous : public Scheme<dim>
   {
@@ -43,11 +46,13 @@ namespace undine
     {
       const auto time = options.section("Time");
       time.require("Step", asked_step, "s", Allowed::positive(), "Length of a time step.");
-      time.add("Maximum cuts",
-               maximum_cuts,
-               "",
-               Allowed::between(0, 20),
-               "How often a step that fails is halved and redone before the run stops.");
+      time.add(
+        "Maximum cuts",
+        maximum_cuts,
+        "",
+        Allowed::between(0, 20),
+        "A step that fails is redone with half its length; the run stops where that would be "
+        "less than Step halved so often.");
     }
 
     Report
@@ -80,11 +85,7 @@ namespace undine
         try
           {
             report.dt = asked / (1u << report.cuts);
-            if (solid)
-              solid->step(state, report);
-            if (fluid)
-              fluid->step(state, report);
-            assert_finite(report.columns);
+            advance(state, report);
             allowed_step = report.cuts > 0 ? report.dt : 2 * allowed_step;
             return report;
           }
@@ -93,19 +94,53 @@ namespace undine
             state                    = saved;
             report.newton_iterations = report.linear_iterations = 0;
             report.columns.clear();
-            if (report.cuts == maximum_cuts)
-              throw SolveError(fmt::format("the step of {:.4g} s failed, and so did {} shorter "
-                                           "one(s), down to {:.4g} s: {}",
-                                           asked,
-                                           maximum_cuts,
-                                           report.dt,
-                                           error.what()));
+            if (report.dt / 2 < shortest_step() * (1 - 1e-9))
+              throw SolveError(complaint(asked, report, error));
+          }
+        catch (const Error &)
+          {
+            state = saved;
+            throw;
           }
     }
 
   private:
+    void
+    advance(State<dim> &state, Report &report)
+    {
+      if (solid)
+        solid->step(state, report);
+      if (fluid)
+        fluid->step(state, report);
+      assert_finite(report.columns);
+    }
+
+    double
+    shortest_step() const
+    {
+      return asked_step / (1u << maximum_cuts);
+    }
+
+    std::string
+    complaint(const double asked, const Report &last, const SolveError &error) const
+    {
+      const std::string shorter =
+        last.cuts == 0 ? "" : fmt::format(" and {} shorter one(s)", last.cuts);
+      return fmt::format("a step of {:.4g} s{} failed, the last one of {:.4g} s: {}\nTime/Step = "
+                         "{:.4g} and Time/Maximum cuts = {} allow none shorter than {:.4g} s. If "
+                         "steps became shorter and shorter on the way here, no step will do: try "
+                         "what is said above; else try more cuts.",
+                         asked,
+                         shorter,
+                         last.dt,
+                         error.what(),
+                         asked_step,
+                         maximum_cuts,
+                         shortest_step());
+    }
+
     double                           asked_step   = 0.01; // [s]
-    unsigned int                     maximum_cuts = 3;
+    unsigned int                     maximum_cuts = 6;
     double                           allowed_step = std::numeric_limits<double>::infinity(); // [s]
     std::unique_ptr<SolidAlone<dim>> solid;
     std::unique_ptr<FluidAlone<dim>> fluid;
