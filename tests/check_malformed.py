@@ -5,7 +5,8 @@
 usage: check_malformed.py PROGRAM FOLDER
 
 Each .prm file in FOLDER names in a comment `# expect: text | text` what the message must contain; the
-file's own name is always expected. Files with the comment `# run` are valid and fail while running.
+file's own name is always expected. What `# never: text | text` lists it must not contain. Files with the
+comment `# run` are valid and fail while running.
 The good scenes that the others include must be accepted.
 """
 import pathlib
@@ -43,6 +44,10 @@ def faults(program, scene):
     for word in words:
         if word not in result.stderr:
             found.append(f"the message lacks: {word}")
+    unwanted = re.search(r"^# never: (.*)$", text, re.M)
+    for word in unwanted[1].split(" | ") if unwanted else []:
+        if word.strip() in result.stderr:
+            found.append(f"the message must not contain: {word.strip()}")
     if found:
         found.append("the message: " + result.stderr.strip())
     return found

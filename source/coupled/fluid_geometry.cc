@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/fluid_geometry.h>
 #include <undine/interface/body_forces.h>
+#include <undine/interface/sampled_pockets.h>
 
 namespace undine
 {
@@ -23,9 +24,15 @@ namespace undine
     cut_report    = report(cells, surface.surface(), grid.communicator());
     parts         = make_open_parts(grid, cells);
     flux_operator = std::make_unique<const BoundaryFlux<dim>>(cells, surface.surface());
+    voids         = {};
     if (void_regions != nullptr)
       {
         voids = void_regions->find(cells, parts, *queries, accepted_voids);
+        parts = make_open_parts(grid, cells, voids);
+      }
+    if (cut_report.sampled_cells > 0)
+      {
+        close_sampled_pockets(voids, grid, cells, parts);
         parts = make_open_parts(grid, cells, voids);
       }
   }

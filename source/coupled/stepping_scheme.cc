@@ -34,7 +34,8 @@ namespace undine
              maximum_cuts,
              "",
              Allowed::between(0, 20),
-             "How often a step that fails is halved and redone before the run stops.");
+             "A step that fails is redone with half its length; the run stops where that would be "
+             "less than Step halved so often.");
   }
 
 
@@ -83,14 +84,44 @@ namespace undine
           report.newton_iterations = report.linear_iterations = 0;
           report.columns.clear();
           report.note.clear();
-          if (report.cuts == maximum_cuts)
-            throw SolveError(fmt::format("the step of {:.4g} s failed, and so did {} shorter "
-                                         "one(s), down to {:.4g} s: {}",
-                                         asked,
-                                         maximum_cuts,
-                                         report.dt,
-                                         error.what()));
+          if (report.dt / 2 < shortest_step() * (1 - 1e-9))
+            throw SolveError(complaint(asked, report, error));
         }
+      catch (const Error &)
+        {
+          state = saved;
+          throw;
+        }
+  }
+
+
+  template <int dim>
+  double
+  SteppingScheme<dim>::shortest_step() const
+  {
+    return asked_step / (1u << maximum_cuts);
+  }
+
+
+  template <int dim>
+  std::string
+  SteppingScheme<dim>::complaint(const double      asked,
+                                 const Report     &last,
+                                 const SolveError &error) const
+  {
+    const std::string shorter =
+      last.cuts == 0 ? "" : fmt::format(" and {} shorter one(s)", last.cuts);
+    return fmt::format("a step of {:.4g} s{} failed, the last one of {:.4g} s: {}\nTime/Step = "
+                       "{:.4g} and Time/Maximum cuts = {} allow none shorter than {:.4g} s. If "
+                       "steps became shorter and shorter on the way here, no step will do: try "
+                       "what is said above; else try more cuts.",
+                       asked,
+                       shorter,
+                       last.dt,
+                       error.what(),
+                       asked_step,
+                       maximum_cuts,
+                       shortest_step());
   }
 
 

@@ -52,6 +52,22 @@ namespace undine
     }
 
 
+    /// Keep the state before the step that failed; returns what to tell the user, which is also
+    /// logged.
+    template <int dim>
+    std::string
+    last_words(const Error &error, const State<dim> &state, const Scene<dim> &scene, Log &log)
+    {
+      const std::string message = fmt::format("step {}, which begins at {:.6g} s: {}\n{}",
+                                              state.clock.step + 1,
+                                              state.clock.time,
+                                              error.what(),
+                                              keep_last_state(state, scene));
+      log.record("\nError: " + message + "\n");
+      return message;
+    }
+
+
     /// A failed run keeps its last good state: it can be looked at, and resumed with other
     /// settings.
     template <int dim>
@@ -67,15 +83,13 @@ namespace undine
           log.record(std::string("\nError: ") + error.what() + "\n");
           throw;
         }
+      catch (const InputError &error)
+        {
+          throw InputError(last_words(error, state, scene, log));
+        }
       catch (const Error &error)
         {
-          const std::string message = fmt::format("step {}, which begins at {:.6g} s: {}\n{}",
-                                                  state.clock.step + 1,
-                                                  state.clock.time,
-                                                  error.what(),
-                                                  keep_last_state(state, scene));
-          log.record("\nError: " + message + "\n");
-          throw SolveError(message);
+          throw SolveError(last_words(error, state, scene, log));
         }
     }
 

@@ -31,6 +31,19 @@ namespace undine
         }
       return marks;
     }
+
+
+    /// The cell at a place; beyond a periodic side the image there, which this rank may know though
+    /// it does not know the cell.
+    template <int dim>
+    GridIndex<dim>
+    cell_or_image_at(const MacGrid<dim> &grid, const dealii::Point<dim> &place)
+    {
+      GridIndex<dim> cell;
+      for (unsigned int d = 0; d < dim; ++d)
+        cell[d] = grid.faces(d)->row(d).locate(place[d]).lower;
+      return cell;
+    }
   } // namespace
 
 
@@ -97,7 +110,7 @@ namespace undine
     for (unsigned int d = 0; d < dim; ++d)
       if (std::max(from[d], to[d]) < lowest[d] || std::min(from[d], to[d]) > highest[d])
         return false;
-    const auto begin = grid->cell_at(from), end = grid->cell_at(to);
+    const auto begin = cell_or_image_at(*grid, from), end = cell_or_image_at(*grid, to);
     int        longest = 0;
     for (unsigned int d = 0; d < dim; ++d)
       longest = std::max(longest, std::abs(end[d] - begin[d]));
@@ -105,7 +118,7 @@ namespace undine
     const int n_samples = 2 + longest / margin;
     for (int s = 0; s < n_samples; ++s)
       {
-        const auto cell = grid->cell_at(from + double(s) / (n_samples - 1) * (to - from));
+        const auto cell = cell_or_image_at(*grid, from + double(s) / (n_samples - 1) * (to - from));
         if (!box.contains(cell) || vicinity[box.position(cell)])
           return true;
       }
@@ -119,7 +132,7 @@ namespace undine
   {
     if (grid == nullptr)
       return true;
-    const auto    begin = grid->cell_at(from), end = grid->cell_at(to);
+    const auto    begin = cell_or_image_at(*grid, from), end = cell_or_image_at(*grid, to);
     IndexBox<dim> cells;
     for (unsigned int d = 0; d < dim; ++d)
       {

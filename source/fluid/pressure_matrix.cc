@@ -4,7 +4,6 @@
 
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
-#include <array>
 #include <vector>
 
 namespace undine
@@ -90,24 +89,19 @@ namespace undine
             if (at_boundary && !model.boundaries().at(side, part.index).is_open())
               continue;
             const double coupling = part.measure * part.measure / (model.density() * piece.volume);
-            // Beyond the block, or the domain, there is no number.
-            std::array<bool, 2>                                  known;
-            std::array<typename PressureNumbers<dim>::Number, 2> ends{};
             for (const unsigned int end : {0, 1})
               {
-                known[end] = piece.components[end] != OpenParts<dim>::outside;
-                if (known[end])
-                  ends[end] = numbers.of(end_of_piece(open, axis, k, end));
+                // Across periodic sides a rank may know a piece twice, but owns each end once.
+                const auto place = end_of_piece(open, axis, k, end);
+                if (piece.components[end] == OpenParts<dim>::outside ||
+                    !grid.cells()->owned().contains(place.cell))
+                  continue;
+                row.restart(numbers.of(place));
+                row.values[0] = coupling;
+                if (!at_boundary)
+                  row.add(numbers.of(end_of_piece(open, axis, k, 1 - end)), -coupling);
+                action(row);
               }
-            for (const unsigned int end : {0, 1})
-              if (known[end] && numbers.owned().is_element(ends[end]))
-                {
-                  row.restart(ends[end]);
-                  row.values[0] = coupling;
-                  if (!at_boundary)
-                    row.add(ends[1 - end], -coupling);
-                  action(row);
-                }
           }
     }
 

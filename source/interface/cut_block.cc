@@ -100,6 +100,7 @@ namespace undine
         add_cell(cut, work, finder, placed, key);
       cut.counts.reordered_edges = work.grid_edges.n_reordered();
       drop_debris(cut);
+      close_sampled_cells(cut);
     }
   } // namespace
 

@@ -69,7 +69,7 @@ namespace undine
       }
     if (alternates)
       return;
-    ++reordered;
+    const auto sorted = order;
     entering.clear();
     leaving.clear();
     for (const int c : order)
@@ -87,6 +87,10 @@ namespace undine
     for (std::size_t i = 0; i + 1 < order.size(); ++i)
       if (position(order[i]) - position(order[i + 1]) > reported_inversion * width)
         edge.flags |= cut_order;
+    if (edge.flags & cut_order)
+      order = sorted; // bodies overlap: what lies outside all of them is fluid
+    else
+      ++reordered;
   }
 
 

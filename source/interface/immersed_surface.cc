@@ -42,6 +42,25 @@ namespace undine
                           bodies,
                           joined(first.body_names(), second.body_names()));
     }
+
+
+    template <int dim>
+    std::string
+    periodic_complaint(const Surface<dim>                    &surface,
+                       const std::vector<dealii::Point<dim>> &positions,
+                       const MacGrid<dim>                    &grid)
+    {
+      for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
+        for (const unsigned int node : surface.facets()[facet])
+          for (unsigned int d = 0; d < dim; ++d)
+            if (const auto &x = positions[node];
+                grid.periodic(d) && !(x[d] > grid.lower()[d] && x[d] < grid.upper()[d]))
+              return fmt::format("Body '{}' reaches a periodic side of the domain at ({:.6g}). "
+                                 "Try: move it, or the domain, so that it lies between the sides.",
+                                 surface.body_names()[surface.body(facet)],
+                                 fmt::join(x.begin_raw(), x.begin_raw() + dim, ", "));
+      return "";
+    }
   } // namespace
 
 
@@ -71,7 +90,7 @@ namespace undine
     try
       {
         check_closed(*all_facets, rest);
-        const auto complaint = periodic_complaint(rest);
+        const auto complaint = periodic_complaint(*all_facets, rest, grid);
         if (!complaint.empty())
           throw InputError(complaint);
       }
@@ -87,6 +106,7 @@ namespace undine
   ImmersedSurface<dim>::positions(const SolidState &state, const double time) const
   {
     auto result = all_obstacles.positions(time);
+    check_motion(result, time);
     if (body_surface)
       result = joined(body_surface->positions(state.displacement), result);
     check(result);
@@ -128,9 +148,27 @@ namespace undine
   ImmersedSurface<dim>::check(const std::vector<dealii::Point<dim>> &positions) const
   {
     check_positions(*all_facets, positions);
-    const auto complaint = periodic_complaint(positions);
+    const auto complaint = periodic_complaint(*all_facets, positions, grid);
     if (!complaint.empty())
       throw SolveError(complaint);
+  }
+
+
+  template <int dim>
+  void
+  ImmersedSurface<dim>::check_motion(const std::vector<dealii::Point<dim>> &positions,
+                                     const double                           time) const
+  {
+    const auto &surface   = all_obstacles.surface();
+    auto        complaint = positions_complaint(surface, positions);
+    if (complaint.empty())
+      complaint = periodic_complaint(surface, positions, grid);
+    if (!complaint.empty())
+      throw InputError(
+        fmt::format("{} 'Displacement' takes it there by {:.6g} s, whatever the step. "
+                    "Try also: another motion, or an earlier 'Time/End'.",
+                    complaint,
+                    time));
   }
 
 
@@ -142,23 +180,6 @@ namespace undine
     AssertDimension(values.size(), all_facets->n_nodes());
     if (body_surface)
       body_surface->add(vector, {values.begin(), values.begin() + n_body_nodes()});
-  }
-
-
-  template <int dim>
-  std::string
-  ImmersedSurface<dim>::periodic_complaint(const std::vector<dealii::Point<dim>> &positions) const
-  {
-    for (unsigned int facet = 0; facet < all_facets->facets().size(); ++facet)
-      for (const unsigned int node : all_facets->facets()[facet])
-        for (unsigned int d = 0; d < dim; ++d)
-          if (const auto &x = positions[node];
-              grid.periodic(d) && !(x[d] > grid.lower()[d] && x[d] < grid.upper()[d]))
-            return fmt::format("Body '{}' reaches a periodic side of the domain at ({:.6g}). Try: "
-                               "move it, or the domain, so that it lies between the sides.",
-                               all_facets->body_names()[all_facets->body(facet)],
-                               fmt::join(x.begin_raw(), x.begin_raw() + dim, ", "));
-    return "";
   }
 
 

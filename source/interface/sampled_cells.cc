@@ -28,21 +28,81 @@ namespace undine
     /// @}
 
 
-    /// A place on the fluid's side of a fragment, as far from it as samples are from each other.
-    template <int dim>
-    dealii::Point<dim>
-    in_front_of(const CutCells<dim> &cut, const int fragment, const GridIndex<dim> &cell)
+    /// Centres of equal parts of a segment or triangle. @{
+    constexpr int n_parts = 6;
+
+    void
+    add_centres(std::vector<dealii::Point<2>> &centres, const SampledRegions<2>::Simplex &segment)
     {
-      dealii::Point<dim> centre;
-      const int          begin = cut.corners.first[fragment], end = cut.corners.first[fragment + 1];
-      for (int i = begin; i < end; ++i)
-        centre += (cut.corners.points[i] - dealii::Point<dim>()) / (end - begin);
-      const auto  &normal = cut.fragments[fragment].area_vector;
-      const double size   = normal.norm();
-      for (unsigned int d = 0; d < dim && size > 0; ++d)
-        centre[d] -=
-          normal[d] / size * cut.block.planes().width(d, cell[d]) / SampledRegions<dim>::n_along;
-      return centre;
+      for (int i = 0; i < n_parts; ++i)
+        centres.push_back(segment[0] + (i + .5) / n_parts * (segment[1] - segment[0]));
+    }
+
+    void
+    add_centres(std::vector<dealii::Point<3>> &centres, const SampledRegions<3>::Simplex &triangle)
+    {
+      const auto add = [&](const double i, const double j) {
+        centres.push_back(triangle[0] + i / n_parts * (triangle[1] - triangle[0]) +
+                          j / n_parts * (triangle[2] - triangle[0]));
+      };
+      for (int i = 0; i < n_parts; ++i)
+        for (int j = 0; i + j < n_parts; ++j)
+          {
+            add(i + 1. / 3, j + 1. / 3);
+            if (i + j < n_parts - 1)
+              add(i + 2. / 3, j + 2. / 3);
+          }
+    }
+    /// @}
+
+
+    /// What of a fragment faces fluid and not the inside of another body.
+    template <int dim>
+    struct Wetted
+    {
+      double             share = 0; ///< of its area
+      dealii::Point<dim> place;     ///< in the fluid, as far off as samples are from each other
+    };
+
+
+    template <int dim>
+    Wetted<dim>
+    wetted_part(const CutCells<dim>       &cut,
+                const SampledRegions<dim> &sampled,
+                const GridIndex<dim>      &cell,
+                const int                  fragment)
+    {
+      std::vector<typename SampledRegions<dim>::Simplex> simplices;
+      add_simplices(simplices,
+                    cut.corners.points,
+                    cut.corners.first[fragment],
+                    cut.corners.first[fragment + 1]);
+      std::vector<dealii::Point<dim>> centres;
+      dealii::Tensor<1, dim>          moment;
+      double                          all = 0, wet = 0;
+      for (const auto &simplex : simplices)
+        {
+          auto         normal = area_vector(simplex);
+          const double area   = normal.norm();
+          if (!(area > 0))
+            continue;
+          normal /= area;
+          centres.clear();
+          add_centres(centres, simplex);
+          for (auto centre : centres)
+            {
+              const double part = area / centres.size();
+              all += part;
+              if (!sampled.is_wet(centre, normal))
+                continue;
+              wet += part;
+              for (unsigned int d = 0; d < dim; ++d)
+                centre[d] +=
+                  normal[d] * cut.block.planes().width(d, cell[d]) / SampledRegions<dim>::n_along;
+              moment += part * (centre - dealii::Point<dim>());
+            }
+        }
+      return wet > 0 ? Wetted<dim>{wet / all, dealii::Point<dim>(moment / wet)} : Wetted<dim>();
     }
   } // namespace
 
@@ -128,9 +188,13 @@ namespace undine
             }
         }
     for (int f = cell.first_fragment; f < cut.end_fragment(number); ++f)
-      cut.fragments[f].component = static_cast<int>(cut.components.size()) == cell.first_component
-                                     ? cut.no_component
-                                     : component(in_front_of(cut, f, cell.index));
+      {
+        const auto wetted = wetted_part(cut, sampled, cell.index, f);
+        const bool is_dry =
+          wetted.share == 0 || static_cast<int>(cut.components.size()) == cell.first_component;
+        cut.fragments[f].component = is_dry ? cut.no_component : component(wetted.place);
+        cut.fragments[f].area_vector *= wetted.share;
+      }
     ++cut.counts.sampled_cells;
   }
 

@@ -13,12 +13,13 @@ namespace undine
                                       const std::vector<Simplex>   &simplices)
     : lower(lower)
     , widths(widths)
+    , corner_winding(corner_winding)
     , simplices(simplices)
     , samples{{}, all_directions<dim>(n_along)}
   {
     region_of.reserve(samples.size());
     for_each(samples, [&](const GridIndex<dim> &index) {
-      region_of.push_back(winding(sample(index), corner_winding) == 0 ? -2 : -1);
+      region_of.push_back(winding(sample(index)) == 0 ? -2 : -1);
     });
     for_each(samples, [&](const GridIndex<dim> &index) {
       if (region_of[samples.position(index)] != -2)
@@ -51,7 +52,7 @@ namespace undine
 
   template <int dim>
   int
-  SampledRegions<dim>::winding(const dealii::Point<dim> &place, const int corner_winding) const
+  SampledRegions<dim>::winding(const dealii::Point<dim> &place) const
   {
     // The corner as the slabs see it: infinitesimally below, along higher axes more so.
     dealii::Point<dim> start    = lower;
@@ -69,6 +70,25 @@ namespace undine
           result += before > 0 ? 1 : -1;
       }
     return result;
+  }
+
+
+  template <int dim>
+  bool
+  SampledRegions<dim>::is_wet(const dealii::Point<dim>     &place,
+                              const dealii::Tensor<1, dim> &normal) const
+  {
+    constexpr double little  = 1e-6; // in widths of the box
+    auto             outside = place, inside = place;
+    bool             in_box = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        outside[d] += little * widths[d] * normal[d];
+        inside[d] -= little * widths[d] * normal[d];
+        in_box = in_box && outside[d] >= lower[d] && outside[d] <= lower[d] + widths[d];
+      }
+    // A facet in a side of the box: beyond it nothing is known, but here it is the only body.
+    return in_box ? winding(outside) == 0 : winding(inside) == 1;
   }
 
 

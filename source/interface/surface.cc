@@ -156,28 +156,37 @@ namespace undine
 
 
   template <int dim>
-  void
-  check_positions(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions)
+  std::string
+  positions_complaint(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions)
   {
     for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
       for (const unsigned int node : surface.facets()[facet])
         if (!std::isfinite(positions[node].norm_square()))
-          throw SolveError(fmt::format("Body '{}': a position of its boundary is not a number. Try "
-                                       "a smaller time step.",
-                                       surface.body_names()[surface.body(facet)]));
+          return fmt::format("Body '{}': a position of its boundary is not a number.",
+                             surface.body_names()[surface.body(facet)]);
     const auto        volumes = body_volumes(surface, positions);
     std::vector<bool> present(volumes.size(), false);
     for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
       present[surface.body(facet)] = true;
     for (unsigned int body = 0; body < volumes.size(); ++body)
       if (present[body] && !(volumes[body] > 0))
-        throw SolveError(
-          fmt::format("Body '{}' is inside out: the volume that its boundary encloses is {:.3g} "
-                      "m^{}. If so at the start, its cells are numbered the wrong way round; if "
-                      "later, try a smaller time step.",
-                      surface.body_names()[body],
-                      volumes[body],
-                      dim));
+        return fmt::format("Body '{}' is inside out: the volume that its boundary encloses is "
+                           "{:.3g} m^{}.",
+                           surface.body_names()[body],
+                           volumes[body],
+                           dim);
+    return "";
+  }
+
+
+  template <int dim>
+  void
+  check_positions(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions)
+  {
+    const auto complaint = positions_complaint(surface, positions);
+    if (!complaint.empty())
+      throw SolveError(complaint + " Try a smaller time step. If so at the start, the cells of the "
+                                   "body are numbered the wrong way round.");
   }
 
 
@@ -190,6 +199,8 @@ namespace undine
                                               const std::vector<dealii::Point<dim>> &);            \
   template std::vector<double> body_volumes(const Surface<dim> &,                                  \
                                             const std::vector<dealii::Point<dim>> &);              \
+  template std::string positions_complaint(const Surface<dim> &,                                   \
+                                           const std::vector<dealii::Point<dim>> &);               \
   template void check_positions(const Surface<dim> &, const std::vector<dealii::Point<dim>> &);
   // clang-format on
   INSTANTIATE(2)

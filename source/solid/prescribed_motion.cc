@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/solid/prescribed_motion.h>
+#include <undine/solid/throw_together.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
 
 namespace undine
 {
@@ -34,9 +39,22 @@ namespace undine
   void
   prescribe_displacement(Vector &displacement, const SolidModel<dim> &model, const double time)
   {
+    std::string complaint;
     set_fixed(displacement, model, [&](const FixedDof &fixed) {
-      return model.prescribed_displacement(fixed, time);
+      const double value = model.prescribed_displacement(fixed, time);
+      if (!std::isfinite(value) && complaint.empty())
+        {
+          const auto &body = model.bodies()[fixed.body];
+          complaint        = fmt::format("body '{}', boundary '{}': the prescribed displacement at "
+                                         "{:.6g} s is not a finite number. Try: another expression, "
+                                         "or an earlier 'Time/End'.",
+                                  body.name,
+                                  body.boundaries[fixed.boundary].name,
+                                  time);
+        }
+      return value;
     });
+    throw_together<InputError>(complaint, model.communicator());
   }
 
 

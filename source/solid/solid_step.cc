@@ -138,14 +138,7 @@ namespace undine
                                    body.name + "'.")
                           .what();
         }
-      try
-        {
-          throw_together(failure, model.communicator());
-        }
-      catch (const SolveError &error)
-        {
-          throw InputError(error.what());
-        }
+      throw_together<InputError>(failure, model.communicator());
     }
 
 

@@ -2,19 +2,24 @@
 #ifndef undine_coupled_stepping_scheme_h
 #define undine_coupled_stepping_scheme_h
 
+#include <undine/base/core/errors.h>
 #include <undine/coupled/physics.h>
 #include <undine/coupled/scheme.h>
 
 #include <limits>
 #include <memory>
+#include <string>
 
 namespace undine
 {
   /// What all schemes have in common: the length of steps.
   ///
-  /// A step that fails is redone from the saved state with half its length, a stated number of
-  /// times. The next step has the length that went well, and those after it double it up to the
-  /// length asked for; a resumed run begins with the latter.
+  /// A step that fails is redone from the saved state with half its length, as long as that is not
+  /// below the shortest one, Time/Step halved `Maximum cuts` times. The next step has the length
+  /// that went well, and those after it double it up to the length asked for; a resumed run begins
+  /// with the latter. The limit is one of lengths, not of cuts of each step: short of a time that
+  /// no step gets past, every accepted step would allow yet shorter ones. Wrong input fails at
+  /// once.
   template <int dim>
   class SteppingScheme : public Scheme<dim>
   {
@@ -37,8 +42,13 @@ namespace undine
     couple(const Models<dim> &models, TimingTree &timing) const = 0;
 
   private:
+    double
+    shortest_step() const;
+    std::string
+    complaint(double asked, const Report &last, const SolveError &error) const;
+
     double                        asked_step   = 0.01; // [s]
-    unsigned int                  maximum_cuts = 3;
+    unsigned int                  maximum_cuts = 6;
     double                        allowed_step = std::numeric_limits<double>::infinity(); // [s]
     std::unique_ptr<Physics<dim>> physics;
   };

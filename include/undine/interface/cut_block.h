@@ -38,6 +38,16 @@ namespace undine
   template <int dim>
   void
   drop_debris(CutCells<dim> &cut);
+
+  /// After drop_debris(): make pieces and fragments close around the components of sampled cells,
+  /// so that bodies that move alike push nothing through them that cannot leave. The vector that is
+  /// missing is shared out to the fragments in proportion to their areas. What fragments contribute
+  /// beyond that, which counts where bodies move towards each other, is limited to the area of the
+  /// pieces: openings that samples do not resolve let out no more than the bodies' relative speed
+  /// times their area.
+  template <int dim>
+  void
+  close_sampled_cells(CutCells<dim> &cut);
 } // namespace undine
 
 #endif

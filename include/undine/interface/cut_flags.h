@@ -18,10 +18,12 @@ namespace undine
     cut_splitting_failed = 256  ///< a facet could not be split (never seen)
   };
 
-  /// Flags after which a face or cell is sampled instead. With the others closure is still exact:
-  /// an overlap of bodies without a node of the grid in it counts as fluid of negative volume.
-  constexpr unsigned int cut_needs_sampling =
-    cut_winding | cut_loop | cut_pairing | cut_nesting | cut_closure;
+  /// Flags after which a face or cell is sampled instead. Overlaps too small to hold a node of the
+  /// grid are among them though closure would be exact: as fluid of negative volume they would take
+  /// up what moving bodies push into them, through pieces as small as the overlap.
+  constexpr unsigned int cut_needs_sampling = cut_winding | cut_loop | cut_pairing | cut_nesting |
+                                              cut_order | cut_negative_area | cut_negative_volume |
+                                              cut_closure;
 
   /// Relative levels at which things are reported; no topology depends on them. @{
   constexpr double reported_inversion = 1e-9;

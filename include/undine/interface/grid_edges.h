@@ -88,8 +88,8 @@ namespace undine
                    const std::int64_t                     key,
                    const unsigned int                     axis);
 
-    /// Make entering and leaving alternate from winding `start` on; flags an inversion by more
-    /// than rounding.
+    /// Make entering and leaving alternate from winding `start` on; an inversion by more than
+    /// rounding is flagged instead.
     void
     restore_alternation(Edge                    &edge,
                         const SplitSurface<dim> &split,

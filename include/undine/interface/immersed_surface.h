@@ -53,12 +53,13 @@ namespace undine
     }
 
     /// Where the nodes are, given the bodies' displacement and the time for the obstacles [m].
-    /// Throws SolveError as check() does. Collective.
+    /// Throws SolveError as check() does; InputError if it is an obstacle, since no smaller step
+    /// keeps it from going where its motion is prescribed to go. Collective.
     std::vector<dealii::Point<dim>>
     positions(const SolidState &state, const double time) const;
 
     /// How they move, bodies by their velocity, obstacles in a step of `dt` from `time` on [m/s].
-    /// Throws SolveError as check() does if obstacles cannot be at its end. Collective.
+    /// Throws as positions() does, also if obstacles cannot be at its end. Collective.
     std::vector<dealii::Tensor<1, dim>>
     velocities(const SolidState &state, const double time, const double dt) const;
 
@@ -80,8 +81,8 @@ namespace undine
                   const std::vector<dealii::Tensor<1, dim>> &values) const;
 
   private:
-    std::string
-    periodic_complaint(const std::vector<dealii::Point<dim>> &positions) const;
+    void
+    check_motion(const std::vector<dealii::Point<dim>> &positions, const double time) const;
 
     const MacGrid<dim>                   &grid;
     std::optional<const BodySurface<dim>> body_surface;

@@ -40,6 +40,11 @@ namespace undine
       return all_regions;
     }
 
+    /// Whether there is fluid just outside a place on a facet with this unit normal, not the inside
+    /// of another body.
+    bool
+    is_wet(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &normal) const;
+
     /// The region of the sample in the fluid nearest to `place`; -1 if there is no fluid.
     int
     nearest(const dealii::Point<dim> &place) const;
@@ -49,7 +54,7 @@ namespace undine
     sample(const GridIndex<dim> &index) const;
 
     int
-    winding(const dealii::Point<dim> &place, const int corner_winding) const;
+    winding(const dealii::Point<dim> &place) const;
 
     /// Give region number `region` to all samples joined to `start`.
     void
@@ -57,6 +62,7 @@ namespace undine
 
     dealii::Point<dim>     lower;
     dealii::Tensor<1, dim> widths;
+    int                    corner_winding;
     std::vector<Simplex>   simplices;
     IndexBox<dim>          samples;
     std::vector<int>       region_of; ///< of each sample; -1 solid, -2 not yet known
@@ -75,9 +81,9 @@ namespace undine
   sample_face(CutCells<3> &cut, CutWorkspace<3> &work);
 
 
-  /// Replace the components of the last cell by sampled ones. Every fragment goes to the nearest
-  /// component, so that the flux of a body's motion in this cell (B u) stays exact in sum; closure
-  /// is lost.
+  /// Replace the components of the last cell by sampled ones. Of every fragment the part that is
+  /// wet goes to the nearest component: what moves inside another body pushes no fluid. Closure is
+  /// lost until close_sampled_cells().
   template <int dim>
   void
   sample_cell(CutCells<dim> &cut, const CutWorkspace<dim> &work);

@@ -102,7 +102,14 @@ namespace undine
   std::vector<double>
   body_volumes(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions);
 
-  /// Throws SolveError, naming the body, if a position is not finite or a volume not positive.
+  /// What makes positions impossible, naming the body: one that is not finite, or a volume that is
+  /// not positive. Empty if nothing does.
+  template <int dim>
+  std::string
+  positions_complaint(const Surface<dim>                    &surface,
+                      const std::vector<dealii::Point<dim>> &positions);
+
+  /// Throws SolveError with this complaint.
   template <int dim>
   void
   check_positions(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions);

@@ -9,7 +9,7 @@ namespace undine
   /// The fixed degrees of freedom of a vector over the locally owned ones become what their
   /// boundaries prescribe, g(t) [m], dg/dt [m/s] or d^2g/dt^2 [m/s^2]; derivatives are differences
   /// over times within `dt` [s], central ones except at t < dt: expressions need no meaning for t <
-  /// 0.
+  /// 0. Collective. The first throws InputError, naming the boundary, if g(t) is not finite.
   /// @{
   template <int dim>
   void

@@ -67,12 +67,13 @@ namespace
 
   template <int dim>
   void
-  check_rest(const std::string &kind_of_top)
+  check_rest(const std::string &kind_of_top, const std::string &more_domain = "")
   {
     ObstacleRun<dim> run(
       section("Domain",
-              plane_or_space<dim>("set Upper corner = 1, 2.3\nset Cells = 13, 31",
-                                  "set Upper corner = 1, 2.3, 1\nset Cells = 10, 23, 9")) +
+              plane_or_space<dim>("set Upper corner = 1, 2.3\nset Cells = 13, 31\n",
+                                  "set Upper corner = 1, 2.3, 1\nset Cells = 10, 23, 9\n") +
+                more_domain) +
         section("Fluid",
                 fmt::format("set Density = {}\n", density) +
                   section("Boundaries", boundary("lid", "top", kind_of_top))),
@@ -128,6 +129,11 @@ TEST_CASE("Fluid under gravity rests among walls and obstacles at all angles", "
   SECTION("2D, open")
   {
     check_rest<2>("outflow");
+  }
+  SECTION("2D, open, graded")
+  {
+    check_rest<2>("outflow",
+                  "set Grading x = x + .1*sin(2*pi*x)\nset Grading y = x - .05*sin(2*pi*x)");
   }
   SECTION("3D")
   {

@@ -1,90 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <coupled/obstacle_run.h>
+#include <coupled/uniform_stream.h>
 
 using namespace undine_tests;
 
 namespace
 {
-  template <int dim>
-  struct Stream
-  {
-    dealii::Tensor<1, dim> velocity;
-    double                 dt;
-
-    std::string
-    vector(const std::string &factor = "1") const
-    {
-      std::string result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result += fmt::format("{}{:.17g}*{}", d == 0 ? "" : "; ", velocity[d], factor);
-      return result;
-    }
-
-    /// In at the lower sides, out at the upper ones; one cell is 1/8 long.
-    std::string
-    fluid() const
-    {
-      return section("Domain",
-                     plane_or_space<dim>("set Upper corner = 2, 1\nset Cells = 16, 8",
-                                         "set Upper corner = 2, 1, 1\nset Cells = 16, 8, 8")) +
-             section("Fluid",
-                     "set Density = 1000\nset Initial velocity = " + vector() + "\n" +
-                       section("Boundaries",
-                               boundary("in",
-                                        plane_or_space<dim>("left, bottom", "left, bottom, back"),
-                                        "inflow",
-                                        "set Velocity = " + vector()) +
-                                 boundary("out",
-                                          plane_or_space<dim>("right, top", "right, top, front"),
-                                          "outflow")));
-    }
-  };
-
-
-  /// A stream in which everything moves along stays what it is.
-  template <int dim>
-  void
-  check_translation(const Stream<dim> &stream, const std::string &shape, const std::string &keys)
-  {
-    INFO(shape << " " << keys << ", in " << stream.vector());
-    ObstacleRun<dim> run(
-      stream.fluid(),
-      obstacle("thing", shape, keys + "\nset Displacement = " + stream.vector("t")),
-      convection() + section("scalar transport",
-                             section("smoke", "set Initial value = 1\nset Inflow value = 1")),
-      stream.dt);
-    const double speed = stream.velocity.norm();
-    for (unsigned int n = 0; n < 12; ++n)
-      {
-        run.step();
-        REQUIRE(run.column("Flagged cells") == 0);
-        REQUIRE(largest_on_faces(run.state.fluid.velocity,
-                                 [&](const double value, const auto &, const unsigned int axis) {
-                                   return std::abs(value - stream.velocity[axis]);
-                                 }) <= 1e-12 * speed);
-        // The pressure that would stop the stream within one cell and step.
-        REQUIRE(largest_in_cells(run.state.fluid.pressure, [](const double value, const auto &) {
-                  return std::abs(value);
-                }) <= 1e-12 * 1000 * speed / 8 / stream.dt);
-        REQUIRE(run.column("Fluid divergence") <= 1e-12);
-        REQUIRE(largest_in_cells(
-                  run.state.fluid.scalars.at("smoke"),
-                  [](const double value, const auto &) { return std::abs(value - 1); }) <= 1e-12);
-      }
-  }
-
-
-  template <int dim>
-  Stream<dim>
-  stream(const std::array<double, 3> &velocity, const double dt)
-  {
-    Stream<dim> result{{}, dt};
-    for (unsigned int d = 0; d < dim; ++d)
-      result.velocity[d] = velocity[d];
-    return result;
-  }
-
-
   template <int dim>
   std::string
   sheet(const double thickness, const double x, const double angle)
@@ -118,13 +38,14 @@ namespace
   void
   check_all(const std::vector<double> &thicknesses)
   {
-    const auto slanting = stream<dim>({{1.3, .4, .3}}, .03);
-    const auto by_cells = stream<dim>({{1, 0, 0}}, .125);
+    const auto slanting = UniformStream<dim>({{1.3, .4, .3}}, .03).through();
+    const auto by_cells = UniformStream<dim>({{1, 0, 0}}, .125).through();
     for (const double cells : thicknesses)
       {
         check_translation(slanting, "box", sheet<dim>(cells / 8, .6, 23));
         check_translation(by_cells, "box", sheet_on_planes<dim>(cells / 8));
       }
+    check_translation(slanting.graded(), "box", sheet<dim>(.01, .6, 23));
     check_translation(
       slanting,
       "ball",
@@ -149,6 +70,7 @@ TEST_CASE("An obstacle that moves along with a stream does not disturb it", "[co
 
 TEST_CASE("A sheet leaves with the stream through an opening", "[coupled][mpi]")
 {
-  check_translation(stream<2>({{1, 0, 0}}, .0625), "box", sheet<2>(1e-3, 1.4, 10));
-  check_translation(stream<2>({{1, 0, 0}}, .0625), "box", sheet<2>(.1, 1.4, 0));
+  const auto stream = UniformStream<2>({{1, 0, 0}}, .0625).through();
+  check_translation(stream, "box", sheet<2>(1e-3, 1.4, 10));
+  check_translation(stream, "box", sheet<2>(.1, 1.4, 0));
 }

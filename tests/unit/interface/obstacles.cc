@@ -287,7 +287,7 @@ TEST_CASE("Bodies at periodic sides and names twice are errors", "[interface]")
                               "Displacement = t; 0");
   const ImmersedSurface<2> surface(moves, nullptr, grid);
   surface.positions({}, .1);
-  CHECK_THROWS_AS(surface.positions({}, .3), SolveError);
+  CHECK_THROWS_AS(surface.positions({}, .3), InputError);
 
   const auto          twice = obstacle("",
                               "subsection Bodies\nsubsection thing\nset Density = 1\nset Young's "

@@ -117,54 +117,92 @@ TEST_CASE("Wrong bodies give results that are well formed", "[interface]")
 }
 
 
-TEST_CASE("Overlaps without a node in them are flagged and close exactly", "[interface]")
+namespace
 {
-  auto bodies = box<3>({1.25, 1.25, 1.25}, {2.75, 2.75, 2.75}, {{1, 1, 1}});
-  bodies.append(box<3>({2.25, 1.5, 1.5}, {4.25, 3.5, 3.5}, {{1, 1, 1}}));
-  Planes<3> planes;
-  planes.fill({0., 1., 2., 3., 4., 5.});
-  const auto surface = bodies.surface();
-  const auto cut     = cut_all<3>(planes, surface, bodies.nodes);
-  const auto result  = report(cut, surface, MPI_COMM_SELF);
-  CHECK(result.flagged_cells > 0);
-  CHECK(result.sampled_cells == 0);
-  CHECK_THAT(result.message,
-             Contains("Bodies 'body 0' and 'body 1' near (") && Contains("wrong order"));
-  Random     random(1);
-  const auto defects = check_cut(cut, bodies, surface, random);
-  CHECK(defects.closure <= 1e-12);
-  CHECK(defects.volume <= 1e-14);
+  /// Two boxes, of which the second reaches `overlap` into the upper x side of the first.
+  Bodies<3>
+  boxes(const double end, const double overlap)
+  {
+    auto bodies = box<3>({1.25, 1.25, 1.25}, {end, 3.25, 3.25}, {{1, 1, 1}});
+    bodies.append(box<3>({end - overlap, 1.5, 1.5}, {4.25, 3.5, 3.5}, {{1, 1, 1}}));
+    return bodies;
+  }
+
+
+  CutCells<3>
+  cut_boxes(const Bodies<3> &bodies, const Surface<3> &surface)
+  {
+    Planes<3> planes;
+    planes.fill({0., 1., 2., 3., 4., 5.});
+    return cut_all<3>(planes, surface, bodies.nodes);
+  }
+
+
+  double
+  fluid_volume(const CutCells<3> &cut)
+  {
+    double volume = 0;
+    for (const double region : fluid_regions(cut, 0))
+      volume += region;
+    return volume;
+  }
+} // namespace
+
+
+TEST_CASE("Overlaps with or without a node of the grid in them are sampled", "[interface]")
+{
+  for (const double end : {2.75, 3.25})
+    for (const double overlap : {1e-8, .1, .5})
+      {
+        INFO("overlap of " << overlap << " up to " << end);
+        const auto bodies  = boxes(end, overlap);
+        const auto surface = bodies.surface();
+        const auto cut     = cut_boxes(bodies, surface);
+        const auto result  = report(cut, surface, MPI_COMM_SELF);
+        CHECK(result.sampled_cells > 0);
+        CHECK(result.sampled_cells < result.cut_cells);
+        CHECK_THAT(result.message, Contains("Bodies 'body 0' and 'body 1' near ("));
+        CHECK(cut.counts.closure <= 1e-13);
+        for (const auto &piece : cut.pieces)
+          CHECK(piece.area > 0);
+        for (const auto &component : cut.components)
+          CHECK(component.volume >= 0);
+
+        // Samples give the volume of the union to a part of a sample in each direction.
+        const double exact =
+          125 - (end - 1.25) * 4 - (4.25 - end + overlap) * 4 + overlap * 1.75 * 1.75;
+        CHECK(fluid_volume(cut) == Approx(exact).margin(.35));
+      }
 }
 
 
-TEST_CASE("Overlaps with a node in them are sampled", "[interface]")
+TEST_CASE("In sampled cells what lies in another body has no flux, the rest closes", "[interface]")
 {
-  auto bodies = box<3>({1.25, 1.25, 1.25}, {3.25, 3.25, 3.25}, {{1, 1, 1}});
-  bodies.append(box<3>({2.75, 1.5, 1.5}, {4.25, 3.5, 3.5}, {{1, 1, 1}}));
-  Planes<3> planes;
-  planes.fill({0., 1., 2., 3., 4., 5.});
+  const auto bodies  = boxes(3.25, .5);
   const auto surface = bodies.surface();
-  const auto cut     = cut_all<3>(planes, surface, bodies.nodes);
-  const auto result  = report(cut, surface, MPI_COMM_SELF);
-  CHECK(result.sampled_cells > 0);
-  CHECK(result.sampled_cells < result.cut_cells);
-  CHECK_THAT(result.message, Contains("'body 0'") && Contains("two bodies"));
+  const auto cut     = cut_boxes(bodies, surface);
 
-  // Samples give the volume of the union to a part of a sample in each direction.
-  double volume = 0;
-  for (const double region : fluid_regions(cut, 0))
-    volume += region;
-  const double exact = 125 - 8 - 6 + .5 * 1.75 * 1.75;
-  CHECK(volume == Approx(exact).margin(.35));
-
-  // Every fragment of a sampled cell with fluid in it belongs to one of its components.
-  for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
-    for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
-      if (cut.cells[cell].flags != 0 && cut.end_component(cell) > cut.cells[cell].first_component)
-        {
-          CHECK(cut.fragments[f].component >= cut.cells[cell].first_component);
-          CHECK(cut.fragments[f].component < cut.end_component(cell));
-        }
+  // Outlines of components, and the area of each body's side towards the other that is wet.
+  std::vector<dealii::Tensor<1, 3>> defects(cut.components.size());
+  std::array<double, 2>             wet{};
+  for (const auto &piece : cut.pieces)
+    for (const int end : {0, 1})
+      if (const int c = piece.components[end]; c >= 0)
+        defects[c][cut.faces[piece.face].axis] += (end == 0 ? 1 : -1) * piece.area;
+  for (const auto &fragment : cut.fragments)
+    if (fragment.component != cut.no_component)
+      {
+        const unsigned int body = surface.body(fragment.facet);
+        const double       x    = bodies.nodes[surface.facets()[fragment.facet][0]][0];
+        defects[fragment.component] += fragment.area_vector;
+        const auto normal = area_vector(surface, fragment.facet, bodies.nodes);
+        if (std::abs(normal[0]) > 0 && x == (body == 0 ? 3.25 : 2.75))
+          wet[body] += std::abs(fragment.area_vector[0]);
+      }
+  for (const auto &defect : defects)
+    CHECK(defect.norm() <= 1e-13);
+  for (const double area : wet)
+    CHECK(area == Approx(4 - 1.75 * 1.75).margin(.25));
 }
 
 
