@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Seconds per step by phase, for three sizes of the solid alone and of the fluid alone, on 1 and 2
-ranks, as Markdown tables (doc/costs.md holds those of one machine).
+"""Seconds per step by phase, for three sizes of the solid alone and of the fluid alone, with and
+without obstacles, on 1 and 2 ranks, as Markdown tables (doc/costs.md holds those of one machine).
 
 usage: benchmarks/cost_table.py [PROGRAM]
 
-Beside PROGRAM its tests are expected (tests/unit_fluid), which hold the projection of a million cells.
+Beside PROGRAM its tests are expected: tests/unit_fluid holds the projection of a million cells,
+tests/unit_interface the cutting of a grid.
 Nothing else should run meanwhile.
 """
 import os
@@ -25,6 +26,10 @@ CASES = [
      "Bodies/beam/Cells", ["20, 2, 4", "32, 4, 6", "48, 6, 10"]),
     ("Fluid alone: 3D plume, two scalars", "prm/plume.prm",
      "Domain/Cells", ["32, 64, 32", "50, 100, 50", "80, 156, 80"]),
+    ("Fluid past a fixed ball: one scalar", "prm/ball_in_stream.prm",
+     "Domain/Cells", ["60, 40, 40", "96, 64, 64", "150, 80, 80"]),
+    ("Fluid past a ball that moves", "tests/resume/ball.prm",
+     "Domain/Cells", ["60, 40, 40", "96, 64, 64", "150, 80, 80"]),
 ]
 
 
@@ -83,6 +88,17 @@ def projections(tests):
             print(f"| {row[0]} | {ranks} | {row[1]} | {row[2]} | {row[3]} |")
 
 
+def cuts(tests):
+    """A ball of more and more facets cuts finer and finer grids, on one rank."""
+    print("\n## Cutting a grid\n\nA ball of diameter 0.7 in a unit cube (square in 2D); one rank.\n")
+    print("| cells along an edge | facets | cut cells | ms | µs per facet | µs per cut cell |\n"
+          "|---|---|---|---|---|---|")
+    text = scene_tools.run(tests, ["a ball of more and more facets*"], 1).stdout
+    for row in re.findall(r"([23]D) +(\d+) cells along an edge, +(\d+) facets, +(\d+) cut cells: +"
+                          r"([\d.]+) ms, +([\d.]+) us per facet, +([\d.]+) us", text):
+        print(f"| {row[0]}, {row[1]} | " + " | ".join(row[2:]) + " |")
+
+
 def main():
     program = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "build", "undine")
     version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout.strip()
@@ -90,7 +106,9 @@ def main():
           f"{os.cpu_count()} cores ({platform.machine()}).")
     for case in CASES:
         table(program, *case)
-    projections(os.path.join(os.path.dirname(program), "tests", "unit_fluid"))
+    tests = os.path.join(os.path.dirname(program), "tests")
+    projections(os.path.join(tests, "unit_fluid"))
+    cuts(os.path.join(tests, "unit_interface"))
 
 
 main()

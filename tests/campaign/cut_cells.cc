@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Random configurations of bodies that cut a grid. Exit code 1 if anything is wrong.
-//   campaign_cut_cells COUNT SEED [KIND]   COUNT of every kind, in 2D and 3D, on unit and graded
-//   grids campaign_cut_cells blocks COUNT SEED   blocks against the whole, bit by bit; on several
-//   ranks campaign_cut_cells wrong COUNT SEED    overlapping, folded, inverted and exploded bodies
-//   campaign_cut_cells time                microseconds for a ball, as triangles and cells grow
+// Random configurations of bodies that cut a grid; `campaign_cut_cells --help` says how to use it.
 #include <interface/block_checks.h>
 #include <interface/trial.h>
 #include <interface/wrong_bodies.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 
@@ -110,46 +108,6 @@ namespace
                     stopwatch.seconds());
       }
   }
-
-
-  template <int dim>
-  void
-  measure_time(const int n, const int level)
-  {
-    auto                   body = ball<dim>(level, n * .35);
-    dealii::Tensor<1, dim> distance;
-    Planes<dim>            planes;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        distance[d] = n * .5 + .01 * (d + 1);
-        for (int i = 0; i <= n; ++i)
-          planes[d].push_back(i);
-      }
-    body.shift(distance);
-    const auto        surface = body.surface();
-    const auto        grid    = std::make_shared<const GridPlanes<dim>>(planes);
-    CutCells<dim>     cut(GridBlock<dim>(grid, all_cells(*grid), 0));
-    CutWorkspace<dim> work;
-    double            best = 1e9;
-    for (int repeat = 0; repeat < 7; ++repeat)
-      {
-        const Stopwatch stopwatch;
-        cut_block(cut, work, {surface, body.nodes});
-        best = std::min(best, stopwatch.seconds());
-      }
-    std::printf(
-      "%dD n=%3d facets %6zu cut cells %6zu fragments %6zu: %.2f ms = %.2f us/facet, %.2f "
-      "us/cut cell, %.2f us/fragment\n",
-      dim,
-      n,
-      surface.facets().size(),
-      cut.cells.size(),
-      cut.fragments.size(),
-      1e3 * best,
-      1e6 * best / surface.facets().size(),
-      1e6 * best / cut.cells.size(),
-      1e6 * best / cut.fragments.size());
-  }
 } // namespace
 
 
@@ -159,36 +117,35 @@ main(int argc, char **argv)
   int                                      no_arguments = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
 
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const auto                     argument = [&](const std::size_t i) {
-    return i < arguments.size() ? arguments[i] : "";
-  };
-  const auto number = [&](const std::size_t i, const int otherwise) {
-    return i < arguments.size() ? std::stoi(arguments[i]) : otherwise;
-  };
+  int           count = 20;
+  std::uint64_t seed  = 1;
+  std::string   kind;
+  CLI::App      app("Random configurations of bodies that cut a grid, in 2D and 3D, on unit and "
+                    "graded grids. Exit code 1 if anything is wrong.");
+  app.add_option("--count", count, "of every kind and grid")->capture_default_str();
+  app.add_option("--seed", seed)->capture_default_str();
+  app.add_option("--kind", kind, "this kind only");
+  const auto *blocks =
+    app.add_subcommand("blocks", "blocks of ranks against the whole, bit by bit")->fallthrough();
+  const auto *wrong =
+    app.add_subcommand("wrong", "overlapping, folded, inverted and exploded bodies")->fallthrough();
+  CLI11_PARSE(app, argc, argv);
+
   bool good = true;
-  if (argument(0) == "time")
+  if (*blocks)
     {
-      for (const int level : {6, 8, 10})
-        measure_time<2>(256, level);
-      for (const int n : {64, 128})
-        for (const int level : {4, 5, 6})
-          measure_time<3>(n, level);
+      good = run_blocks<2>(count, seed);
+      good = run_blocks<3>(count, seed) && good;
     }
-  else if (argument(0) == "blocks")
+  else if (*wrong)
     {
-      good = run_blocks<2>(number(1, 20), number(2, 1));
-      good = run_blocks<3>(number(1, 20), number(2, 1)) && good;
-    }
-  else if (argument(0) == "wrong")
-    {
-      run_wrong<2>(number(1, 20), number(2, 1));
-      run_wrong<3>(number(1, 20), number(2, 1));
+      run_wrong<2>(count, seed);
+      run_wrong<3>(count, seed);
     }
   else
     {
-      good = run<2>(number(0, 20), number(1, 1), argument(2));
-      good = run<3>(number(0, 20), number(1, 1), argument(2)) && good;
+      good = run<2>(count, seed, kind);
+      good = run<3>(count, seed, kind) && good;
     }
   return good ? 0 : 1;
 }
