@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <coupled/coupled_run.h>
+
+using namespace undine_tests;
+
+namespace
+{
+  constexpr double length = .5, column = .8, youngs_modulus = 2e5;
+
+  /// An elastic bar, held at its left end, closes a channel of water that is open on the right. Bar
+  /// and water move along x only: without Poisson's effect the water is a mass at the bar's end,
+  ///
+  ///     lambda tan lambda = rho_s L / (rho_f L_f),    omega = lambda (E / rho_s)^1/2 / L.
+  template <int dim>
+  std::string
+  bar_and_water(const double density, const double dt, const std::string &integrator)
+  {
+    const auto slides = [](const std::string &axis) {
+      return clamp("slides_" + axis, "1", "set Components = " + axis);
+    };
+    const double height = .2;
+    const auto   end    = length + column;
+    return steps_of(dt) +
+           section("Domain",
+                   fmt::format(plane_or_space<dim>("set Lower corner = .3, 0\nset Upper corner = "
+                                                   "{0}, {1}\nset Cells = 20, 4",
+                                                   "set Lower corner = .3, 0, 0\nset Upper corner "
+                                                   "= {0}, {1}, {1}\nset Cells = 20, 3, 3"),
+                               end,
+                               height)) +
+           section("Fluid",
+                   "set Density = 1000\n" +
+                     section("Boundaries", boundary("out", "right", "outflow"))) +
+           section("Bodies",
+                   body("bar",
+                        fmt::format(plane_or_space<dim>("set Lower corner = 0, 0\nset Upper corner "
+                                                        "= {0}, {1}\nset Cells = 10, 1",
+                                                        "set Lower corner = 0, 0, 0\nset Upper "
+                                                        "corner = {0}, {1}, {1}\nset Cells = 10, "
+                                                        "1, 1"),
+                                    length,
+                                    height) +
+                          fmt::format("\nset Density = {}\nset Young's modulus = {}\nset "
+                                      "Poisson's ratio = 0\nset Material = linear elastic\nset "
+                                      "Initial displacement = 1e-4*x{}",
+                                      density,
+                                      youngs_modulus,
+                                      plane_or_space<dim>(";0", ";0;0")),
+                        clamp("wall", "1", "set Sides = left") + slides("y") +
+                          plane_or_space<dim>("", slides("z")))) +
+           section("Solid numerics", integrator);
+  }
+
+
+  /// Of the first mode [1/s], by bisection.
+  double
+  exact_frequency(const double density)
+  {
+    const double ratio = density * length / (1000 * column);
+    double       lower = 0, upper = M_PI / 2;
+    for (unsigned int n = 0; n < 60; ++n)
+      {
+        const double middle                                 = (lower + upper) / 2;
+        (middle * std::tan(middle) < ratio ? lower : upper) = middle;
+      }
+    return lower * std::sqrt(youngs_modulus / density) / length;
+  }
+
+
+  /// From the times at which the bar's centre passes its place at rest.
+  template <int dim>
+  double
+  measured_frequency(const double density, const double dt, const std::string &integrator)
+  {
+    CoupledRun<dim>     run(bar_and_water<dim>(density, dt, integrator));
+    std::vector<double> passages;
+    double              before = run.column("centre of mass bar x") - length / 2;
+    while (passages.size() < 5)
+      {
+        run.step();
+        const double now = run.column("centre of mass bar x") - length / 2;
+        if (before * now < 0)
+          passages.push_back(run.state.clock.time - run.report.dt * now / (now - before));
+        before = now;
+      }
+    return 4 * M_PI / (passages.back() - passages.front());
+  }
+
+
+  template <int dim>
+  void
+  check_frequency(const double density)
+  {
+    const double      exact      = exact_frequency(density);
+    const std::string trapezoid  = "set Time integrator = newmark\nset Gamma = 0.5";
+    const double      fine_steps = 2 * M_PI / exact / 80, coarse_steps = 2 * fine_steps;
+    const double coarse = measured_frequency<dim>(density, coarse_steps, trapezoid) / exact - 1;
+    const double fine   = measured_frequency<dim>(density, fine_steps, trapezoid) / exact - 1;
+    INFO(fmt::format("{}D, density {}: {:.2e} {:.2e}", dim, density, coarse, fine));
+    CHECK(std::abs(fine) < .01);
+    CHECK(std::abs(fine) < .6 * std::abs(coarse));
+  }
+} // namespace
+
+
+TEST_CASE("A bar and a column of water swing with their exact frequency", "[coupled]")
+{
+  SECTION("2D, heavy, as heavy as water, light")
+  {
+    for (const double density : {8000., 1000., 10.})
+      check_frequency<2>(density);
+  }
+  SECTION("3D")
+  {
+    check_frequency<3>(1000);
+  }
+}

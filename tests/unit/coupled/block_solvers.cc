@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <coupled/coupled_run.h>
+
+using namespace undine_tests;
+
+namespace
+{
+  /// A jet against a sheet on the floor.
+  template <int dim>
+  std::string
+  jet_on_sheet(const std::string &coupling, const std::string &numerics)
+  {
+    const std::string right = plane_or_space<dim>("1.5; 0", "1.5; 0; 0");
+    return steps_of(1. / 30) +
+           section("Domain", plane_or_space<dim>("set Cells = 20, 20", "set Cells = 10, 10, 9")) +
+           section("Fluid",
+                   "set Density = 5\nset Initial velocity = " + right + "\n" +
+                     section("Boundaries",
+                             boundary("in", "left", "inflow", "set Velocity = " + right) +
+                               boundary("out", "right", "outflow"))) +
+           section("Bodies",
+                   body("sheet",
+                        plane_or_space<dim>(
+                          "set Lower corner = .5, 0\nset Upper corner = .53, .6\nset Cells = 1, 5",
+                          "set Lower corner = .5, 0, .2\nset Upper corner = .53, .6, .7\nset "
+                          "Cells = 1, 5, 4") +
+                          "\nset Density = 20\nset Young's modulus = 1e5\nset Poisson's ratio = .3",
+                        clamp("foot", "1", "set Sides = bottom"))) +
+           section("Effects", convection()) + section("Coupling", coupling) +
+           section("Solid numerics", numerics);
+  }
+
+
+  struct Result
+  {
+    double force, position, iterations;
+  };
+
+
+  template <int dim>
+  Result
+  after_steps(const std::string &coupling, const std::string &numerics = "")
+  {
+    CoupledRun<dim> run(jet_on_sheet<dim>(coupling, numerics));
+    double          most = 0;
+    for (unsigned int n = 0; n < 3; ++n)
+      {
+        run.step();
+        CHECK(run.report.note == "");
+        CHECK(run.column("Fluid divergence") <= 1e-10);
+        CHECK(run.column("momentum residual sheet") <= 1e-9);
+        most = std::max(most, run.column("Most iterations of a solve"));
+      }
+    return {run.column("pressure force sheet x"), run.column("centre of mass sheet x"), most};
+  }
+
+
+  /// GMRES with either preconditioner, and either way to stand for A^-1, against sparse factors of
+  /// everything.
+  template <int dim>
+  void
+  check_solvers()
+  {
+    const auto direct = after_steps<dim>("set Linear solver = direct");
+    CHECK(direct.iterations == 0);
+    CHECK(std::abs(direct.position - .515) > 1e-3);
+    const auto compare = [&](const Result &result, const double most) {
+      CHECK(result.force == Approx(direct.force).epsilon(1e-7));
+      CHECK(result.position - .515 == Approx(direct.position - .515).epsilon(1e-7));
+      CHECK(result.iterations > 0);
+      CHECK(result.iterations <= most);
+    };
+    compare(after_steps<dim>("set Preconditioner = block triangular"), 20);
+    compare(
+      after_steps<dim>("set Preconditioner = block triangular", "set Linear solver = multigrid"),
+      20);
+    compare(after_steps<dim>("set Preconditioner = band correction"), 12);
+  }
+} // namespace
+
+
+TEST_CASE("Iterations find what sparse factors of the whole matrix do", "[coupled][mpi]")
+{
+  SECTION("2D")
+  {
+    check_solvers<2>();
+  }
+  SECTION("3D")
+  {
+    check_solvers<3>();
+  }
+}
+
+
+TEST_CASE("Where GMRES gives up the matrix is factorised, with a note", "[coupled][mpi]")
+{
+  CoupledRun<2> run(jet_on_sheet<2>("set Maximum iterations = 1", ""));
+  run.step();
+  CHECK(run.report.note.find("solved directly") != std::string::npos);
+  CHECK(run.column("Fluid divergence") <= 1e-10);
+}
