@@ -19,17 +19,15 @@ namespace undine
 
 
   template <int dim>
-  CoupledEquations<dim>::CoupledEquations(const Models<dim>            &models,
-                                          const FluidGeometry<dim>     &geometry,
-                                          const BlockSystem::Matrix    &flux_matrix,
+  CoupledEquations<dim>::CoupledEquations(const SolidModel<dim>        &model,
                                           SolidEquations<dim>          &solid,
+                                          SurfaceFlux<dim>             &surface,
                                           const PressureEquations<dim> &fluid,
                                           BlockSolver<dim>             &solver,
                                           TimingTree                   &timing)
-    : models(models)
-    , geometry(geometry)
-    , flux_matrix(flux_matrix)
+    : model(model)
     , solid(solid)
+    , surface(surface)
     , fluid(fluid)
     , solver(solver)
     , timing(timing)
@@ -42,26 +40,7 @@ namespace undine
   typename CoupledEquations<dim>::Unknown
   CoupledEquations<dim>::vector() const
   {
-    return Unknown({models.solid->locally_owned(), fluid.numbers().owned()},
-                   models.solid->communicator());
-  }
-
-
-  template <int dim>
-  std::vector<double>
-  CoupledEquations<dim>::fluxes(const Vector &velocity) const
-  {
-    return geometry.fluxes(models.surface->with_bodies(velocity, geometry.surface_velocities()));
-  }
-
-
-  template <int dim>
-  typename CoupledEquations<dim>::Vector
-  CoupledEquations<dim>::forces(const Vector &pressure) const
-  {
-    auto result = models.solid->vector();
-    models.surface->add_to_bodies(result, geometry.pressure_forces(fluid.field(pressure)));
-    return result;
+    return Unknown({model.locally_owned(), fluid.numbers().owned()}, model.communicator());
   }
 
 
@@ -69,20 +48,21 @@ namespace undine
   double
   CoupledEquations<dim>::evaluate(const Unknown &x)
   {
-    const auto timed   = timing.section("evaluate");
-    auto       pushing = forces(x.block(1));
-    clear_fixed(pushing, *models.solid);
+    const auto timed = timing.section("evaluate");
+    surface.move(x.block(0));
+    auto pushing = surface.forces(fluid.field(x.block(1)));
+    clear_fixed(pushing, model);
     residual.block(0) = solid.residual(x.block(0));
     residual.block(0).add(-1., pushing);
 
-    const auto pushed = fluid.from_components(fluxes(x.block(0)));
+    const auto pushed = fluid.from_components(surface.fluxes());
     fluid.matrix().vmult(residual.block(1), x.block(1));
     const double by_pressure = residual.block(1).l2_norm();
     residual.block(1).add(1., pushed, 1., fluid.predicted_flux());
     fluid.closed_regions().balance(residual.block(1));
 
     // What rounding leaves of the forces counts as converged.
-    const double tolerance = models.solid->numerics().newton.relative_tolerance;
+    const double tolerance = model.numerics().newton.relative_tolerance;
     largest_force =
       std::max({largest_force, solid.scale(), pushing.l2_norm(), solid.rounding() / tolerance});
     largest_flux =
@@ -99,10 +79,10 @@ namespace undine
   {
     const auto        tangent = solid.jacobian(x.block(0));
     const auto        timed   = timing.section("solve linear system");
-    const BlockSystem system(tangent, flux_matrix, 1., fluid.matrix());
+    const BlockSystem system(tangent, surface.matrix(), surface.factor(), fluid.matrix());
     residual *= -1.;
     // No better than Newton's method needs it.
-    const double enough = 0.01 * models.solid->numerics().newton.relative_tolerance / last_norm;
+    const double enough = 0.01 * model.numerics().newton.relative_tolerance / last_norm;
     return solver.solve(system, residual, solid.displacement(x.block(0)), enough);
   }
 

@@ -8,6 +8,14 @@
 
 namespace undine
 {
+  /// The section `Coupling`.
+  struct CouplingSettings
+  {
+    std::string         boundary_flux = "initial"; ///< initial | swept
+    BlockSolverSettings solver;
+  };
+
+
   /// Bodies in a fluid, solved together. A step of length h from t^n:
   ///
   ///  1. fluid: transport, forces, implicit terms of every effect that is on; v^n becomes v*
@@ -17,15 +25,16 @@ namespace undine
   class SimultaneousPhysics : public Physics<dim>
   {
   public:
-    SimultaneousPhysics(const Models<dim>         &models,
-                        TimingTree                &timing,
-                        const BlockSolverSettings &settings)
+    SimultaneousPhysics(const Models<dim>      &models,
+                        TimingTree             &timing,
+                        const CouplingSettings &settings)
       : models(models)
       , timing(timing)
+      , settings(settings)
       , environment(models.environment())
       , fluid_side(models, timing)
       , solid_step(*models.solid)
-      , solver(*models.solid, settings)
+      , solver(*models.solid, settings.solver)
     {
     }
 
@@ -61,45 +70,51 @@ namespace undine
   private:
     using Vector = BlockSystem::Vector;
 
+    /// What the fluid does to the bodies besides its reduced pressure [N].
+    Vector
+    other_forces(const FluidStep<dim> &fluid) const
+    {
+      auto       result = models.solid->vector();
+      const auto nodal  = fluid_side.geometry()->other_forces(fluid.gravity, fluid.time + fluid.dt);
+      models.surface->add_to_bodies(result, nodal);
+      return result;
+    }
+
     SolidReport
     couple(State<dim> &state, const FluidStep<dim> &fluid, double &divergence)
     {
-      const auto &model    = *models.solid;
-      const auto &geometry = *fluid_side.geometry();
-      auto        numbers  = std::make_unique<const PressureNumbers<dim>>(models.fluid->grid(),
-                                                                  geometry.bodies().open_parts);
-      BlockSystem::Matrix flux_matrix;
-      build_flux_matrix(flux_matrix,
-                        geometry.boundary_flux(),
-                        geometry.cut_parts(),
-                        *numbers,
-                        *models.surface,
-                        model);
+      const auto                &geometry = *fluid_side.geometry();
+      const double               end      = fluid.time + fluid.dt;
+      SolidEquations<dim>        equations(*models.solid,
+                                    solid_step.mass(),
+                                    state.solid,
+                                    environment,
+                                    fluid.time,
+                                    fluid.dt,
+                                    timing,
+                                    other_forces(fluid));
+      const PressureNumbers<dim> numbers(models.fluid->grid(), geometry.bodies().open_parts);
+      const auto                 surface =
+        make_surface_flux(settings.boundary_flux, models, geometry, numbers, equations, fluid.dt);
+      const auto guess = equations.guess();
+      surface->move(guess);
       PressureEquations<dim> pressures(
-        *models.fluid, std::move(numbers), filled_rows(flux_matrix), fluid.dt);
-      auto other = model.vector();
-      models.surface->add_to_bodies(other,
-                                    geometry.other_forces(fluid.gravity, fluid.time + fluid.dt));
-      SolidEquations<dim> equations(
-        model, solid_step.mass(), state.solid, environment, fluid.time, fluid.dt, timing, other);
-      CoupledEquations<dim> problem(
-        models, geometry, flux_matrix, equations, pressures, solver, timing);
-      pressures.start(state.fluid.velocity,
-                      fluid.flow.velocity(),
-                      fluid.time + fluid.dt,
-                      problem.fluxes(equations.guess()));
+        *models.fluid, numbers, filled_rows(surface->matrix()), fluid.dt);
+      pressures.start(state.fluid.velocity, fluid.flow.velocity(), end, surface->fluxes());
 
-      SolidReport report;
-      auto        x = problem.vector();
+      CoupledEquations<dim> problem(*models.solid, equations, *surface, pressures, solver, timing);
+      auto                  x = problem.vector();
+      SolidReport           report;
       report.newton = solve(x, state, problem, equations);
       report.note   = solver.note();
 
       const auto &velocity = x.block(0), &pressure = x.block(1);
-      equations.add_forces(problem.forces(pressure));
+      surface->move(velocity);
+      equations.add_forces(surface->forces(pressures.field(pressure)));
       report.reactions          = equations.reactions(velocity);
       report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
       pressures.accelerate(state.fluid.velocity, pressure);
-      divergence           = pressures.divergence(state.fluid.velocity, problem.fluxes(velocity));
+      divergence           = pressures.divergence(state.fluid.velocity, surface->fluxes());
       state.fluid.pressure = pressures.field(pressure);
       pressures.closed_regions().remove_means(state.fluid.pressure);
       set_means(state.fluid.pressure, models.fluid->grid());
@@ -146,6 +161,7 @@ namespace undine
 
     const Models<dim>          &models;
     TimingTree                 &timing;
+    const CouplingSettings     &settings;
     const SolidEnvironment<dim> environment;
     FluidSide<dim>              fluid_side;
     SolidStep<dim>              solid_step;
@@ -162,7 +178,15 @@ namespace undine
     add_options(const Options &options) override
     {
       SteppingScheme<dim>::add_options(options);
-      settings.add_options(options.section("Coupling"));
+      const auto coupling = options.section("Coupling");
+      coupling.add(
+        "Boundary flux",
+        settings.boundary_flux,
+        "",
+        Allowed::one_of({"initial", "swept"}),
+        "How bodies push the fluid: by their velocity at the end of a step through their "
+        "boundary at its beginning, or by the volume that they sweep, exactly.");
+      settings.solver.add_options(coupling);
     }
 
   protected:
@@ -173,7 +197,7 @@ namespace undine
     }
 
   private:
-    BlockSolverSettings settings;
+    CouplingSettings settings;
   };
 
 

@@ -9,17 +9,17 @@
 namespace undine
 {
   template <int dim>
-  PressureEquations<dim>::PressureEquations(const FluidModel<dim>                      &model,
-                                            std::unique_ptr<const PressureNumbers<dim>> numbers,
-                                            const std::vector<Number>                  &yielding,
-                                            const double                                dt)
+  PressureEquations<dim>::PressureEquations(const FluidModel<dim>      &model,
+                                            const PressureNumbers<dim> &numbers,
+                                            const std::vector<Number>  &yielding,
+                                            const double                dt)
     : model(model)
     , dt(dt)
-    , all_numbers(std::move(numbers))
-    , regions(model, *all_numbers, yielding)
-    , flux(all_numbers->owned(), model.grid().communicator())
+    , all_numbers(numbers)
+    , regions(model, all_numbers, yielding)
+    , flux(all_numbers.owned(), model.grid().communicator())
   {
-    build_pressure_matrix(hL, model, *all_numbers, regions.pinned());
+    build_pressure_matrix(hL, model, all_numbers, regions.pinned());
     hL *= dt;
   }
 
@@ -31,7 +31,7 @@ namespace undine
                                 const double               time,
                                 const std::vector<double> &body_fluxes)
   {
-    const auto &open = all_numbers->open_parts();
+    const auto &open = all_numbers.open_parts();
     set_boundary_velocity(velocity, model, time);
     regions.check_net_flux(velocity, body_fluxes, time);
     openings = open_faces(model, carrying, open.get(), time);
@@ -48,7 +48,7 @@ namespace undine
   typename PressureEquations<dim>::Vector
   PressureEquations<dim>::from_components(const std::vector<double> &values) const
   {
-    Field<dim> of_cells(model.grid().cells(), all_numbers->open_parts());
+    Field<dim> of_cells(model.grid().cells(), all_numbers.open_parts());
     std::copy(values.begin(), values.end(), of_cells.parts().begin());
     Vector result(flux);
     copy_to_vector(result, of_cells);
@@ -60,7 +60,7 @@ namespace undine
   Field<dim>
   PressureEquations<dim>::field(const Vector &pressure) const
   {
-    Field<dim> result(model.grid().cells(), all_numbers->open_parts());
+    Field<dim> result(model.grid().cells(), all_numbers.open_parts());
     copy_from_vector(result, pressure);
     return result;
   }
@@ -82,7 +82,7 @@ namespace undine
   PressureEquations<dim>::divergence(const Velocity<dim>       &velocity,
                                      const std::vector<double> &body_fluxes) const
   {
-    Field<dim> pushed(model.grid().cells(), all_numbers->open_parts());
+    Field<dim> pushed(model.grid().cells(), all_numbers.open_parts());
     std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
     auto fluxes = undine::divergence(model, velocity);
     add(fluxes, 1., pushed);

@@ -49,6 +49,38 @@ namespace undine
                                surface.facets()[fragment.facet][k],
                                fragment.mean[k] * fragment.area_vector});
     });
+    sum_entries();
+  }
+
+
+  template <int dim>
+  BoundaryFlux<dim>::BoundaryFlux(const CutCells<dim>                   &cut,
+                                  const Surface<dim>                    &surface,
+                                  const std::vector<dealii::Point<dim>> &before,
+                                  const std::vector<dealii::Point<dim>> &after)
+    : n_components(cut.components.size())
+    , n_nodes(surface.n_nodes())
+  {
+    for_each_wet_fragment(cut, [&](const auto &fragment) {
+      const auto   at_first = area_vector(surface, fragment.facet, before);
+      const double size     = at_first.norm_square();
+      // A part of a facet stays the same part of it.
+      const double share = size > 0 ? fragment.area_vector * at_first / size : 0.;
+      const auto   mean  = mean_area_vector(surface, fragment.facet, before, after);
+      for (unsigned int k = 0; k < dim; ++k)
+        all_entries.push_back({fragment.component,
+                               surface.facets()[fragment.facet][k],
+                               fragment.mean[k] * share * mean});
+    });
+    sum_entries();
+  }
+
+
+  /// One entry for each pair of component and node.
+  template <int dim>
+  void
+  BoundaryFlux<dim>::sum_entries()
+  {
     // Stable: sums do not depend on what else a rank knows.
     std::stable_sort(all_entries.begin(), all_entries.end(), [](const Entry &a, const Entry &b) {
       return std::tie(a.component, a.node) < std::tie(b.component, b.node);

@@ -137,6 +137,26 @@ namespace undine
 
 
   template <int dim>
+  dealii::Tensor<1, dim>
+  mean_area_vector(const Surface<dim>                    &surface,
+                   const unsigned int                     facet,
+                   const std::vector<dealii::Point<dim>> &before,
+                   const std::vector<dealii::Point<dim>> &after)
+  {
+    // Simpson's rule.
+    std::array<dealii::Point<dim>, dim> middle;
+    for (unsigned int k = 0; k < dim; ++k)
+      {
+        const unsigned int node = surface.facets()[facet][k];
+        middle[k]               = before[node] + .5 * (after[node] - before[node]);
+      }
+    return (area_vector(surface, facet, before) + 4. * area_vector(middle) +
+            area_vector(surface, facet, after)) /
+           6.;
+  }
+
+
+  template <int dim>
   std::vector<double>
   body_volumes(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions)
   {
@@ -197,6 +217,10 @@ namespace undine
   template dealii::Tensor<1, dim> area_vector(const Surface<dim> &,                                \
                                               const unsigned int,                                  \
                                               const std::vector<dealii::Point<dim>> &);            \
+  template dealii::Tensor<1, dim> mean_area_vector(const Surface<dim> &,                           \
+                                                   const unsigned int,                             \
+                                                   const std::vector<dealii::Point<dim>> &,        \
+                                                   const std::vector<dealii::Point<dim>> &);       \
   template std::vector<double> body_volumes(const Surface<dim> &,                                  \
                                             const std::vector<dealii::Point<dim>> &);              \
   template std::string positions_complaint(const Surface<dim> &,                                   \

@@ -3,8 +3,7 @@
 #define undine_coupled_coupled_equations_h
 
 #include <undine/coupled/block_solver.h>
-#include <undine/coupled/fluid_geometry.h>
-#include <undine/coupled/models.h>
+#include <undine/coupled/surface_flux.h>
 #include <undine/fluid/pressure_equations.h>
 #include <undine/solid/solid_equations.h>
 
@@ -14,7 +13,7 @@ namespace undine
   /// Newton's method sees them (Newton):
   ///
   ///     R(u) - B^T p = 0             [N]         R: SolidEquations
-  ///     D v* + B u + h L p = 0       [m^dim/s]
+  ///     D v* + B u + h L p = 0       [m^dim/s]   B: SurfaceFlux
   ///
   /// Norms are sums of both, each relative to the largest of its terms.
   template <int dim>
@@ -25,10 +24,9 @@ namespace undine
     using Vector  = BlockSystem::Vector;
 
     /// The references must outlive it.
-    CoupledEquations(const Models<dim>            &models,
-                     const FluidGeometry<dim>     &geometry,
-                     const BlockSystem::Matrix    &flux_matrix,
+    CoupledEquations(const SolidModel<dim>        &model,
                      SolidEquations<dim>          &solid,
+                     SurfaceFlux<dim>             &surface,
                      const PressureEquations<dim> &fluid,
                      BlockSolver<dim>             &solver,
                      TimingTree                   &timing);
@@ -48,23 +46,14 @@ namespace undine
     unsigned int
     linear_iterations() const;
 
-    /// B u of all that moves in the fluid [m^dim/s], as of the components of the fluid. Collective.
-    std::vector<double>
-    fluxes(const Vector &velocity) const;
-
-    /// J p over the bodies' degrees of freedom [N], fixed ones included. Collective.
-    Vector
-    forces(const Vector &pressure) const;
-
     /// Zero, with a place for all velocities and pressures.
     Unknown
     vector() const;
 
   private:
-    const Models<dim>            &models;
-    const FluidGeometry<dim>     &geometry;
-    const BlockSystem::Matrix    &flux_matrix; ///< B
+    const SolidModel<dim>        &model;
     SolidEquations<dim>          &solid;
+    SurfaceFlux<dim>             &surface;
     const PressureEquations<dim> &fluid;
     BlockSolver<dim>             &solver;
     TimingTree                   &timing;

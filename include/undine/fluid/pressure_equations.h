@@ -10,7 +10,6 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <memory>
 #include <vector>
 
 namespace undine
@@ -24,11 +23,12 @@ namespace undine
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
     using Number = typename PressureNumbers<dim>::Number;
 
-    /// `yielding`: owned pressures to which bodies yield. The model must outlive it. Collective.
-    PressureEquations(const FluidModel<dim>                      &model,
-                      std::unique_ptr<const PressureNumbers<dim>> numbers,
-                      const std::vector<Number>                  &yielding,
-                      const double                                dt);
+    /// `yielding`: owned pressures to which bodies yield. The references must outlive it.
+    /// Collective.
+    PressureEquations(const FluidModel<dim>      &model,
+                      const PressureNumbers<dim> &numbers,
+                      const std::vector<Number>  &yielding,
+                      const double                dt);
 
     /// Begin with v* in `velocity`, to which it adds what openings do. `carrying` = v^n; the step
     /// ends at `time`. `body_fluxes`: what surfaces push that do not yield. Collective. Throws
@@ -42,7 +42,7 @@ namespace undine
     const PressureNumbers<dim> &
     numbers() const
     {
-      return *all_numbers;
+      return all_numbers;
     }
 
     /// D v* of every pressure, with what openings do [m^dim/s].
@@ -82,13 +82,13 @@ namespace undine
     divergence(const Velocity<dim> &velocity, const std::vector<double> &body_fluxes) const;
 
   private:
-    const FluidModel<dim>                            &model;
-    const double                                      dt;
-    const std::unique_ptr<const PressureNumbers<dim>> all_numbers;
-    const ClosedRegions<dim>                          regions;
-    dealii::TrilinosWrappers::SparseMatrix            hL;
-    Vector                                            flux;
-    std::vector<OpenFace<dim>>                        openings;
+    const FluidModel<dim>                 &model;
+    const double                           dt;
+    const PressureNumbers<dim>            &all_numbers;
+    const ClosedRegions<dim>               regions;
+    dealii::TrilinosWrappers::SparseMatrix hL;
+    Vector                                 flux;
+    std::vector<OpenFace<dim>>             openings;
   };
 } // namespace undine
 

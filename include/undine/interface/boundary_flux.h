@@ -36,6 +36,14 @@ namespace undine
 
     BoundaryFlux(const CutCells<dim> &cut, const Surface<dim> &surface);
 
+    /// The mean of B over a motion in which all nodes go straight on from `before`, where the
+    /// surface was cut, to `after`, each fragment with its facet: with w = (after - before) / h,
+    /// h B w is the volume that the surface sweeps, exactly.
+    BoundaryFlux(const CutCells<dim>                   &cut,
+                 const Surface<dim>                    &surface,
+                 const std::vector<dealii::Point<dim>> &before,
+                 const std::vector<dealii::Point<dim>> &after);
+
     /// One for each pair of component and node, sorted by component, then node.
     const std::vector<Entry> &
     entries() const
@@ -53,6 +61,9 @@ namespace undine
     local_forces(const std::vector<double> &pressures) const;
 
   private:
+    void
+    sum_entries();
+
     std::size_t        n_components;
     std::size_t        n_nodes;
     std::vector<Entry> all_entries;

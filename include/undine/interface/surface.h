@@ -97,6 +97,15 @@ namespace undine
               const unsigned int                     facet,
               const std::vector<dealii::Point<dim>> &positions);
 
+  /// Its mean while all nodes go straight on from `before` to `after` [m^(dim-1)], exactly: the
+  /// area vector is linear in time in 2D, quadratic in 3D.
+  template <int dim>
+  dealii::Tensor<1, dim>
+  mean_area_vector(const Surface<dim>                    &surface,
+                   const unsigned int                     facet,
+                   const std::vector<dealii::Point<dim>> &before,
+                   const std::vector<dealii::Point<dim>> &after);
+
   /// Volume of each body [m^dim] by the divergence theorem; negative if it is inside out.
   template <int dim>
   std::vector<double>

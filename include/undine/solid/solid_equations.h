@@ -86,6 +86,13 @@ namespace undine
     Vector
     displacement(const Vector &velocity) const;
 
+    /// d^n [m].
+    const Vector &
+    old_displacement() const
+    {
+      return old_state.displacement;
+    }
+
     /// d d^{n+1} / du at free degrees of freedom [s].
     double
     displacement_factor() const;
