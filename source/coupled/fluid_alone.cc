@@ -41,7 +41,7 @@ namespace undine
     for (const auto &effect : models.effects)
       effect->initialize(model, state.fluid);
     const auto projected = projection.make_divergence_free(
-      state.fluid, state.clock.time, geometry ? geometry->fluxes() : std::vector<double>());
+      state.fluid, state.clock.time, geometry ? geometry->pushed(dt) : PushedVolume());
     report.linear_iterations += projected.iterations;
     if (geometry)
       {
@@ -88,7 +88,7 @@ namespace undine
                                      fluid.flow.velocity(),
                                      fluid.time + fluid.dt,
                                      fluid.dt,
-                                     geometry ? geometry->fluxes() : std::vector<double>());
+                                     geometry ? geometry->pushed(fluid.dt) : PushedVolume());
     }
     fluid.finish();
     if (geometry)

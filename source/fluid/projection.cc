@@ -43,13 +43,17 @@ namespace undine
   void
   Projection<dim>::prepare(const std::shared_ptr<const OpenParts<dim>> &open_parts)
   {
-    if (matrix && numbers->open_parts() == open_parts)
+    if (numbers && numbers->open_parts() == open_parts)
       return;
     numbers        = std::make_unique<const PressureNumbers<dim>>(model.grid(), open_parts);
     closed_regions = std::make_unique<const ClosedRegions<dim>>(model, *numbers);
-    matrix         = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
-    build_pressure_matrix(*matrix, model, *numbers, closed_regions->pinned());
+    multigrid.reset();
+    matrix.reset();
     smallest_area = smallest_flux_area(model.grid());
+    if (numbers->owned().size() == 0)
+      return; // obstacles fill the domain
+    matrix = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
+    build_pressure_matrix(*matrix, model, *numbers, closed_regions->pinned());
 
     dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
     data.elliptic              = true;
@@ -98,8 +102,7 @@ namespace undine
     const double tolerance   = model.pressure_solver().divergence_tolerance;
     const double body_speed  = largest_divergence(model, pushed);
     const double first_speed = largest_components(model, velocity).norm() + body_speed;
-    Vector       right_side(numbers->owned(), model.grid().communicator()), correction(right_side);
-    Field<dim>   increment = impulse;
+    Field<dim>   increment   = impulse;
     Report       report;
 
     for (unsigned int round = 0; round < 8; ++round)
@@ -120,10 +123,10 @@ namespace undine
         if (divergence <= allowed)
           return report;
 
+        Vector right_side(numbers->owned(), model.grid().communicator()), correction(right_side);
         copy_to_vector(right_side, fluxes);
         right_side *= -1;
         closed_regions->balance(right_side);
-        correction = 0;
         // In the mean over cells a quarter of what is allowed, then less: some have more.
         const double in_the_mean = std::sqrt(double(right_side.size())) * smallest_area * allowed;
         report.iterations += solve(correction, right_side, in_the_mean * std::pow(0.25, round + 1));
@@ -149,17 +152,17 @@ namespace undine
 
   template <int dim>
   typename Projection<dim>::Report
-  Projection<dim>::project(FluidState<dim>           &state,
-                           const Velocity<dim>       &carrying,
-                           const double               time,
-                           const double               dt,
-                           const std::vector<double> &body_fluxes)
+  Projection<dim>::project(FluidState<dim>     &state,
+                           const Velocity<dim> &carrying,
+                           const double         time,
+                           const double         dt,
+                           const PushedVolume  &pushed)
   {
     const auto &open_parts = state.pressure.open_parts();
     prepare(open_parts);
     set_boundary_velocity(state.velocity, model, time);
-    closed_regions->check_net_flux(state.velocity, body_fluxes, time);
-    auto openings = open_faces(model, carrying, open_parts.get(), time);
+    const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
+    auto       openings    = open_faces(model, carrying, open_parts.get(), time);
     for (auto &open : openings)
       open.pressure *= dt;
     Field<dim> impulse(model.grid().cells(), open_parts);
@@ -175,15 +178,15 @@ namespace undine
 
   template <int dim>
   typename Projection<dim>::Report
-  Projection<dim>::make_divergence_free(FluidState<dim>           &state,
-                                        const double               time,
-                                        const std::vector<double> &body_fluxes)
+  Projection<dim>::make_divergence_free(FluidState<dim>    &state,
+                                        const double        time,
+                                        const PushedVolume &pushed)
   {
     const auto open_parts = state.velocity[0].open_parts();
     prepare(open_parts);
     set_boundary_velocity(state.velocity, model, time);
-    closed_regions->check_net_flux(state.velocity, body_fluxes, time);
-    auto openings = open_faces(model, state.velocity, open_parts.get(), time);
+    const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
+    auto       openings    = open_faces(model, state.velocity, open_parts.get(), time);
     for (auto &open : openings)
       open.pressure = 0;
     Field<dim> impulse(model.grid().cells(), open_parts);

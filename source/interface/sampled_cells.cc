@@ -116,13 +116,15 @@ namespace undine
       add_simplices(simplices, cut.corners.points, cut.corners.first[f], cut.corners.first[f + 1]);
     const auto            &index = cut.cells[cell].index;
     dealii::Point<dim>     lower;
-    dealii::Tensor<1, dim> widths;
+    dealii::Tensor<1, dim> widths, shifts;
     for (unsigned int d = 0; d < dim; ++d)
       {
+        shifts[d] = GridPlanes<dim>::shift(index[d]);
         lower[d]  = cut.block.planes().position(d, index[d]);
         widths[d] = cut.block.planes().width(d, index[d]);
       }
-    return SampledRegions<dim>(lower, widths, cut.windings[cut.block.key(index)], simplices);
+    return SampledRegions<dim>(
+      lower, widths, cut.windings[cut.block.key(index)], shifts, simplices);
   }
 
 
@@ -142,7 +144,10 @@ namespace undine
                               dealii::Point<2>(edge.start[0], edge.start[1])}});
     const dealii::Tensor<1, 2> widths(
       {planes.width(axes[0], face.index[axes[0]]), planes.width(axes[1], face.index[axes[1]])});
-    const SampledRegions<2> sampled({}, widths, cut.windings[cut.block.key(face.index)], simplices);
+    const dealii::Tensor<1, 2> shifts(
+      {GridPlanes<3>::shift(face.index[axes[0]]), GridPlanes<3>::shift(face.index[axes[1]])});
+    const SampledRegions<2> sampled(
+      {}, widths, cut.windings[cut.block.key(face.index)], shifts, simplices);
     for (const auto &region : sampled.regions())
       {
         dealii::Point<3> centroid;

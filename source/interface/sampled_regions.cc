@@ -10,10 +10,12 @@ namespace undine
   SampledRegions<dim>::SampledRegions(const dealii::Point<dim>     &lower,
                                       const dealii::Tensor<1, dim> &widths,
                                       const int                     corner_winding,
+                                      const dealii::Tensor<1, dim> &shifts,
                                       const std::vector<Simplex>   &simplices)
     : lower(lower)
     , widths(widths)
     , corner_winding(corner_winding)
+    , shifts(shifts)
     , simplices(simplices)
     , samples{{}, all_directions<dim>(n_along)}
   {
@@ -54,11 +56,11 @@ namespace undine
   int
   SampledRegions<dim>::winding(const dealii::Point<dim> &place) const
   {
-    // The corner as the slabs see it: infinitesimally below, along higher axes more so.
+    // The corner as the slabs see it: infinitesimally off its place, along higher axes more so.
     dealii::Point<dim> start    = lower;
     double             distance = 1e-11;
     for (unsigned int d = 0; d < dim; ++d, distance *= 10)
-      start[d] -= distance * widths[d];
+      start[d] += shifts[d] * distance * widths[d];
     int result = corner_winding;
     for (const auto &simplex : simplices)
       {

@@ -59,9 +59,10 @@ namespace undine
       return parts;
     }
 
-    /// B u: volume that the surfaces push out of each component of the fluid [m^dim/s].
-    std::vector<double>
-    fluxes() const;
+    /// What the surfaces push out of each component of the fluid; their velocities are those of a
+    /// step of dt [s].
+    PushedVolume
+    pushed(double dt) const;
 
     /// Forces of the pressure at `time` on each body [N], with g also their parts; and how the
     /// cutting went. Collective.

@@ -7,6 +7,7 @@
 #include <undine/fluid/fluid_quantities.h>
 #include <undine/fluid/pressure_gradient.h>
 #include <undine/fluid/pressure_numbers.h>
+#include <undine/fluid/pushed_volume.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -43,14 +44,14 @@ namespace undine
     /// SolveError if the solver does not converge. Collective.
     ///
     /// `carrying` = v^n tells where fluid enters through openings. v* cannot: friction adds
-    /// h grad p^n / rho to it, which may point inwards in a steady outflow. `body_fluxes`: volume
-    /// that surfaces of bodies push out of each component, (B u)_c [m^dim/s]; empty: none.
+    /// h grad p^n / rho to it, which may point inwards in a steady outflow. `pushed`: by
+    /// surfaces of bodies.
     Report
-    project(FluidState<dim>           &state,
-            const Velocity<dim>       &carrying,
-            const double               time,
-            const double               dt,
-            const std::vector<double> &body_fluxes = {});
+    project(FluidState<dim>     &state,
+            const Velocity<dim> &carrying,
+            const double         time,
+            const double         dt,
+            const PushedVolume  &pushed = {});
 
     /// The same with v* in the place of v^n.
     Report
@@ -59,9 +60,9 @@ namespace undine
     /// The divergence-free velocity nearest to the one given, for a start at `time`; the state's
     /// pressure becomes zero.
     Report
-    make_divergence_free(FluidState<dim>           &state,
-                         const double               time,
-                         const std::vector<double> &body_fluxes = {});
+    make_divergence_free(FluidState<dim>    &state,
+                         const double        time,
+                         const PushedVolume &pushed = {});
 
   private:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
@@ -86,7 +87,7 @@ namespace undine
     const FluidModel<dim>                                     &model;
     std::unique_ptr<const PressureNumbers<dim>>                numbers;
     std::unique_ptr<const ClosedRegions<dim>>                  closed_regions;
-    std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    matrix;
+    std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    matrix; ///< none without fluid
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid;
     double                                                     smallest_area = 0; ///< [m^(dim-1)]
   };

@@ -27,11 +27,13 @@ namespace undine
       dealii::Point<dim> centroid;   ///< [m]
     };
 
-    /// The box [lower, lower + widths]; `corner_winding` is the winding number of its lower corner
-    /// and `simplices` are the facets in it, normals out of the solid.
+    /// The box [lower, lower + widths]; `corner_winding` is the winding number of its lower corner,
+    /// which the slabs see infinitesimally above or below its place, `shifts` = +-1 along each
+    /// axis; `simplices` are the facets in it, normals out of the solid.
     SampledRegions(const dealii::Point<dim>     &lower,
                    const dealii::Tensor<1, dim> &widths,
                    const int                     corner_winding,
+                   const dealii::Tensor<1, dim> &shifts,
                    const std::vector<Simplex>   &simplices);
 
     const std::vector<Region> &
@@ -63,6 +65,7 @@ namespace undine
     dealii::Point<dim>     lower;
     dealii::Tensor<1, dim> widths;
     int                    corner_winding;
+    dealii::Tensor<1, dim> shifts;
     std::vector<Simplex>   simplices;
     IndexBox<dim>          samples;
     std::vector<int>       region_of; ///< of each sample; -1 solid, -2 not yet known
