@@ -30,11 +30,7 @@ namespace undine
       const Velocity<dim> still = model.initial_state().velocity;
       for (const auto &opening : open_faces(model, still, numbers.open_parts().get(), 0.))
         {
-          const PressurePlace<dim> inside =
-            opening.piece < 0
-              ? PressurePlace<dim>{opening.cell, -1}
-              : end_of_piece(
-                  *numbers.open_parts(), opening.side.axis, opening.piece, 1 - opening.side.end);
+          const auto inside = place_inside(numbers.open_parts().get(), opening);
           is_open[regions[owned.index_within_set(numbers.of(inside))]] = 1;
         }
       dealii::Utilities::MPI::max(is_open, model.grid().communicator(), is_open);

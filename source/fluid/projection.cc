@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/boundary_condition.h>
+#include <undine/fluid/entering_flow.h>
 #include <undine/fluid/pressure_gradient.h>
 #include <undine/fluid/pressure_matrix.h>
 #include <undine/fluid/projection.h>
@@ -67,13 +68,16 @@ namespace undine
 
   template <int dim>
   unsigned int
-  Projection<dim>::solve(Vector &impulse, const Vector &right_side, const double tolerance) const
+  Projection<dim>::solve(Vector               &impulse,
+                         const Vector         &right_side,
+                         const HeldBackMatrix &held_back,
+                         const double          tolerance) const
   {
     dealii::SolverControl    control(model.pressure_solver().maximum_iterations, tolerance);
     dealii::SolverCG<Vector> solver(control);
     try
       {
-        solver.solve(*matrix, impulse, right_side, *multigrid);
+        solver.solve(held_back, impulse, right_side, *multigrid);
       }
     catch (const dealii::SolverControl::NoConvergence &failure)
       {
@@ -104,6 +108,7 @@ namespace undine
     const double first_speed = largest_components(model, velocity).norm() + body_speed;
     Field<dim>   increment   = impulse;
     Report       report;
+    const HeldBackMatrix held_back(*matrix, model, *numbers, openings);
 
     for (unsigned int round = 0; round < 8; ++round)
       {
@@ -129,7 +134,8 @@ namespace undine
         closed_regions->balance(right_side);
         // In the mean over cells a quarter of what is allowed, then less: some have more.
         const double in_the_mean = std::sqrt(double(right_side.size())) * smallest_area * allowed;
-        report.iterations += solve(correction, right_side, in_the_mean * std::pow(0.25, round + 1));
+        report.iterations +=
+          solve(correction, right_side, held_back, in_the_mean * std::pow(0.25, round + 1));
         copy_from_vector(increment, correction);
         add(impulse, 1., increment);
       }
@@ -139,6 +145,39 @@ namespace undine
                   "solver/Divergence tolerance', or a grid with less stretched cells.",
                   report.divergence,
                   tolerance));
+  }
+
+
+  template <int dim>
+  typename Projection<dim>::Report
+  Projection<dim>::remove_divergence_with_openings(Velocity<dim>             &velocity,
+                                                   Field<dim>                &impulse,
+                                                   std::vector<OpenFace<dim>> openings,
+                                                   const double               dt,
+                                                   const std::vector<double> &body_fluxes)
+  {
+    // Newton's method for the speeds at which fluid enters: from the last ones it is there in one
+    // or two rounds; those that are far too large are halved in each.
+    constexpr unsigned int most_rounds = 20;
+    constexpr double       tolerance   = 1e-4;
+    const auto             before      = velocity;
+    Report                 report;
+    for (unsigned int round = 0; round < most_rounds; ++round)
+      {
+        if (round > 0)
+          velocity = before;
+        hold_back_entering_flow(velocity, openings, model, dt);
+        auto impulses = openings;
+        for (auto &open : impulses)
+          open.pressure *= dt;
+        const unsigned int iterations = report.iterations;
+        report                        = remove_divergence(velocity, impulse, impulses, body_fluxes);
+        report.iterations += iterations;
+        const double change = update_entering_speeds(openings, velocity, model, dt);
+        if (change <= tolerance * largest_components(model, velocity).norm())
+          break;
+      }
+    return report;
   }
 
 
@@ -162,13 +201,15 @@ namespace undine
     prepare(open_parts);
     set_boundary_velocity(state.velocity, model, time);
     const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
-    auto       openings    = open_faces(model, carrying, open_parts.get(), time);
-    for (auto &open : openings)
-      open.pressure *= dt;
     Field<dim> impulse(model.grid().cells(), open_parts);
     add(impulse, dt, state.pressure);
-    const auto report = remove_divergence(state.velocity, impulse, openings, body_fluxes);
-    state.pressure    = Field<dim>(model.grid().cells(), open_parts);
+    const auto report =
+      remove_divergence_with_openings(state.velocity,
+                                      impulse,
+                                      open_faces(model, carrying, open_parts.get(), time),
+                                      dt,
+                                      body_fluxes);
+    state.pressure = Field<dim>(model.grid().cells(), open_parts);
     add(state.pressure, 1 / dt, impulse);
     closed_regions->remove_means(state.pressure);
     set_means(state.pressure, model.grid());

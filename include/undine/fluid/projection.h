@@ -3,6 +3,7 @@
 #define undine_fluid_projection_h
 
 #include <undine/fluid/closed_regions.h>
+#include <undine/fluid/entering_flow.h>
 #include <undine/fluid/fluid_model.h>
 #include <undine/fluid/fluid_quantities.h>
 #include <undine/fluid/pressure_gradient.h>
@@ -43,9 +44,9 @@ namespace undine
     /// walls and inflows first. Throws InputError if a region without opening has a net inflow,
     /// SolveError if the solver does not converge. Collective.
     ///
-    /// `carrying` = v^n tells where fluid enters through openings. v* cannot: friction adds
-    /// h grad p^n / rho to it, which may point inwards in a steady outflow. `pushed`: by
-    /// surfaces of bodies.
+    /// `carrying` = v^n is a first guess of how fast fluid enters through outflows; v* is none:
+    /// friction adds h grad p^n / rho to it, which may point inwards in a steady outflow. `pushed`:
+    /// by surfaces of bodies.
     Report
     project(FluidState<dim>     &state,
             const Velocity<dim> &carrying,
@@ -71,9 +72,13 @@ namespace undine
     void
     prepare(const std::shared_ptr<const OpenParts<dim>> &open_parts);
 
-    /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm.
+    /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm, L held back where fluid
+    /// enters.
     unsigned int
-    solve(Vector &impulse, const Vector &right_side, const double tolerance) const;
+    solve(Vector               &impulse,
+          const Vector         &right_side,
+          const HeldBackMatrix &held_back,
+          const double          tolerance) const;
 
     /// Add impulses h p to the velocity until its divergence vanishes, beginning with those in
     /// `impulse`, which becomes the sum of all [Pa s]. The openings hold impulses in the place of
@@ -83,6 +88,15 @@ namespace undine
                       Field<dim>                 &impulse,
                       std::vector<OpenFace<dim>> &openings,
                       const std::vector<double>  &body_fluxes);
+
+    /// The same at the end of a step dt, with openings that hold pressures. Fluid enters outflows
+    /// against its dynamic pressure, see hold_back_entering_flow().
+    Report
+    remove_divergence_with_openings(Velocity<dim>             &velocity,
+                                    Field<dim>                &impulse,
+                                    std::vector<OpenFace<dim>> openings,
+                                    const double               dt,
+                                    const std::vector<double> &body_fluxes);
 
     const FluidModel<dim>                                     &model;
     std::unique_ptr<const PressureNumbers<dim>>                numbers;
