@@ -136,8 +136,10 @@ namespace undine
                         const PressureNumbers<dim>                               &numbers,
                         const std::vector<typename PressureNumbers<dim>::Number> &pinned)
   {
+    // A rank whose block lies in a body owns no row, of which any number of entries is refused.
+    const unsigned int row_length = numbers.owned().n_elements() > 0 ? 2 * dim + 1 : 0;
     dealii::TrilinosWrappers::SparsityPattern pattern(
-      numbers.owned(), model.grid().communicator(), 2 * dim + 1);
+      numbers.owned(), model.grid().communicator(), row_length);
     for_each_entry(model, numbers, [&](const MatrixRow<dim> &row) {
       pattern.add_entries(row.columns[0], row.columns.begin(), row.columns.end());
     });
