@@ -103,11 +103,11 @@ namespace undine
   {
     Field<dim> pushed(model.grid().cells(), velocity[0].open_parts());
     std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
-    const double tolerance   = model.pressure_solver().divergence_tolerance;
-    const double body_speed  = largest_divergence(model, pushed);
-    const double first_speed = largest_components(model, velocity).norm() + body_speed;
-    Field<dim>   increment   = impulse;
-    Report       report;
+    const double         tolerance   = model.pressure_solver().divergence_tolerance;
+    const double         body_speed  = largest_divergence(model, pushed);
+    const double         first_speed = largest_components(model, velocity).norm() + body_speed;
+    Field<dim>           increment   = impulse;
+    Report               report;
     const HeldBackMatrix held_back(*matrix, model, *numbers, openings);
 
     for (unsigned int round = 0; round < 8; ++round)
