@@ -35,7 +35,7 @@ namespace undine
                                      fluid->flow.velocity(),
                                      fluid->time + fluid->dt,
                                      fluid->dt,
-                                     geometry ? geometry->fluxes() : std::vector<double>());
+                                     geometry ? geometry->pushed(fluid->dt) : PushedVolume());
     }
     report.linear_iterations += projected.iterations;
     fluid_side.finish(*fluid, state, report, projected.divergence);

@@ -3,6 +3,9 @@
 #include <undine/interface/body_forces.h>
 #include <undine/interface/sampled_pockets.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace undine
 {
   template <int dim>
@@ -76,18 +79,30 @@ namespace undine
 
 
   template <int dim>
-  std::vector<double>
-  FluidGeometry<dim>::fluxes(const Velocities &given) const
+  PushedVolume
+  FluidGeometry<dim>::pushed(const Velocities &given, const double dt) const
   {
-    return parts.of_open_parts(flux_operator->flux(given));
+    StepAccuracy accuracy{dt, 0};
+    const auto   include = [&](const auto &place) {
+      for (unsigned int d = 0; d < dim; ++d)
+        accuracy.largest_coordinate = std::max(accuracy.largest_coordinate, std::abs(place[d]));
+    };
+    include(model.grid().lower());
+    include(model.grid().upper());
+    for (const auto &position : positions)
+      include(position);
+    auto result   = pushed_volume(*flux_operator, cells, parts, surface.surface(), given, accuracy);
+    result.bodies = surface.section_names();
+    result.scene  = surface.scene_name();
+    return result;
   }
 
 
   template <int dim>
-  std::vector<double>
-  FluidGeometry<dim>::fluxes() const
+  PushedVolume
+  FluidGeometry<dim>::pushed(const double dt) const
   {
-    return fluxes(velocities);
+    return pushed(velocities, dt);
   }
 
 

@@ -59,7 +59,8 @@ namespace undine
           fluid->flow.velocity(),
           end,
           fluid->dt,
-          geometry.fluxes(models.surface->with_bodies(moves, geometry.surface_velocities())));
+          geometry.pushed(models.surface->with_bodies(moves, geometry.surface_velocities()),
+                          fluid->dt));
       }
       report.newton_iterations += solid.newton.iterations;
       report.linear_iterations += solid.newton.linear_iterations + projected.iterations;

@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,11 +34,7 @@ namespace undine
       const Velocity<dim> still = model.initial_state().velocity;
       for (const auto &opening : open_faces(model, still, numbers.open_parts().get(), 0.))
         {
-          const PressurePlace<dim> inside =
-            opening.piece < 0
-              ? PressurePlace<dim>{opening.cell, -1}
-              : end_of_piece(
-                  *numbers.open_parts(), opening.side.axis, opening.piece, 1 - opening.side.end);
+          const auto inside = place_inside(numbers.open_parts().get(), opening);
           is_open[regions[owned.index_within_set(numbers.of(inside))]] = 1;
         }
       dealii::Utilities::MPI::max(is_open, model.grid().communicator(), is_open);
@@ -95,6 +92,19 @@ namespace undine
 
 
   template <int dim>
+  template <class Function>
+  std::vector<double>
+  ClosedRegions<dim>::sums_of(const Field<dim> &field, const Function &function) const
+  {
+    std::vector<double> values;
+    for_each_value(field, [&](const double value, const auto &, const auto &) {
+      values.push_back(function(value));
+    });
+    return sums([&](const std::size_t k) { return values[k]; });
+  }
+
+
+  template <int dim>
   void
   ClosedRegions<dim>::balance(Vector &right_side) const
   {
@@ -125,25 +135,84 @@ namespace undine
 
 
   template <int dim>
-  void
-  ClosedRegions<dim>::check_net_flux(const Velocity<dim>       &velocity,
-                                     const std::vector<double> &body_fluxes,
-                                     const double               time) const
+  Field<dim>
+  ClosedRegions<dim>::regions_of_pressures() const
+  {
+    Field<dim>  result(model.grid().cells(), numbers.open_parts());
+    std::size_t k = 0;
+    for_each_value(result,
+                   [&](double &value, const auto &, const auto &) { value = regions[k++]; });
+    return result;
+  }
+
+
+  template <int dim>
+  std::string
+  ClosedRegions<dim>::describe(const int           region,
+                               const PushedVolume &pushed,
+                               const double        through_boundaries) const
+  {
+    const auto             which = regions_of_pressures();
+    dealii::Tensor<1, dim> moment;
+    std::size_t            k = 0;
+    for_each_value(which, [&](const double value, const auto &place, const auto &) {
+      if (value == region)
+        moment += volumes[k] / region_volumes[region] * place;
+      ++k;
+    });
+    const auto          communicator = model.grid().communicator();
+    const auto          middle       = dealii::Utilities::MPI::sum(moment, communicator);
+    std::vector<double> fluxes(pushed.bodies.size(), 0.);
+    std::vector<int>    touches(pushed.bodies.size(), 0);
+    for (const auto &part : pushed.parts)
+      if (which.parts()[part.component] == region)
+        {
+          fluxes[part.body] += part.flux;
+          touches[part.body] = 1;
+        }
+    dealii::Utilities::MPI::sum(fluxes, communicator, fluxes);
+    dealii::Utilities::MPI::max(touches, communicator, touches);
+    std::string list;
+    for (std::size_t body = 0; body < touches.size(); ++body)
+      if (touches[body])
+        list += fmt::format("through '{}' {:.6g}, ", pushed.bodies[body], fluxes[body]);
+    return fmt::format("a part of the fluid of {:.6g} m^{} around ({:.4g}) that has no outlet "
+                       "(outwards {}through boundaries {:.6g})",
+                       region_volumes[region],
+                       dim,
+                       fmt::join(middle.begin_raw(), middle.begin_raw() + dim, ", "),
+                       list,
+                       through_boundaries);
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  ClosedRegions<dim>::sums_on_components(const std::vector<double> &values) const
+  {
+    Field<dim> field(model.grid().cells(), numbers.open_parts());
+    std::copy(values.begin(), values.end(), field.parts().begin());
+    return sums_of(field, [](const double value) { return value; });
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  ClosedRegions<dim>::balanced_fluxes(const Velocity<dim> &velocity,
+                                      const PushedVolume  &pushed,
+                                      const double         time) const
   {
     if (region_volumes.empty())
-      return;
-    const auto complain = [&](const std::string &complaint) {
-      throw InputError(fmt::format("At {:.6g} s {}. Make one boundary an 'outflow' or of the "
-                                   "kind 'pressure', or balance the inflows.",
-                                   time,
-                                   complaint));
-    };
+      return pushed.fluxes;
     if (!numbers.open_parts())
       {
         const auto complaint = net_flux_complaint(model, velocity);
         if (!complaint.empty())
-          complain(complaint);
-        return;
+          throw InputError(fmt::format("At {:.6g} s {}. Make one boundary an 'outflow' or of the "
+                                       "kind 'pressure', or balance the inflows.",
+                                       time,
+                                       complaint));
+        return pushed.fluxes;
       }
     // Faces between cells cancel in the sum over a region; only what is held counts.
     Velocity<dim> held;
@@ -151,29 +220,36 @@ namespace undine
       held[axis] = Field<dim>(velocity[axis].shared_lattice(), velocity[axis].open_parts());
     set_boundary_velocity(held, model, time);
     exchange(held);
-    const auto fluxes = divergence(model, held);
-    Field<dim> pushed(fluxes.shared_lattice(), fluxes.open_parts());
-    std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
-    const auto values = [](const Field<dim> &field) {
-      std::vector<double> result;
-      for_each_value(
-        field, [&](const double value, const auto &, const auto &) { result.push_back(value); });
-      return result;
-    };
-    const auto through_boundary = values(fluxes), from_bodies = values(pushed);
-    const auto sum =
-      sums([&](const std::size_t k) { return through_boundary[k] + from_bodies[k]; });
-    const auto size = sums([&](const std::size_t k) {
-      return std::abs(through_boundary[k]) + std::abs(from_bodies[k]);
-    });
-    for (std::size_t region = 0; region < sum.size(); ++region)
-      if (std::abs(sum[region]) > 1e-8 * size[region])
-        complain(fmt::format("in sum {:.6g} m^{}/s flow out of a part of the fluid of {:.6g} m^{} "
-                             "that has no outlet, among bodies and boundaries",
-                             sum[region],
-                             dim,
-                             region_volumes[region],
-                             dim));
+    const auto          fluxes     = divergence(model, held);
+    const auto          boundaries = sums_of(fluxes, [](const double flux) { return flux; });
+    const auto          sizes  = sums_of(fluxes, [](const double flux) { return std::abs(flux); });
+    const auto          bodies = sums_on_components(pushed.fluxes);
+    const auto          uncertainty = sums_on_components(pushed.uncertainties);
+    std::vector<double> shares(boundaries.size(), 0.); // of the uncertainties
+    for (std::size_t region = 0; region < shares.size(); ++region)
+      {
+        const double sum = boundaries[region] + bodies[region];
+        if (std::abs(sum) > 1e-8 * sizes[region] + uncertainty[region])
+          throw InputError(fmt::format(
+            "{}: at {:.6g} s {:.6g} m^{}/s in sum flow out of {}. Likely an obstacle grows or "
+            "shrinks, leaves the domain or enters it, moves into another one, or seals a place "
+            "off. Try: another 'Displacement', an 'outflow' or a boundary of the kind 'pressure' "
+            "that this part reaches, or balance the inflows.",
+            pushed.scene,
+            time,
+            sum,
+            dim,
+            describe(region, pushed, boundaries[region])));
+        if (uncertainty[region] > 0)
+          shares[region] = std::clamp(sum / uncertainty[region], -1., 1.);
+      }
+    const auto which  = regions_of_pressures();
+    auto       result = pushed.fluxes;
+    for (std::size_t c = 0; c < result.size(); ++c)
+      if (const double uncertain = pushed.uncertainties[c]; uncertain > 0)
+        if (const int region = static_cast<int>(which.parts()[c]); region != open_region)
+          result[c] -= shares[region] * uncertain;
+    return result;
   }
 
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/disjoint_sets.h>
 #include <undine/fluid/fluid_regions.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -13,36 +13,6 @@ namespace undine
 {
   namespace
   {
-    /// Disjoint sets of whole numbers 0..n-1, each known by its smallest member.
-    class DisjointSets
-    {
-    public:
-      explicit DisjointSets(const std::size_t n)
-        : parents(n)
-      {
-        std::iota(parents.begin(), parents.end(), std::size_t(0));
-      }
-
-      std::size_t
-      smallest(std::size_t member)
-      {
-        while (parents[member] != member)
-          member = parents[member] = parents[parents[member]];
-        return member;
-      }
-
-      void
-      join(const std::size_t a, const std::size_t b)
-      {
-        const auto first = smallest(a), second = smallest(b);
-        parents[std::max(first, second)] = std::min(first, second);
-      }
-
-    private:
-      std::vector<std::size_t> parents;
-    };
-
-
     using Number = dealii::types::global_dof_index;
 
 

@@ -67,9 +67,10 @@ namespace undine
     const Flow<dim> still(model, flow.velocity(), time, 0., flow.bodies());
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
-        const auto source = completed(still, state.velocity[axis], VelocityCondition<dim>(axis));
-        state.velocity[axis] =
-          carry(still, source, [&](const auto &, const auto &face) { return source(face); });
+        const VelocityCondition<dim> condition(axis);
+        const auto                   source = completed(still, state.velocity[axis], condition);
+        state.velocity[axis]                = carry(
+          still, source, condition, [&](const auto &, const auto &face) { return source(face); });
       }
   }
 

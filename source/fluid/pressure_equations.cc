@@ -19,28 +19,56 @@ namespace undine
     , regions(model, all_numbers, yielding)
     , flux(all_numbers.owned(), model.grid().communicator())
   {
-    build_pressure_matrix(hL, model, all_numbers, regions.pinned());
-    hL *= dt;
+    build_pressure_matrix(L, model, all_numbers, regions.pinned());
+    hL.reinit(L);
   }
 
 
   template <int dim>
   void
-  PressureEquations<dim>::start(Velocity<dim>             &velocity,
-                                const Velocity<dim>       &carrying,
-                                const double               time,
-                                const std::vector<double> &body_fluxes)
+  PressureEquations<dim>::start(Velocity<dim>       &velocity,
+                                const Velocity<dim> &carrying,
+                                const double         time,
+                                const PushedVolume  &pushed)
   {
-    const auto &open = all_numbers.open_parts();
     set_boundary_velocity(velocity, model, time);
-    regions.check_net_flux(velocity, body_fluxes, time);
-    openings = open_faces(model, carrying, open.get(), time);
-    const Field<dim> no_pressure(model.grid().cells(), open);
+    regions.balanced_fluxes(velocity, pushed, time);
+    openings = open_faces(model, carrying, all_numbers.open_parts().get(), time);
+  }
+
+
+  template <int dim>
+  void
+  PressureEquations<dim>::open(Velocity<dim> &velocity)
+  {
+    hold_back_entering_flow(velocity, openings, model, dt);
+    const HeldBackMatrix held_back(L, model, all_numbers, openings);
+    hL.copy_from(L);
+    for (const auto &[row, value] : held_back.subtracted())
+      {
+        const auto number = all_numbers.owned().nth_index_in_set(row);
+        hL.add(number, number, -value);
+      }
+    hL.compress(dealii::VectorOperation::add);
+    hL *= dt;
+
+    const Field<dim> no_pressure(model.grid().cells(), all_numbers.open_parts());
     add(velocity, dt, pressure_acceleration(model, no_pressure, openings));
-    for (auto &opening : openings)
+    closed_openings = openings;
+    for (auto &opening : closed_openings)
       opening.pressure = 0;
     exchange(velocity);
     copy_to_vector(flux, undine::divergence(model, velocity));
+  }
+
+
+  template <int dim>
+  double
+  PressureEquations<dim>::update_entering_flow(const Velocity<dim> &velocity)
+  {
+    const double change = update_entering_speeds(openings, velocity, model, dt);
+    const double speed  = largest_components(model, velocity).norm();
+    return change == 0 ? 0. : change / speed;
   }
 
 
@@ -72,7 +100,7 @@ namespace undine
   {
     auto pressures = field(pressure);
     pressures.exchange(1);
-    add(velocity, dt, pressure_acceleration(model, pressures, openings));
+    add(velocity, dt, pressure_acceleration(model, pressures, closed_openings));
     exchange(velocity);
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/pressure_gradient.h>
-#include <undine/fluid/pressure_numbers.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace undine
@@ -10,21 +10,6 @@ namespace undine
   {
     template <int dim>
     using Kind = typename LatticeParts<dim>::Kind;
-
-
-    /// Reduced pressure on an opening through which fluid leaves with velocity `outward` [m/s].
-    template <int dim>
-    double
-    opening_pressure(const FluidModel<dim>    &model,
-                     const Boundary<dim>      &boundary,
-                     const dealii::Point<dim> &place,
-                     const double              outward,
-                     const double              time)
-    {
-      const double entering = std::min(outward, 0.);
-      return boundary.kind == BoundaryKind::outflow ? -model.density() / 2 * entering * entering
-                                                    : boundary.pressure.value(place, time);
-    }
 
 
     /// Call `action(part)` for the parts of a divided point.
@@ -62,9 +47,11 @@ namespace undine
               return;
             const auto cell = end == 0 ? face : moved<dim>(face, axis, -1);
             const auto add  = [&](const auto &place, const int piece) {
-              const double outward = side.sign() * component(face);
-              result.push_back(
-                {side, face, cell, opening_pressure(model, boundary, place, outward, time), piece});
+              const double entering = std::max(0., -side.sign() * component(face));
+              const double pressure = boundary.kind == BoundaryKind::outflow
+                                         ? -model.density() / 2 * entering * entering
+                                         : boundary.pressure.value(place, time);
+              result.push_back({side, face, cell, pressure, piece, boundary.kind, entering});
             };
             if (!open_parts || open_parts->faces[axis].kind(face) == Kind<dim>::whole)
               add(component.lattice().point(face), -1);
@@ -75,6 +62,16 @@ namespace undine
           });
         }
     return result;
+  }
+
+
+  template <int dim>
+  PressurePlace<dim>
+  place_inside(const OpenParts<dim> *open_parts, const OpenFace<dim> &opening)
+  {
+    if (opening.piece < 0)
+      return {opening.cell, -1};
+    return end_of_piece(*open_parts, opening.side.axis, opening.piece, 1 - opening.side.end);
   }
 
 
@@ -138,15 +135,15 @@ namespace undine
         auto              &component = acceleration[axis];
         const double       sign      = opening.side.sign();
         if (opening.piece < 0)
-          component(opening.face) = sign * (pressure(opening.cell) - opening.pressure) /
+          component(opening.face) = opening.mobility * sign *
+                                    (pressure(opening.cell) - opening.pressure) /
                                     (model.density() * grid.dual_width(axis, opening.face[axis]));
         else
           {
             const auto  &piece = open->pieces[axis][opening.piece];
             const double drop =
-              value_at(pressure, end_of_piece(*open, axis, opening.piece, 1 - opening.side.end)) -
-              opening.pressure;
-            component.parts()[opening.piece] = sign * drop *
+              value_at(pressure, place_inside(open.get(), opening)) - opening.pressure;
+            component.parts()[opening.piece] = opening.mobility * sign * drop *
                                                component.divided()->all()[opening.piece].measure /
                                                (model.density() * piece.volume);
           }
@@ -245,9 +242,10 @@ namespace undine
 #define INSTANTIATE(dim)                                                                   \
   template std::vector<OpenFace<dim>> open_faces(                                          \
     const FluidModel<dim> &, const Velocity<dim> &, const OpenParts<dim> *, const double); \
-  template Field<dim>    divergence(const FluidModel<dim> &, const Velocity<dim> &);       \
-  template Velocity<dim> pressure_acceleration(                                            \
-    const FluidModel<dim> &, const Field<dim> &, const std::vector<OpenFace<dim>> &);      \
+  template PressurePlace<dim> place_inside(const OpenParts<dim> *, const OpenFace<dim> &); \
+  template Field<dim>         divergence(const FluidModel<dim> &, const Velocity<dim> &);  \
+  template Velocity<dim>      pressure_acceleration(                                       \
+         const FluidModel<dim> &, const Field<dim> &, const std::vector<OpenFace<dim>> &); \
   template double pressure_coupling(                                                       \
     const FluidModel<dim> &, const unsigned int, const GridIndex<dim> &);                  \
   template void set_means(Velocity<dim> &, const MacGrid<dim> &);                          \

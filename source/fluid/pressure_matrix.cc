@@ -136,8 +136,9 @@ namespace undine
                         const PressureNumbers<dim>                               &numbers,
                         const std::vector<typename PressureNumbers<dim>::Number> &pinned)
   {
+    // A rank without fluid must not announce rows: their numbers would be taken for a huge range.
     dealii::TrilinosWrappers::SparsityPattern pattern(
-      numbers.owned(), model.grid().communicator(), 2 * dim + 1);
+      numbers.owned(), model.grid().communicator(), numbers.owned().is_empty() ? 0 : 2 * dim + 1);
     for_each_entry(model, numbers, [&](const MatrixRow<dim> &row) {
       pattern.add_entries(row.columns[0], row.columns.begin(), row.columns.end());
     });

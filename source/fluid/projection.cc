@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/boundary_condition.h>
+#include <undine/fluid/entering_flow.h>
 #include <undine/fluid/pressure_gradient.h>
 #include <undine/fluid/pressure_matrix.h>
 #include <undine/fluid/projection.h>
@@ -43,13 +44,17 @@ namespace undine
   void
   Projection<dim>::prepare(const std::shared_ptr<const OpenParts<dim>> &open_parts)
   {
-    if (matrix && numbers->open_parts() == open_parts)
+    if (numbers && numbers->open_parts() == open_parts)
       return;
     numbers        = std::make_unique<const PressureNumbers<dim>>(model.grid(), open_parts);
     closed_regions = std::make_unique<const ClosedRegions<dim>>(model, *numbers);
-    matrix         = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
-    build_pressure_matrix(*matrix, model, *numbers, closed_regions->pinned());
+    multigrid.reset();
+    matrix.reset();
     smallest_area = smallest_flux_area(model.grid());
+    if (numbers->owned().size() == 0)
+      return; // obstacles fill the domain
+    matrix = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
+    build_pressure_matrix(*matrix, model, *numbers, closed_regions->pinned());
 
     dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
     data.elliptic              = true;
@@ -63,13 +68,16 @@ namespace undine
 
   template <int dim>
   unsigned int
-  Projection<dim>::solve(Vector &impulse, const Vector &right_side, const double tolerance) const
+  Projection<dim>::solve(Vector               &impulse,
+                         const Vector         &right_side,
+                         const HeldBackMatrix &held_back,
+                         const double          tolerance) const
   {
     dealii::SolverControl    control(model.pressure_solver().maximum_iterations, tolerance);
     dealii::SolverCG<Vector> solver(control);
     try
       {
-        solver.solve(*matrix, impulse, right_side, *multigrid);
+        solver.solve(held_back, impulse, right_side, *multigrid);
       }
     catch (const dealii::SolverControl::NoConvergence &failure)
       {
@@ -95,12 +103,12 @@ namespace undine
   {
     Field<dim> pushed(model.grid().cells(), velocity[0].open_parts());
     std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
-    const double tolerance   = model.pressure_solver().divergence_tolerance;
-    const double body_speed  = largest_divergence(model, pushed);
-    const double first_speed = largest_components(model, velocity).norm() + body_speed;
-    Vector       right_side(numbers->owned(), model.grid().communicator()), correction(right_side);
-    Field<dim>   increment = impulse;
-    Report       report;
+    const double         tolerance   = model.pressure_solver().divergence_tolerance;
+    const double         body_speed  = largest_divergence(model, pushed);
+    const double         first_speed = largest_components(model, velocity).norm() + body_speed;
+    Field<dim>           increment   = impulse;
+    Report               report;
+    const HeldBackMatrix held_back(*matrix, model, *numbers, openings);
 
     for (unsigned int round = 0; round < 8; ++round)
       {
@@ -120,13 +128,14 @@ namespace undine
         if (divergence <= allowed)
           return report;
 
+        Vector right_side(numbers->owned(), model.grid().communicator()), correction(right_side);
         copy_to_vector(right_side, fluxes);
         right_side *= -1;
         closed_regions->balance(right_side);
-        correction = 0;
         // In the mean over cells a quarter of what is allowed, then less: some have more.
         const double in_the_mean = std::sqrt(double(right_side.size())) * smallest_area * allowed;
-        report.iterations += solve(correction, right_side, in_the_mean * std::pow(0.25, round + 1));
+        report.iterations +=
+          solve(correction, right_side, held_back, in_the_mean * std::pow(0.25, round + 1));
         copy_from_vector(increment, correction);
         add(impulse, 1., increment);
       }
@@ -141,6 +150,39 @@ namespace undine
 
   template <int dim>
   typename Projection<dim>::Report
+  Projection<dim>::remove_divergence_with_openings(Velocity<dim>             &velocity,
+                                                   Field<dim>                &impulse,
+                                                   std::vector<OpenFace<dim>> openings,
+                                                   const double               dt,
+                                                   const std::vector<double> &body_fluxes)
+  {
+    // Newton's method for the speeds at which fluid enters: from the last ones it is there in one
+    // or two rounds; those that are far too large are halved in each.
+    constexpr unsigned int most_rounds = 20;
+    constexpr double       tolerance   = 1e-4;
+    const auto             before      = velocity;
+    Report                 report;
+    for (unsigned int round = 0; round < most_rounds; ++round)
+      {
+        if (round > 0)
+          velocity = before;
+        hold_back_entering_flow(velocity, openings, model, dt);
+        auto impulses = openings;
+        for (auto &open : impulses)
+          open.pressure *= dt;
+        const unsigned int iterations = report.iterations;
+        report                        = remove_divergence(velocity, impulse, impulses, body_fluxes);
+        report.iterations += iterations;
+        const double change = update_entering_speeds(openings, velocity, model, dt);
+        if (change <= tolerance * largest_components(model, velocity).norm())
+          break;
+      }
+    return report;
+  }
+
+
+  template <int dim>
+  typename Projection<dim>::Report
   Projection<dim>::project(FluidState<dim> &state, const double time, const double dt)
   {
     return project(state, state.velocity, time, dt);
@@ -149,23 +191,25 @@ namespace undine
 
   template <int dim>
   typename Projection<dim>::Report
-  Projection<dim>::project(FluidState<dim>           &state,
-                           const Velocity<dim>       &carrying,
-                           const double               time,
-                           const double               dt,
-                           const std::vector<double> &body_fluxes)
+  Projection<dim>::project(FluidState<dim>     &state,
+                           const Velocity<dim> &carrying,
+                           const double         time,
+                           const double         dt,
+                           const PushedVolume  &pushed)
   {
     const auto &open_parts = state.pressure.open_parts();
     prepare(open_parts);
     set_boundary_velocity(state.velocity, model, time);
-    closed_regions->check_net_flux(state.velocity, body_fluxes, time);
-    auto openings = open_faces(model, carrying, open_parts.get(), time);
-    for (auto &open : openings)
-      open.pressure *= dt;
+    const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
     Field<dim> impulse(model.grid().cells(), open_parts);
     add(impulse, dt, state.pressure);
-    const auto report = remove_divergence(state.velocity, impulse, openings, body_fluxes);
-    state.pressure    = Field<dim>(model.grid().cells(), open_parts);
+    const auto report =
+      remove_divergence_with_openings(state.velocity,
+                                      impulse,
+                                      open_faces(model, carrying, open_parts.get(), time),
+                                      dt,
+                                      body_fluxes);
+    state.pressure = Field<dim>(model.grid().cells(), open_parts);
     add(state.pressure, 1 / dt, impulse);
     closed_regions->remove_means(state.pressure);
     set_means(state.pressure, model.grid());
@@ -175,15 +219,15 @@ namespace undine
 
   template <int dim>
   typename Projection<dim>::Report
-  Projection<dim>::make_divergence_free(FluidState<dim>           &state,
-                                        const double               time,
-                                        const std::vector<double> &body_fluxes)
+  Projection<dim>::make_divergence_free(FluidState<dim>    &state,
+                                        const double        time,
+                                        const PushedVolume &pushed)
   {
     const auto open_parts = state.velocity[0].open_parts();
     prepare(open_parts);
     set_boundary_velocity(state.velocity, model, time);
-    closed_regions->check_net_flux(state.velocity, body_fluxes, time);
-    auto openings = open_faces(model, state.velocity, open_parts.get(), time);
+    const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
+    auto       openings    = open_faces(model, state.velocity, open_parts.get(), time);
     for (auto &open : openings)
       open.pressure = 0;
     Field<dim> impulse(model.grid().cells(), open_parts);

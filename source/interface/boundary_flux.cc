@@ -2,6 +2,8 @@
 #include <undine/interface/boundary_flux.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace undine
@@ -121,6 +123,47 @@ namespace undine
 
 
   template <int dim>
+  PushedVolume
+  pushed_volume(const BoundaryFlux<dim>                   &boundary_flux,
+                const CutCells<dim>                       &cut,
+                const CutParts<dim>                       &parts,
+                const Surface<dim>                        &surface,
+                const std::vector<dealii::Tensor<1, dim>> &velocities,
+                const StepAccuracy                        &accuracy)
+  {
+    constexpr double relative = 1e-8;
+    const double     rounding =
+      16 * std::numeric_limits<double>::epsilon() * accuracy.largest_coordinate;
+    PushedVolume        result;
+    std::vector<double> uncertainties(cut.components.size(), 0.);
+    for_each_wet_fragment(cut, [&](const auto &fragment) {
+      const int component = parts.open_components[fragment.component];
+      if (component < 0)
+        return;
+      double speed = 0, flux = 0;
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          const auto &velocity = velocities[surface.facets()[fragment.facet][k]];
+          speed                = std::max(speed, velocity.norm());
+          flux += fragment.mean[k] * velocity * fragment.area_vector;
+        }
+      result.parts.push_back({component, surface.body(fragment.facet), flux});
+      if (speed == 0)
+        return;
+      // What its corners are uncertain makes the area uncertain by the length of its rim.
+      const double area = fragment.area_vector.norm();
+      const double rim  = std::pow(area, (dim - 2) / (dim - 1.));
+      uncertainties[fragment.component] +=
+        relative * area * speed + rounding * (area / accuracy.dt + rim * speed);
+    });
+    result.fluxes        = parts.of_open_parts(boundary_flux.flux(velocities));
+    result.uncertainties = parts.of_open_parts(uncertainties);
+    result.bodies        = surface.body_names();
+    return result;
+  }
+
+
+  template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   nodal_forces(const BoundaryFlux<dim>   &boundary_flux,
                const std::vector<double> &pressures,
@@ -158,6 +201,10 @@ namespace undine
   // clang-format off
 #define INSTANTIATE(dim)                                                                           \
   template class BoundaryFlux<dim>;                                                                \
+  template PushedVolume pushed_volume(const BoundaryFlux<dim> &, const CutCells<dim> &,            \
+                                      const CutParts<dim> &, const Surface<dim> &,                 \
+                                      const std::vector<dealii::Tensor<1, dim>> &,                 \
+                                      const StepAccuracy &);                                       \
   template std::vector<dealii::Tensor<1, dim>> nodal_forces(const BoundaryFlux<dim> &,             \
                                                             const std::vector<double> &, MPI_Comm);\
   template std::vector<dealii::Tensor<1, dim>> gravity_loads(                                      \

@@ -26,6 +26,17 @@ namespace undine
     }
 
 
+    /// True on the sides of the grid.
+    template <int dim>
+    bool
+    is_at_side(const CutCells<dim> &cut, const typename CutCells<dim>::Piece &piece)
+    {
+      const auto &face = cut.faces[piece.face];
+      return face.index[face.axis] == 0 ||
+             face.index[face.axis] == cut.block.planes().n_cells(face.axis);
+    }
+
+
     /// Tell pieces whose neighbour is not cut what it is instead.
     template <int dim>
     void
@@ -64,7 +75,8 @@ namespace undine
         }
       for (const auto &piece : cut.pieces)
         {
-          if (is_negligible(cut, piece))
+          // Between a body and a side of the grid nothing flows without volume.
+          if (is_negligible(cut, piece) || is_at_side(cut, piece))
             continue;
           for (const int c : piece.components)
             if (c >= 0)
@@ -129,7 +141,11 @@ namespace undine
     find_uncut_neighbours(cut, closed);
     const auto dropped = find_negligible_components(cut);
     for (std::size_t p = 0; p < cut.pieces.size(); ++p)
-      closed[p] = closed[p] || is_negligible(cut, cut.pieces[p]);
+      {
+        closed[p] = closed[p] || is_negligible(cut, cut.pieces[p]);
+        for (const int c : cut.pieces[p].components)
+          closed[p] = closed[p] || (c >= 0 && dropped[c]);
+      }
     remove_components(cut, dropped);
     remove_pieces(cut, closed);
   }

@@ -23,6 +23,7 @@ namespace undine
                                  const std::vector<dealii::Point<dim>> &positions,
                                  const SplitSurface<dim>               &split,
                                  const std::int64_t                     key,
+                                 const GridIndex<dim>                  &node,
                                  const unsigned int                     axis)
   {
     order.clear();
@@ -42,7 +43,7 @@ namespace undine
             unsigned int rank = 0; // the planes of higher axes move farther
             for (unsigned int d = dim; d-- > 0;)
               if (d != axis)
-                sorted.shifts[rank++] = normal[d] / normal[axis];
+                sorted.shifts[rank++] = -GridPlanes<dim>::shift(node[d]) * normal[d] / normal[axis];
           }
         keys.push_back(sorted);
       }
@@ -110,7 +111,7 @@ namespace undine
       return edges[slot];
     Edge               edge;
     const std::int64_t first = block.key(node), last = block.key(moved(node, axis, 1));
-    sort_crossings(surface, positions, split, key, axis);
+    sort_crossings(surface, positions, split, key, node, axis);
     int winding = windings[first], end = winding;
     for (const int c : order)
       end += split.crossings[c].sign;

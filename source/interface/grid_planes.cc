@@ -28,7 +28,7 @@ namespace undine
   GridPlanes<dim>::slab(const unsigned int axis, const double coordinate) const
   {
     const auto &p = planes[axis];
-    if (coordinate < p.front())
+    if (coordinate <= p.front())
       return -1;
     if (coordinate >= p.back())
       return n_cells(axis);
@@ -49,6 +49,8 @@ namespace undine
                                 const int          lowest,
                                 const int          highest) const
   {
+    if (lowest < 0 && coordinate <= planes[axis].front())
+      return lowest;
     const auto begin = planes[axis].begin() + (lowest + 1);
     const auto end   = planes[axis].begin() + (highest + 1);
     return lowest + static_cast<int>(std::upper_bound(begin, end, coordinate) - begin);

@@ -69,6 +69,7 @@ namespace undine
                                         const SolidModel<dim> *solid,
                                         const MacGrid<dim>    &grid)
     : grid(grid)
+    , file_name(scene.file().name())
     , all_obstacles(scene)
   {
     auto rest = all_obstacles.positions(0);
@@ -96,8 +97,20 @@ namespace undine
       }
     catch (const InputError &error)
       {
-        throw InputError(fmt::format("{}: {}", scene.file().name(), error.what()));
+        throw InputError(fmt::format("{}: {}", file_name, error.what()));
       }
+  }
+
+
+  template <int dim>
+  std::vector<std::string>
+  ImmersedSurface<dim>::section_names() const
+  {
+    std::vector<std::string> result;
+    const auto n_bodies = body_surface ? body_surface->surface().body_names().size() : 0;
+    for (const auto &name : all_facets->body_names())
+      result.push_back((result.size() < n_bodies ? "Bodies/" : "Obstacles/") + name);
+    return result;
   }
 
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/disjoint_sets.h>
 #include <undine/interface/face_facets.h>
 #include <undine/interface/obstacles.h>
 #include <undine/solid/body_shape.h>
@@ -156,8 +157,58 @@ namespace undine
     }
 
 
-    /// Add to the velocities along the normals what makes the flux through the surface at `before`
-    /// the rate at which the volume of each obstacle grows from `before` to `after`.
+    /// For each node the number of the closed surface that it belongs to: a hollow obstacle has one
+    /// outside and one around each hole.
+    template <int dim>
+    std::vector<std::size_t>
+    find_closed_surfaces(const Surface<dim> &surface)
+    {
+      DisjointSets joined(surface.n_nodes());
+      for (const auto &facet : surface.facets())
+        for (const unsigned int node : facet)
+          joined.join(facet[0], node);
+      std::vector<std::size_t> result;
+      for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+        result.push_back(joined.smallest(node));
+      return result;
+    }
+
+
+    /// int N n dGamma of each node, n out of the solid.
+    template <int dim>
+    std::vector<dealii::Tensor<1, dim>>
+    node_normals(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions)
+    {
+      std::vector<dealii::Tensor<1, dim>> result(positions.size());
+      for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
+        for (const unsigned int node : surface.facets()[facet])
+          result[node] += area_vector(surface, facet, positions) / dim;
+      return result;
+    }
+
+
+    /// Volume inside each closed surface, known by its lowest node; of a hole negative.
+    template <int dim>
+    std::vector<double>
+    volumes_inside(const Surface<dim>                    &surface,
+                   const std::vector<std::size_t>        &closed_surfaces,
+                   const std::vector<dealii::Point<dim>> &positions)
+    {
+      std::vector<double> result(positions.size(), 0.);
+      for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
+        {
+          // Relative to a point of each: a small one far from the origin keeps its digits.
+          const unsigned int node  = surface.facets()[facet][0];
+          const auto         which = closed_surfaces[node];
+          result[which] +=
+            (positions[node] - positions[which]) * area_vector(surface, facet, positions) / dim;
+        }
+      return result;
+    }
+
+
+    /// Add to the velocities along the normals what makes the flux through each closed surface at
+    /// `before` the rate at which the volume in it grows from `before` to `after`.
     template <int dim>
     void
     balance_volumes(std::vector<dealii::Tensor<1, dim>>   &velocities,
@@ -166,28 +217,21 @@ namespace undine
                     const std::vector<dealii::Point<dim>> &after,
                     const double                           dt)
     {
-      const auto                          old_volumes = body_volumes(surface, before);
-      const auto                          new_volumes = body_volumes(surface, after);
-      std::vector<dealii::Tensor<1, dim>> normals(before.size()); // int N n dGamma of each node
-      std::vector<unsigned int>           body_of_node(before.size(), 0);
-      for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
-        for (const unsigned int node : surface.facets()[facet])
-          {
-            normals[node] += area_vector(surface, facet, before) / dim;
-            body_of_node[node] = surface.body(facet);
-          }
-      std::vector<double> missing(old_volumes.size()), areas(old_volumes.size(), 0.);
-      for (unsigned int b = 0; b < missing.size(); ++b)
-        missing[b] = (new_volumes[b] - old_volumes[b]) / dt;
+      const auto          which       = find_closed_surfaces(surface);
+      const auto          old_volumes = volumes_inside(surface, which, before);
+      const auto          new_volumes = volumes_inside(surface, which, after);
+      const auto          normals     = node_normals(surface, before);
+      std::vector<double> missing(before.size()), areas(before.size(), 0.);
+      for (unsigned int s = 0; s < missing.size(); ++s)
+        missing[s] = (new_volumes[s] - old_volumes[s]) / dt;
       for (unsigned int node = 0; node < before.size(); ++node)
         {
-          missing[body_of_node[node]] -= velocities[node] * normals[node];
-          areas[body_of_node[node]] += normals[node].norm();
+          missing[which[node]] -= velocities[node] * normals[node];
+          areas[which[node]] += normals[node].norm();
         }
       for (unsigned int node = 0; node < before.size(); ++node)
         if (const double area = normals[node].norm(); area > 0)
-          velocities[node] +=
-            missing[body_of_node[node]] / areas[body_of_node[node]] / area * normals[node];
+          velocities[node] += missing[which[node]] / areas[which[node]] / area * normals[node];
     }
   } // namespace
 

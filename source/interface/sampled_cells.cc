@@ -2,6 +2,9 @@
 #include <undine/interface/sampled_regions.h>
 #include <undine/interface/simplex.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace undine
 {
   namespace
@@ -28,28 +31,65 @@ namespace undine
     /// @}
 
 
-    /// Centres of equal parts of a segment or triangle. @{
-    constexpr int n_parts = 6;
-
-    void
-    add_centres(std::vector<dealii::Point<2>> &centres, const SampledRegions<2>::Simplex &segment)
+    /// In the corners of the cell or face at a node, in the order of SampledRegions: `axes` are
+    /// those along it.
+    template <int dim, std::size_t n>
+    typename SampledRegions<static_cast<int>(n)>::CornerWindings
+    corner_windings(const CutCells<dim>               &cut,
+                    const GridIndex<dim>              &node,
+                    const std::array<unsigned int, n> &axes)
     {
-      for (int i = 0; i < n_parts; ++i)
-        centres.push_back(segment[0] + (i + .5) / n_parts * (segment[1] - segment[0]));
+      typename SampledRegions<static_cast<int>(n)>::CornerWindings result;
+      for (unsigned int corner = 0; corner < result.size(); ++corner)
+        {
+          auto place = node;
+          for (unsigned int d = 0; d < n; ++d)
+            place[axes[d]] += (corner >> d) & 1;
+          result[corner] = cut.windings[cut.block.key(place)];
+        }
+      return result;
+    }
+
+
+    /// Into how many parts along each side to divide a facet: none larger than the distance of
+    /// samples.
+    template <int dim>
+    int
+    n_parts(const std::array<dealii::Point<dim>, dim> &nodes, const dealii::Tensor<1, dim> &widths)
+    {
+      constexpr int most = 6, all_along_cell = 12;
+      double        extent = 0; // in widths of the cell
+      for (const auto &node : nodes)
+        for (unsigned int d = 0; d < dim; ++d)
+          extent = std::max(extent, std::abs(node[d] - nodes[0][d]) / widths[d]);
+      return std::clamp(static_cast<int>(std::ceil(extent * all_along_cell)), 1, most);
+    }
+
+
+    /// Centres of n equal parts of a segment, n^2 of a triangle. @{
+    void
+    add_centres(std::vector<dealii::Point<2>>    &centres,
+                const SampledRegions<2>::Simplex &segment,
+                const int                         n)
+    {
+      for (int i = 0; i < n; ++i)
+        centres.push_back(segment[0] + (i + .5) / n * (segment[1] - segment[0]));
     }
 
     void
-    add_centres(std::vector<dealii::Point<3>> &centres, const SampledRegions<3>::Simplex &triangle)
+    add_centres(std::vector<dealii::Point<3>>    &centres,
+                const SampledRegions<3>::Simplex &triangle,
+                const int                         n)
     {
       const auto add = [&](const double i, const double j) {
-        centres.push_back(triangle[0] + i / n_parts * (triangle[1] - triangle[0]) +
-                          j / n_parts * (triangle[2] - triangle[0]));
+        centres.push_back(triangle[0] + i / n * (triangle[1] - triangle[0]) +
+                          j / n * (triangle[2] - triangle[0]));
       };
-      for (int i = 0; i < n_parts; ++i)
-        for (int j = 0; i + j < n_parts; ++j)
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j)
           {
             add(i + 1. / 3, j + 1. / 3);
-            if (i + j < n_parts - 1)
+            if (i + j < n - 1)
               add(i + 2. / 3, j + 2. / 3);
           }
     }
@@ -78,8 +118,10 @@ namespace undine
                     cut.corners.first[fragment],
                     cut.corners.first[fragment + 1]);
       std::vector<dealii::Point<dim>> centres;
-      dealii::Tensor<1, dim>          moment;
-      double                          all = 0, wet = 0;
+      dealii::Tensor<1, dim>          moment, widths;
+      for (unsigned int d = 0; d < dim; ++d)
+        widths[d] = cut.block.planes().width(d, cell[d]);
+      double all = 0, wet = 0;
       for (const auto &simplex : simplices)
         {
           auto         normal = area_vector(simplex);
@@ -88,7 +130,7 @@ namespace undine
             continue;
           normal /= area;
           centres.clear();
-          add_centres(centres, simplex);
+          add_centres(centres, simplex, n_parts<dim>(simplex, widths));
           for (auto centre : centres)
             {
               const double part = area / centres.size();
@@ -97,8 +139,7 @@ namespace undine
                 continue;
               wet += part;
               for (unsigned int d = 0; d < dim; ++d)
-                centre[d] +=
-                  normal[d] * cut.block.planes().width(d, cell[d]) / SampledRegions<dim>::n_along;
+                centre[d] += normal[d] * widths[d] / SampledRegions<dim>::n_along;
               moment += part * (centre - dealii::Point<dim>());
             }
         }
@@ -116,13 +157,17 @@ namespace undine
       add_simplices(simplices, cut.corners.points, cut.corners.first[f], cut.corners.first[f + 1]);
     const auto            &index = cut.cells[cell].index;
     dealii::Point<dim>     lower;
-    dealii::Tensor<1, dim> widths;
+    dealii::Tensor<1, dim> widths, shifts;
+
+    std::array<unsigned int, dim> axes;
     for (unsigned int d = 0; d < dim; ++d)
       {
+        axes[d]   = d;
+        shifts[d] = GridPlanes<dim>::shift(index[d]);
         lower[d]  = cut.block.planes().position(d, index[d]);
         widths[d] = cut.block.planes().width(d, index[d]);
       }
-    return SampledRegions<dim>(lower, widths, cut.windings[cut.block.key(index)], simplices);
+    return SampledRegions<dim>(lower, widths, corner_windings(cut, index, axes), shifts, simplices);
   }
 
 
@@ -142,7 +187,10 @@ namespace undine
                               dealii::Point<2>(edge.start[0], edge.start[1])}});
     const dealii::Tensor<1, 2> widths(
       {planes.width(axes[0], face.index[axes[0]]), planes.width(axes[1], face.index[axes[1]])});
-    const SampledRegions<2> sampled({}, widths, cut.windings[cut.block.key(face.index)], simplices);
+    const dealii::Tensor<1, 2> shifts(
+      {GridPlanes<3>::shift(face.index[axes[0]]), GridPlanes<3>::shift(face.index[axes[1]])});
+    const SampledRegions<2> sampled(
+      {}, widths, corner_windings(cut, face.index, axes), shifts, simplices);
     for (const auto &region : sampled.regions())
       {
         dealii::Point<3> centroid;

@@ -24,6 +24,8 @@ namespace undine
       CanonicalVector(const Index n, const std::vector<Index> &numbers, const MPI_Comm communicator)
         : numbers(numbers)
       {
+        if (n == 0)
+          return; // nothing can be shared out
         const std::uint64_t n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
         const std::uint64_t rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
 
@@ -70,7 +72,7 @@ namespace undine
 
     private:
       std::vector<Index>                                 numbers;
-      hsize_t                                            first;
+      hsize_t                                            first = 0;
       dealii::LinearAlgebra::distributed::Vector<double> vector;
     };
 

@@ -80,12 +80,12 @@ namespace undine
       return *flux_operator;
     }
 
-    /// B u: volume that surfaces push out of each component of the fluid [m^dim/s]; moving with the
-    /// velocities given, or as place() was told. @{
-    std::vector<double>
-    fluxes(const Velocities &velocities) const;
-    std::vector<double>
-    fluxes() const;
+    /// What the surfaces push out of each component of the fluid in a step of dt [s]; moving with
+    /// the velocities given, or as place() was told. @{
+    PushedVolume
+    pushed(const Velocities &velocities, double dt) const;
+    PushedVolume
+    pushed(double dt) const;
     /// @}
 
     /// In all nodes the forces of the fluid's reduced pressure, J p = B^T p [N]. Collective.

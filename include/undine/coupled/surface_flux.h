@@ -39,6 +39,13 @@ namespace undine
       return flux_matrix;
     }
 
+    /// Of all nodes, as the fluid meets them [m/s].
+    const typename FluidGeometry<dim>::Velocities &
+    node_velocities() const
+    {
+      return velocities;
+    }
+
     /// What all surfaces push out of each component of the fluid [m^dim/s].
     std::vector<double>
     fluxes() const;

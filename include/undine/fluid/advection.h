@@ -48,10 +48,10 @@ namespace undine
     double
     value_at(const dealii::Point<dim> &foot) const;
 
-    /// Cells and components to which nothing was brought take the mean of their neighbours, the
-    /// nearer ones first; divided points take the mean of their parts. Collective.
+    /// Cells and components to which nothing was brought are filled, see fill_unknown(); divided
+    /// points take the mean of their parts. Collective.
     void
-    finish(Field<dim> &carried) const;
+    finish(Field<dim> &carried, const BoundaryCondition<dim> &condition) const;
 
   private:
     const Flow<dim>                           &flow;
@@ -61,10 +61,13 @@ namespace undine
 
   /// The field at t + h on what bodies leave of the grid now: `far(trace, index)` of paths that
   /// keep away from bodies; near them all methods are alike, see NearBodies. `source` is what
-  /// completed() returned. Collective.
+  /// completed() returned with the same condition. Collective.
   template <int dim, class Far>
   Field<dim>
-  carry(const Flow<dim> &flow, const Field<dim> &source, Far &&far)
+  carry(const Flow<dim>              &flow,
+        const Field<dim>             &source,
+        const BoundaryCondition<dim> &condition,
+        Far                         &&far)
   {
     const auto           &bodies = flow.bodies();
     const NearBodies<dim> near(flow, source);
@@ -77,7 +80,7 @@ namespace undine
       value = is_part || flow.vicinity().is_near(place, trace.foot) ? near.value_at(trace.foot)
                                                                     : far(trace, index);
     });
-    near.finish(carried);
+    near.finish(carried, condition);
     return carried;
   }
 } // namespace undine

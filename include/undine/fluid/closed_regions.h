@@ -4,9 +4,11 @@
 
 #include <undine/fluid/fluid_model.h>
 #include <undine/fluid/pressure_numbers.h>
+#include <undine/fluid/pushed_volume.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <string>
 #include <vector>
 
 namespace undine
@@ -34,13 +36,13 @@ namespace undine
       return pins;
     }
 
-    /// Throws InputError if volume enters or leaves a closed region: through held faces of
-    /// `velocity`, or pushed by bodies (`body_fluxes` [component], (B u)_c [m^dim/s], may be
-    /// empty).
-    void
-    check_net_flux(const Velocity<dim>       &velocity,
-                   const std::vector<double> &body_fluxes,
-                   const double               time) const;
+    /// The fluxes pushed by bodies, changed within their uncertainties so that the volume of each
+    /// closed region is kept. Throws InputError if more than that enters or leaves one: through
+    /// held faces of `velocity`, or pushed by bodies. Collective.
+    std::vector<double>
+    balanced_fluxes(const Velocity<dim> &velocity,
+                    const PushedVolume  &pushed,
+                    const double         time) const;
 
     /// Make the entries of each closed region sum to zero, by changes in proportion to volume.
     void
@@ -53,11 +55,29 @@ namespace undine
   private:
     static constexpr int open_region = -1;
 
+    /// The closed region of each pressure of this rank.
+    Field<dim>
+    regions_of_pressures() const;
+
     /// Sum over the closed regions of what each pressure of this rank contributes, in the order of
     /// PressureNumbers.
     template <class Contribution>
     std::vector<double>
     sums(const Contribution &contribution) const;
+
+    /// The same of a function of the field's values.
+    template <class Function>
+    std::vector<double>
+    sums_of(const Field<dim> &field, const Function &function) const;
+
+    /// The same of values in OpenParts::cells.
+    std::vector<double>
+    sums_on_components(const std::vector<double> &values) const;
+
+    /// What flows out of a region through the surface of each body, and through boundaries, and
+    /// where it lies. Collective.
+    std::string
+    describe(const int region, const PushedVolume &pushed, const double through_boundaries) const;
 
     const FluidModel<dim>      &model;
     const PressureNumbers<dim> &numbers;

@@ -3,6 +3,7 @@
 #define undine_fluid_pressure_equations_h
 
 #include <undine/fluid/closed_regions.h>
+#include <undine/fluid/entering_flow.h>
 #include <undine/fluid/fluid_state.h>
 #include <undine/fluid/pressure_gradient.h>
 #include <undine/fluid/pressure_numbers.h>
@@ -30,14 +31,24 @@ namespace undine
                       const std::vector<Number>  &yielding,
                       const double                dt);
 
-    /// Begin with v* in `velocity`, to which it adds what openings do. `carrying` = v^n; the step
-    /// ends at `time`. `body_fluxes`: what surfaces push that do not yield. Collective. Throws
-    /// InputError if a closed region has a net inflow.
+    /// Begin with v* in `velocity`. `carrying` = v^n is a first guess of how fast fluid enters
+    /// through outflows; the step ends at `time`. `pushed`: by surfaces that do not yield.
+    /// Collective. Throws InputError if a closed region has a net inflow.
     void
-    start(Velocity<dim>             &velocity,
-          const Velocity<dim>       &carrying,
-          const double               time,
-          const std::vector<double> &body_fluxes);
+    start(Velocity<dim>       &velocity,
+          const Velocity<dim> &carrying,
+          const double         time,
+          const PushedVolume  &pushed);
+
+    /// Add to `velocity` = v*, as start() left it, what openings do to it, given how fast fluid
+    /// enters there.
+    void
+    open(Velocity<dim> &velocity);
+
+    /// Learn from v^{n+1} how fast fluid enters through outflows. Returns how much that would
+    /// change v^{n+1} if the step were solved again from open() on [1]. Collective.
+    double
+    update_entering_flow(const Velocity<dim> &velocity);
 
     const PressureNumbers<dim> &
     numbers() const
@@ -86,9 +97,9 @@ namespace undine
     const double                           dt;
     const PressureNumbers<dim>            &all_numbers;
     const ClosedRegions<dim>               regions;
-    dealii::TrilinosWrappers::SparseMatrix hL;
+    dealii::TrilinosWrappers::SparseMatrix L, hL;
     Vector                                 flux;
-    std::vector<OpenFace<dim>>             openings;
+    std::vector<OpenFace<dim>> openings, closed_openings; ///< with pressures and without
   };
 } // namespace undine
 

@@ -4,6 +4,7 @@
 
 #include <undine/fluid/fluid_model.h>
 #include <undine/fluid/fluid_quantities.h>
+#include <undine/fluid/pressure_numbers.h>
 
 #include <vector>
 
@@ -22,18 +23,27 @@ namespace undine
     GridIndex<dim> cell;     ///< the one inside
     double         pressure; ///< reduced pressure on the face [Pa]
     int            piece;    ///< of a divided face: which one; else -1
+    BoundaryKind   kind;     ///< outflow or pressure
+    double         entering; ///< how fast fluid enters through it, if at all [m/s]
+    double mobility = 1; ///< share of an acceleration that is left, see hold_back_entering_flow()
   };
 
   /// The openings of this rank with their pressures at `time`. Where fluid enters through an
-  /// outflow, p = -rho (v.n)^2 / 2, so that it brings in no energy and cannot blow up (directional
-  /// do-nothing condition, Braack & Mucha 2014). `open_parts`: what bodies leave of the grid, which
-  /// may have changed since `velocity`; nullptr: everything.
+  /// outflow, p = -rho (v.n)^2 / 2, so that it brings in no energy (directional do-nothing
+  /// condition, Braack & Mucha 2014); how that acts in a step: hold_back_entering_flow().
+  /// `open_parts`: what bodies leave of the grid, which may have changed since `velocity`; nullptr:
+  /// everything.
   template <int dim>
   std::vector<OpenFace<dim>>
   open_faces(const FluidModel<dim> &model,
              const Velocity<dim>   &velocity,
              const OpenParts<dim>  *open_parts,
              const double           time);
+
+  /// Where the pressure next to an opening is.
+  template <int dim>
+  PressurePlace<dim>
+  place_inside(const OpenParts<dim> *open_parts, const OpenFace<dim> &opening);
 
   /// (D v)_c = sum_f +-a_f v_f over the faces of every owned cell, or over the pieces of faces
   /// around every component: the volume that leaves it, [m^dim/s]; zero in bodies. One ghost layer

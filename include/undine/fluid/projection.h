@@ -3,10 +3,12 @@
 #define undine_fluid_projection_h
 
 #include <undine/fluid/closed_regions.h>
+#include <undine/fluid/entering_flow.h>
 #include <undine/fluid/fluid_model.h>
 #include <undine/fluid/fluid_quantities.h>
 #include <undine/fluid/pressure_gradient.h>
 #include <undine/fluid/pressure_numbers.h>
+#include <undine/fluid/pushed_volume.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -42,15 +44,15 @@ namespace undine
     /// walls and inflows first. Throws InputError if a region without opening has a net inflow,
     /// SolveError if the solver does not converge. Collective.
     ///
-    /// `carrying` = v^n tells where fluid enters through openings. v* cannot: friction adds
-    /// h grad p^n / rho to it, which may point inwards in a steady outflow. `body_fluxes`: volume
-    /// that surfaces of bodies push out of each component, (B u)_c [m^dim/s]; empty: none.
+    /// `carrying` = v^n is a first guess of how fast fluid enters through outflows; v* is none:
+    /// friction adds h grad p^n / rho to it, which may point inwards in a steady outflow. `pushed`:
+    /// by surfaces of bodies.
     Report
-    project(FluidState<dim>           &state,
-            const Velocity<dim>       &carrying,
-            const double               time,
-            const double               dt,
-            const std::vector<double> &body_fluxes = {});
+    project(FluidState<dim>     &state,
+            const Velocity<dim> &carrying,
+            const double         time,
+            const double         dt,
+            const PushedVolume  &pushed = {});
 
     /// The same with v* in the place of v^n.
     Report
@@ -59,9 +61,9 @@ namespace undine
     /// The divergence-free velocity nearest to the one given, for a start at `time`; the state's
     /// pressure becomes zero.
     Report
-    make_divergence_free(FluidState<dim>           &state,
-                         const double               time,
-                         const std::vector<double> &body_fluxes = {});
+    make_divergence_free(FluidState<dim>    &state,
+                         const double        time,
+                         const PushedVolume &pushed = {});
 
   private:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
@@ -70,9 +72,13 @@ namespace undine
     void
     prepare(const std::shared_ptr<const OpenParts<dim>> &open_parts);
 
-    /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm.
+    /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm, L held back where fluid
+    /// enters.
     unsigned int
-    solve(Vector &impulse, const Vector &right_side, const double tolerance) const;
+    solve(Vector               &impulse,
+          const Vector         &right_side,
+          const HeldBackMatrix &held_back,
+          const double          tolerance) const;
 
     /// Add impulses h p to the velocity until its divergence vanishes, beginning with those in
     /// `impulse`, which becomes the sum of all [Pa s]. The openings hold impulses in the place of
@@ -83,10 +89,19 @@ namespace undine
                       std::vector<OpenFace<dim>> &openings,
                       const std::vector<double>  &body_fluxes);
 
+    /// The same at the end of a step dt, with openings that hold pressures. Fluid enters outflows
+    /// against its dynamic pressure, see hold_back_entering_flow().
+    Report
+    remove_divergence_with_openings(Velocity<dim>             &velocity,
+                                    Field<dim>                &impulse,
+                                    std::vector<OpenFace<dim>> openings,
+                                    const double               dt,
+                                    const std::vector<double> &body_fluxes);
+
     const FluidModel<dim>                                     &model;
     std::unique_ptr<const PressureNumbers<dim>>                numbers;
     std::unique_ptr<const ClosedRegions<dim>>                  closed_regions;
-    std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    matrix;
+    std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    matrix; ///< none without fluid
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid;
     double                                                     smallest_area = 0; ///< [m^(dim-1)]
   };

@@ -2,7 +2,9 @@
 #ifndef undine_interface_boundary_flux_h
 #define undine_interface_boundary_flux_h
 
+#include <undine/fluid/pushed_volume.h>
 #include <undine/interface/cut_cells.h>
+#include <undine/interface/cut_parts.h>
 #include <undine/interface/surface.h>
 
 #include <deal.II/base/mpi.h>
@@ -69,6 +71,24 @@ namespace undine
     std::vector<Entry> all_entries;
   };
 
+
+  /// What limits the accuracy of velocities in the nodes of a surface.
+  struct StepAccuracy
+  {
+    double dt;                 ///< of the step from whose ends they have been computed [s]
+    double largest_coordinate; ///< [m]
+  };
+
+  /// B u on the components of `parts`, with the names of the bodies as in the surface. Uncertain
+  /// is 1e-8 of area times speed, and what the rounding of positions makes of either.
+  template <int dim>
+  PushedVolume
+  pushed_volume(const BoundaryFlux<dim>                   &boundary_flux,
+                const CutCells<dim>                       &cut,
+                const CutParts<dim>                       &parts,
+                const Surface<dim>                        &surface,
+                const std::vector<dealii::Tensor<1, dim>> &velocities,
+                const StepAccuracy                        &accuracy);
 
   /// B^T p in all nodes of the surface, on all ranks, given a number for each of cut.components.
   /// Collective.

@@ -86,6 +86,7 @@ namespace undine
                    const std::vector<dealii::Point<dim>> &positions,
                    const SplitSurface<dim>               &split,
                    const std::int64_t                     key,
+                   const GridIndex<dim>                  &node,
                    const unsigned int                     axis);
 
     /// Make entering and leaving alternate from winding `start` on; an inversion by more than

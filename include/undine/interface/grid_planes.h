@@ -14,9 +14,10 @@ namespace undine
 {
   /// The planes of a rectilinear grid, and which slab between them a coordinate lies in.
   ///
-  /// The slab of x is the number of planes <= x, minus one. A point on a plane therefore counts as
-  /// above it: that is a symbolic perturbation, which moves every plane by an infinitesimal
-  /// distance down its axis, and spares all special cases of bodies that lie on planes.
+  /// The slab of x is the number of planes below x, minus one. A point on a plane counts as above
+  /// it, on the lowest plane as below it: that is a symbolic perturbation, which moves every plane
+  /// by an infinitesimal distance down its axis, the lowest one up. It spares all special cases of
+  /// bodies that lie on planes. Those that stand on a side of the grid reach out of it.
   template <int dim>
   class GridPlanes
   {
@@ -42,6 +43,13 @@ namespace undine
     width(const unsigned int axis, const int cell) const
     {
       return planes[axis][cell + 1] - planes[axis][cell];
+    }
+
+    /// Which way the perturbation moves a plane: 1 up, -1 down.
+    static double
+    shift(const int plane)
+    {
+      return plane == 0 ? 1. : -1.;
     }
 
     /// The slab in which `coordinate` [m] lies: -1 below all planes, n_cells above.

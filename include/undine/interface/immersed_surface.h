@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace undine
@@ -43,6 +44,17 @@ namespace undine
     obstacles() const
     {
       return all_obstacles;
+    }
+
+    /// The sections of the scene that describe them, in the order of surface().body_names().
+    std::vector<std::string>
+    section_names() const;
+
+    /// The name of the scene's file.
+    const std::string &
+    scene_name() const
+    {
+      return file_name;
     }
 
     /// The nodes of bodies are the first ones.
@@ -85,6 +97,7 @@ namespace undine
     check_motion(const std::vector<dealii::Point<dim>> &positions, const double time) const;
 
     const MacGrid<dim>                   &grid;
+    const std::string                     file_name;
     std::optional<const BodySurface<dim>> body_surface;
     const Obstacles<dim>                  all_obstacles;
     std::unique_ptr<const Surface<dim>>   all_facets;

@@ -41,8 +41,8 @@ namespace undine
 
     /// Of the nodes in a step from `time` on [m/s]: (x(time + dt) - x(time)) / dt, so that they
     /// arrive where they shall be, and a little along the normals, so that the flux through the
-    /// surface at `time` is the growth of the obstacle's volume in the step: none if it is rigid,
-    /// also if it turns.
+    /// surface at `time` is the growth of the volume in it in the step, for each closed surface,
+    /// the outer one and that of each hole: none if the obstacle is rigid, also if it turns.
     std::vector<dealii::Tensor<1, dim>>
     velocities(const double time, const double dt) const;
 

@@ -13,6 +13,7 @@ namespace undine
 {
   /// The fluid in a box found by sampling n_along^dim points: for cells in which bodies overlap or
   /// are inside out. Volumes are as good as the samples, connections as wide as their distance.
+  /// Each sample has a bin of its own, whose facets alone tell how windings change in it.
   template <int dim>
   class SampledRegions
   {
@@ -27,11 +28,17 @@ namespace undine
       dealii::Point<dim> centroid;   ///< [m]
     };
 
-    /// The box [lower, lower + widths]; `corner_winding` is the winding number of its lower corner
-    /// and `simplices` are the facets in it, normals out of the solid.
+    /// Winding numbers in the corners of a box, bit d of the position set for the upper end of axis
+    /// d.
+    using CornerWindings = std::array<int, (1 << dim)>;
+
+    /// The box [lower, lower + widths]; `simplices` are the facets in it, normals out of the solid.
+    /// Corners lie infinitesimally below their places at upper ends, at lower ones below or above
+    /// as `lower_shifts` = -1 or 1 says.
     SampledRegions(const dealii::Point<dim>     &lower,
                    const dealii::Tensor<1, dim> &widths,
-                   const int                     corner_winding,
+                   const CornerWindings         &corner_windings,
+                   const dealii::Tensor<1, dim> &lower_shifts,
                    const std::vector<Simplex>   &simplices);
 
     const std::vector<Region> &
@@ -50,8 +57,41 @@ namespace undine
     nearest(const dealii::Point<dim> &place) const;
 
   private:
+    struct Facet
+    {
+      Simplex                nodes;
+      dealii::Tensor<1, dim> normal; ///< as long as its area
+      IndexBox<dim>          bins;   ///< that it may touch
+    };
+
     dealii::Point<dim>
     sample(const GridIndex<dim> &index) const;
+
+    GridIndex<dim>
+    bin(const dealii::Point<dim> &place) const;
+
+    void
+    add_facets(const std::vector<Simplex> &simplices);
+
+    /// How often facets that may touch bin `here`, but not bin `counted`, are entered less left on
+    /// the straight way between two places.
+    int
+    crossings(const dealii::Point<dim> &from,
+              const dealii::Point<dim> &to,
+              const GridIndex<dim>     &here,
+              const GridIndex<dim>     &counted) const;
+
+    /// From sample to neighbouring sample, the first one taken for zero.
+    void
+    find_relative_windings();
+
+    /// What to add to relative windings: a corner off the surface tells, or most corners do.
+    int
+    first_winding(const CornerWindings         &corner_windings,
+                  const dealii::Tensor<1, dim> &lower_shifts) const;
+
+    bool
+    has_facet_near(const dealii::Point<dim> &place) const;
 
     int
     winding(const dealii::Point<dim> &place) const;
@@ -62,11 +102,13 @@ namespace undine
 
     dealii::Point<dim>     lower;
     dealii::Tensor<1, dim> widths;
-    int                    corner_winding;
-    std::vector<Simplex>   simplices;
-    IndexBox<dim>          samples;
+    IndexBox<dim>          samples; ///< and bins
+    std::vector<Facet>     facets;
+    std::vector<int>       windings;  ///< of the samples
     std::vector<int>       region_of; ///< of each sample; -1 solid, -2 not yet known
     std::vector<Region>    all_regions;
+
+    std::vector<std::vector<int>> facets_in; ///< each bin
   };
 
 

@@ -31,7 +31,7 @@ namespace undine
     {
       const bool limited = condition.obeys_maximum_principle();
       const auto source  = completed(flow, field, condition);
-      return carry(flow, source, [&](const auto &trace, const GridIndex<dim> &) {
+      return carry(flow, source, condition, [&](const auto &trace, const GridIndex<dim> &) {
         const auto found = interpolate_cubic(source, trace.foot);
         return limited ? std::clamp(found.value, found.smallest, found.largest) : found.value;
       });

@@ -41,9 +41,9 @@ namespace undine
       };
       std::vector<Prediction> predictions; // where the way back may correct them
 
-      const bool limited   = condition.obeys_maximum_principle();
-      const auto source    = completed(flow, field, condition);
-      auto       corrected = carry(flow, source, [&](const auto &trace, const auto &index) {
+      const bool limited = condition.obeys_maximum_principle();
+      const auto source  = completed(flow, field, condition);
+      auto corrected = carry(flow, source, condition, [&](const auto &trace, const auto &index) {
         const auto found = interpolate_with_bounds(source, trace.foot);
         if (!trace.left_domain)
           predictions.push_back({index, found});

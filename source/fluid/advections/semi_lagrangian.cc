@@ -27,7 +27,7 @@ namespace undine
            const BoundaryCondition<dim> &condition) const override
     {
       const auto source = completed(flow, field, condition);
-      return carry(flow, source, [&](const auto &trace, const GridIndex<dim> &) {
+      return carry(flow, source, condition, [&](const auto &trace, const GridIndex<dim> &) {
         return interpolate(source, trace.foot);
       });
     }

@@ -106,7 +106,7 @@ namespace
     geometry.place(nodes, nodes, velocity);
     auto            state = models.fluid->initial_state(geometry.bodies().open_parts);
     Projection<dim> projection(*models.fluid);
-    projection.project(state, state.velocity, 0, step, geometry.fluxes());
+    projection.project(state, state.velocity, 0, step, geometry.pushed(step));
 
     Errors errors{};
     measure_pressure(errors, state.pressure, 2. / cells);

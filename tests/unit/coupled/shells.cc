@@ -209,6 +209,49 @@ namespace
 } // namespace
 
 
+namespace
+{
+  /// Neither the fluid inside nor that outside, in a domain without outlet, can yield.
+  template <int dim>
+  void
+  check_turning_shell(const double angular_speed)
+  {
+    MeshFile file;
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      write_shell(file, std::integral_constant<int, dim>());
+    MPI_Barrier(MPI_COMM_WORLD);
+    ObstacleRun<dim> run(
+      section("Domain",
+              plane_or_space<dim>("set Lower corner = -.5, -.5\nset Upper corner = .5, .5\nset "
+                                  "Cells = 21, 21",
+                                  "set Lower corner = -.5, -.5, -.5\nset Upper corner = .5, .5, "
+                                  ".5\nset Cells = 11, 11, 11")) +
+        section("Fluid", "set Density = 1"),
+      obstacle("shell",
+               "gmsh",
+               "set File = " + dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, file.name) +
+                 "\nset Refinements = 0\nset Displacement = " +
+                 fmt::format("(cos({0}*t)-1)*x - sin({0}*t)*y; sin({0}*t)*x + (cos({0}*t)-1)*y{1}",
+                             angular_speed,
+                             plane_or_space<dim>("", "; 0"))),
+      convection(),
+      .05);
+    for (unsigned int n = 0; n < 3; ++n)
+      run.step();
+    CHECK(run.column("Fluid divergence") <= 1e-6);
+    CHECK(run.column("Fluid largest speed") < angular_speed);
+  }
+} // namespace
+
+
+TEST_CASE("A closed shell turns in a closed domain", "[coupled][mpi]")
+{
+  check_turning_shell<2>(1);
+  check_turning_shell<2>(9);
+  check_turning_shell<3>(3);
+}
+
+
 TEST_CASE("Nothing passes through a closed thin shell", "[coupled][mpi]")
 {
   SECTION("2D, fixed")

@@ -244,36 +244,38 @@ TEST_CASE("Dual volumes add up to the fluid", "[interface]")
 
 TEST_CASE("Samples agree with exact volumes", "[interface]")
 {
-  // What wrong bodies fall back on, on right ones: an independent count of the fluid.
-  for (const std::string name : {"torus", "nested bodies", "hairpin"})
-    for (const auto &kind : kinds<3>())
-      if (kind.name == name)
+  // What wrong bodies fall back on, on right ones: an independent count of the fluid. Where planes
+  // of the grid touch bodies' corners whole cells must not be taken for the other side.
+  for (const auto &kind : kinds<3>())
+    {
+      double difference = 0, worst = 0;
+      int    n = 0;
+      for (int number = 0; number < 8; ++number)
         {
-          double difference = 0;
-          int    n          = 0;
-          for (int number = 0; number < 8; ++number)
+          Random     random(number);
+          auto       bodies  = kind.make(random).bodies;
+          const auto planes  = make_planes(bodies, Grid::unit, random).planes;
+          const auto surface = bodies.surface();
+          const auto cut     = cut_all<3>(planes, surface, bodies.nodes);
+          for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
             {
-              Random     random(number);
-              auto       bodies  = kind.make(random).bodies;
-              const auto planes  = make_planes(bodies, Grid::unit, random).planes;
-              const auto surface = bodies.surface();
-              const auto cut     = cut_all<3>(planes, surface, bodies.nodes);
-              for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
-                {
-                  double exact = 0, sampled = 0;
-                  for (int c = cut.cells[cell].first_component; c < cut.end_component(cell); ++c)
-                    exact += cut.components[c].volume;
-                  const auto fluid = sample_fluid(cut, cell);
-                  for (const auto &region : fluid.regions())
-                    sampled += region.volume;
-                  difference += std::abs(exact - sampled);
-                  ++n;
-                }
+              double defect = 0;
+              for (int c = cut.cells[cell].first_component; c < cut.end_component(cell); ++c)
+                defect += cut.components[c].volume;
+              const auto fluid = sample_fluid(cut, cell);
+              for (const auto &region : fluid.regions())
+                defect -= region.volume;
+              difference += std::abs(defect);
+              worst = std::max(worst, std::abs(defect));
+              ++n;
             }
-          INFO(name << ' ' << n << " cells, mean difference " << difference / n);
-          CHECK(n > 50);
-          CHECK(difference / n < .004);
         }
+      INFO(kind.name << ' ' << n << " cells, mean difference " << difference / n << ", worst "
+                     << worst);
+      CHECK(n > 40);
+      CHECK(difference / n < .021);
+      CHECK(worst < .13); // the distance of samples
+    }
 }
 
 

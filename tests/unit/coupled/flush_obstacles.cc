@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <coupled/obstacle_run.h>
+
+using namespace undine_tests;
+
+namespace
+{
+  template <int dim>
+  std::string
+  channel()
+  {
+    const std::string right = plane_or_space<dim>("1; 0", "1; 0; 0");
+    return section("Domain",
+                   "set Cells = " + std::string(plane_or_space<dim>("16, 12", "10, 8, 7"))) +
+           section("Fluid",
+                   "set Density = 2\nset Initial velocity = " + right + "\n" +
+                     section("Boundaries",
+                             boundary("in", "left", "inflow", "set Velocity = " + right) +
+                               boundary("out", "right", "outflow")));
+  }
+
+
+  template <int dim>
+  std::string
+  box(const std::string &lower, const std::string &upper, const std::string &displacement = "0; 0")
+  {
+    return obstacle("box",
+                    "box",
+                    "set Lower corner = " + lower + plane_or_space<dim>("", ", 0") +
+                      "\nset Upper corner = " + upper + plane_or_space<dim>("", ", .6") +
+                      "\nset Displacement = " + displacement + plane_or_space<dim>("", "; 0"));
+  }
+
+
+  struct Result
+  {
+    double force, speed, divergence;
+  };
+
+
+  template <int dim>
+  Result
+  run_stream(const std::string &obstacles)
+  {
+    ObstacleRun<dim> run(channel<dim>(), obstacles, convection(), .02);
+    for (unsigned int n = 0; n < 3; ++n)
+      run.step();
+    CHECK(run.column("Flagged cells") == 0);
+    return {run.column("pressure force box x"),
+            run.column("Fluid largest speed"),
+            run.column("Fluid divergence")};
+  }
+
+
+  template <int dim>
+  void
+  check_steps()
+  {
+    const auto check = [](const Result &flush, const Result &beyond) {
+      CHECK(flush.force == Approx(beyond.force).epsilon(1e-5));
+      CHECK(flush.speed == Approx(beyond.speed).epsilon(1e-5));
+      CHECK(flush.divergence <= 1e-6);
+    };
+    check(run_stream<dim>(box<dim>(".31, 0", ".72, .3")),
+          run_stream<dim>(box<dim>(".31, -.5", ".72, .3")));
+    check(run_stream<dim>(box<dim>(".31, .64", ".72, 1")),
+          run_stream<dim>(box<dim>(".31, .64", ".72, 1.2")));
+    // What covers a part of the inflow keeps that part from flowing in.
+    check(run_stream<dim>(box<dim>("0, 0", ".37, .3")),
+          run_stream<dim>(box<dim>("-1, -1", ".37, .3")));
+  }
+
+
+  template <int dim>
+  void
+  check_motion(const std::string &lower, const std::string &upper, const std::string &displacement)
+  {
+    INFO(dim << "D, " << displacement);
+    ObstacleRun<dim> run(channel<dim>(), box<dim>(lower, upper, displacement), convection(), .02);
+    for (unsigned int n = 0; n < 4; ++n)
+      {
+        run.step();
+        CHECK(run.column("Fluid divergence") <= 1e-6);
+        CHECK(run.column("Fluid largest speed") < 10);
+      }
+  }
+
+
+  template <int dim>
+  void
+  check_filled()
+  {
+    const std::string size = plane_or_space<dim>("2, 2", "2, 2, 2");
+    ObstacleRun<dim>  run(channel<dim>(),
+                         obstacle("box",
+                                  "box",
+                                  "set Centre = 0" + plane_or_space<dim>(", 0", ", 0, 0") +
+                                    "\nset Size = 4, " + size.substr(3)),
+                         convection() +
+                           section("scalar transport", section("smoke", "set Initial value = 1")),
+                         .02);
+    run.step();
+    for (const auto &column : run.report.columns)
+      {
+        INFO(column.name);
+        CHECK(std::isfinite(column.value));
+      }
+    CHECK(run.column("Fluid largest speed") == 0);
+    CHECK(run.column("pressure force box x") == 0);
+  }
+
+
+  /// The cells of the left rank, if there are two, are all in the obstacle.
+  template <int dim>
+  void
+  check_half_filled()
+  {
+    ObstacleRun<dim> run(
+      channel<dim>(),
+      obstacle("piston",
+               "box",
+               plane_or_space<dim>("set Lower corner = -1, -1\nset Upper corner = .65, 2\nset "
+                                   "Displacement = .3*t; 0",
+                                   "set Lower corner = -1, -1, -1\nset Upper corner = .65, 2, "
+                                   "2\nset Displacement = .3*t; 0; 0")),
+      convection(),
+      .02);
+    run.step();
+    CHECK(run.column("Flux through out") == Approx(.3));
+    CHECK(run.column("Fluid largest speed") == Approx(.3));
+  }
+} // namespace
+
+
+TEST_CASE("An obstacle flush with a wall stands in a stream like one that reaches through it",
+          "[coupled][mpi]")
+{
+  SECTION("2D")
+  {
+    check_steps<2>();
+  }
+  SECTION("3D")
+  {
+    check_steps<3>();
+  }
+}
+
+
+TEST_CASE("An obstacle slides along a wall, leaves it and comes back", "[coupled][mpi]")
+{
+  SECTION("2D")
+  {
+    check_motion<2>(".31, 0", ".6, .3", ".5*t; 0");
+    check_motion<2>(".31, 0", ".6, .3", "0; .5*t");
+    check_motion<2>(".31, .04", ".6, .3", "0; -.5*t");
+  }
+  SECTION("3D")
+  {
+    check_motion<3>(".31, 0", ".6, .3", ".5*t; .3*t");
+  }
+}
+
+
+TEST_CASE("Where obstacles leave no fluid there is nothing to do", "[coupled][mpi]")
+{
+  SECTION("Everywhere, 2D")
+  {
+    check_filled<2>();
+  }
+  SECTION("Everywhere, 3D")
+  {
+    check_filled<3>();
+  }
+  SECTION("Somewhere")
+  {
+    check_half_filled<2>();
+    check_half_filled<3>();
+  }
+}
