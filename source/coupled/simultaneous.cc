@@ -100,12 +100,16 @@ namespace undine
       surface->move(guess);
       PressureEquations<dim> pressures(
         *models.fluid, numbers, filled_rows(surface->matrix()), fluid.dt);
-      pressures.start(state.fluid.velocity, fluid.flow.velocity(), end, surface->fluxes());
+      pressures.start(state.fluid.velocity,
+                      fluid.flow.velocity(),
+                      end,
+                      geometry.pushed(surface->node_velocities(), fluid.dt));
 
       CoupledEquations<dim> problem(*models.solid, equations, *surface, pressures, solver, timing);
       auto                  x = problem.vector();
       SolidReport           report;
-      report.newton = solve(x, state, problem, equations);
+      solver.start_step();
+      report.newton = solve(x, state, problem, pressures, equations);
       report.note   = solver.note();
 
       const auto &velocity = x.block(0), &pressure = x.block(1);
@@ -113,37 +117,70 @@ namespace undine
       equations.add_forces(surface->forces(pressures.field(pressure)));
       report.reactions          = equations.reactions(velocity);
       report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
-      pressures.accelerate(state.fluid.velocity, pressure);
-      divergence           = pressures.divergence(state.fluid.velocity, surface->fluxes());
-      state.fluid.pressure = pressures.field(pressure);
+      divergence                = pressures.divergence(state.fluid.velocity, surface->fluxes());
+      state.fluid.pressure      = pressures.field(pressure);
       pressures.closed_regions().remove_means(state.fluid.pressure);
       set_means(state.fluid.pressure, models.fluid->grid());
       state.solid = equations.end_state(velocity);
       return report;
     }
 
-    /// From u^n and p^n; if that fails, from bodies that keep their place.
+    /// Newton's method for u^{n+1} and p, and around it for how fast fluid enters through outflows:
+    /// once or twice, as long as that changes v^{n+1} (see hold_back_entering_flow()).
     NewtonReport
     solve(BlockSystem::BlockVector  &x,
-          const State<dim>          &state,
+          State<dim>                &state,
           CoupledEquations<dim>     &problem,
+          PressureEquations<dim>    &pressures,
           const SolidEquations<dim> &equations)
     {
-      const auto &options = models.solid->numerics().newton;
-      solver.start_step();
+      constexpr unsigned int most_rounds = 20;
+      constexpr double       tolerance   = 1e-4;
+      const auto             predicted   = state.fluid.velocity;
+      NewtonReport           all;
+      for (unsigned int round = 0; round < most_rounds; ++round)
+        {
+          state.fluid.velocity = predicted;
+          pressures.open(state.fluid.velocity);
+          const auto report = round == 0 ? solve_first(x, state, problem, equations)
+                                         : solve_newton(problem, x, newton());
+          all.iterations += report.iterations;
+          all.linear_iterations = report.linear_iterations;
+          all.residuals.insert(
+            all.residuals.end(), report.residuals.begin(), report.residuals.end());
+          pressures.accelerate(state.fluid.velocity, x.block(1));
+          if (pressures.update_entering_flow(state.fluid.velocity) <= tolerance)
+            break;
+        }
+      return all;
+    }
+
+    /// From u^n and p^n; if that fails, from bodies that keep their place.
+    NewtonReport
+    solve_first(BlockSystem::BlockVector  &x,
+                const State<dim>          &state,
+                CoupledEquations<dim>     &problem,
+                const SolidEquations<dim> &equations)
+    {
       copy_to_vector(x.block(1), state.fluid.pressure);
-      if (options.fixed_iterations == 0)
+      if (newton().fixed_iterations == 0)
         try
           {
             x.block(0) = equations.guess();
-            return solve_newton(problem, x, options);
+            return solve_newton(problem, x, newton());
           }
         catch (const SolveError &)
           {
           }
       x.block(0) = equations.guess_at_rest();
       copy_to_vector(x.block(1), state.fluid.pressure);
-      return solve_newton(problem, x, options);
+      return solve_newton(problem, x, newton());
+    }
+
+    const NewtonOptions &
+    newton() const
+    {
+      return models.solid->numerics().newton;
     }
 
     void
