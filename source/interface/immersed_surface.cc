@@ -69,6 +69,7 @@ namespace undine
                                         const SolidModel<dim> *solid,
                                         const MacGrid<dim>    &grid)
     : grid(grid)
+    , scene_file(scene.file().name())
     , all_obstacles(scene)
   {
     auto rest = all_obstacles.positions(0);
@@ -150,8 +151,9 @@ namespace undine
       complaint = periodic_complaint(surface, positions, grid);
     if (!complaint.empty())
       throw InputError(
-        fmt::format("{} 'Displacement' takes it there by {:.6g} s, whatever the step. "
-                    "Try also: another motion, or an earlier 'Time/End'.",
+        fmt::format("{}: section 'Obstacles': {} Its 'Displacement' takes it there by {:.6g} s, "
+                    "whatever the step. Try also: another motion, or an earlier 'Time/End'.",
+                    scene_file,
                     complaint,
                     time));
   }

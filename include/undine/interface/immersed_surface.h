@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace undine
@@ -80,6 +81,7 @@ namespace undine
 
     const MacGrid<dim>                   &grid;
     std::optional<const BodySurface<dim>> body_surface;
+    const std::string                     scene_file;
     const Obstacles<dim>                  all_obstacles;
     std::unique_ptr<const Surface<dim>>   all_facets;
   };
