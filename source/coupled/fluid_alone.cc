@@ -45,6 +45,7 @@ namespace undine
     report.linear_iterations += projected.iterations;
     if (geometry)
       {
+        report.note = geometry->news();
         geometry->accept();
         state.surface_positions = models.surface->positions(state.solid, state.clock.time);
       }
@@ -93,9 +94,9 @@ namespace undine
     fluid.finish();
     if (geometry)
       {
+        report.note = geometry->news();
         geometry->accept();
         state.surface_positions = models.surface->positions(state.solid, fluid.time);
-        report.note             = geometry->complaint();
       }
     report.linear_iterations += fluid.linear_iterations + projected.iterations;
     const auto phase = timing.section("measure");
