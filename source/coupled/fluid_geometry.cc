@@ -67,6 +67,7 @@ namespace undine
   FluidGeometry<dim>::accept()
   {
     accepted_voids = voids;
+    told           = cut_report.subject;
   }
 
 
@@ -179,10 +180,25 @@ namespace undine
 
 
   template <int dim>
-  const std::string &
-  FluidGeometry<dim>::complaint() const
+  std::string
+  FluidGeometry<dim>::news() const
   {
-    return cut_report.message;
+    return cut_report.subject == told ? "" : cut_report.message;
+  }
+
+
+  template <int dim>
+  std::string
+  complaint_at_start(const Models<dim> &models)
+  {
+    if (!models.fluid || !models.surface || models.solid)
+      return "";
+    const auto       &grid      = models.fluid->grid();
+    const auto        positions = models.surface->positions(SolidState(), 0.);
+    CutCells<dim>     cells(block_of_rank(grid));
+    CutWorkspace<dim> work;
+    cut_block(cells, work, {models.surface->surface(), positions}, grid.cells()->blocks());
+    return report(cells, models.surface->surface(), grid.communicator()).message;
   }
 
 
@@ -200,6 +216,10 @@ namespace undine
   }
 
 
+  template std::string
+  complaint_at_start(const Models<2> &);
+  template std::string
+  complaint_at_start(const Models<3> &);
   template class FluidGeometry<2>;
   template class FluidGeometry<3>;
   template std::unique_ptr<FluidGeometry<2>>

@@ -57,6 +57,7 @@ namespace undine
     report.linear_iterations += projected.iterations;
     if (cut)
       {
+        report.note += cut->news();
         cut->accept();
         state.surface_positions = models.surface->positions(state.solid, time);
       }
@@ -101,9 +102,9 @@ namespace undine
     fluid.finish();
     if (cut)
       {
+        report.note += cut->news();
         cut->accept();
         state.surface_positions = cut->surface_positions();
-        report.note += cut->complaint();
       }
     report.linear_iterations += fluid.linear_iterations;
     const auto phase = timing.section("measure");

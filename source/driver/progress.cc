@@ -61,7 +61,7 @@ namespace undine
       return;
     last_line         = std::chrono::steady_clock::now();
     const double done = share_done(clock);
-    log.print("{:>8} {:>12.5g} {:>11.4g} {:>7} {:>9.1e} {:>7} {:>6.1f}%  {}{}{}",
+    log.print("{:>8} {:>12.5g} {:>11.4g} {:>7} {:>9.1e} {:>7} {:>6.1f}%  {}{}",
               clock.step,
               clock.time,
               report.dt,
@@ -70,7 +70,8 @@ namespace undine
               report.linear_iterations,
               100 * done,
               readable(seconds_since(begin) * (1 - done) / std::max(done, 1e-12)),
-              report.cuts > 0 ? fmt::format("   step cut {} time(s)", report.cuts) : "",
-              report.note.empty() ? "" : "   " + report.note);
+              report.cuts > 0 ? fmt::format("   step cut {} time(s)", report.cuts) : "");
+    if (!report.note.empty())
+      log.print("note: {}", report.note);
   }
 } // namespace undine

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/version.h>
+#include <undine/coupled/fluid_geometry.h>
 #include <undine/driver/log.h>
 #include <undine/driver/progress.h>
 #include <undine/driver/run.h>
@@ -136,6 +137,9 @@ namespace undine
         scene.directory = request.directory;
       if (request.action == Request::Action::validate)
         {
+          const auto complaint = complaint_at_start(scene.models);
+          if (!complaint.empty())
+            log.print("note: {}", complaint);
           log.print("{}: no mistakes found", options.file().name());
           return;
         }
@@ -152,6 +156,8 @@ namespace undine
           take_up_again(state, scene, log);
         prepare_directory(scene.directory, options, resumed, communicator);
         log.open(scene.directory, resumed ? std::ios::app : std::ios::trunc);
+        if (!first.note.empty())
+          log.print("note: {}", first.note);
         start_outputs(state, first, scene, timing, communicator);
       }
       print_unknowns(log, scene);

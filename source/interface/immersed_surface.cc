@@ -178,8 +178,9 @@ namespace undine
       complaint = periodic_complaint(surface, positions, grid);
     if (!complaint.empty())
       throw InputError(
-        fmt::format("{} 'Displacement' takes it there by {:.6g} s, whatever the step. "
-                    "Try also: another motion, or an earlier 'Time/End'.",
+        fmt::format("{}: section 'Obstacles': {} Its 'Displacement' takes it there by {:.6g} s, "
+                    "whatever the step. Try also: another motion, or an earlier 'Time/End'.",
+                    file_name,
                     complaint,
                     time));
   }

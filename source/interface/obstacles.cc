@@ -4,11 +4,17 @@
 #include <undine/interface/obstacles.h>
 #include <undine/solid/body_shape.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/grid/manifold.h>
 #include <deal.II/grid/tria.h>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 
 namespace undine
 {
@@ -34,6 +40,10 @@ namespace undine
                     Allowed::anything(),
                     "Where each vertex of the refined shape is at rest, as a function of where the "
                     "shape has it; not given: there.");
+        if (has_map && map.names_time())
+          throw options.error("Map",
+                              "depends on the time t, but says where the obstacle rests",
+                              "Try: 'Displacement' for what moves.");
         options.add("Refinements",
                     refinements,
                     "1",
@@ -129,6 +139,73 @@ namespace undine
     }
 
 
+    /// Which cells may be why a mesh encloses no volume.
+    template <int dim>
+    std::string
+    wrong_cells(const dealii::Triangulation<dim> &mesh)
+    {
+      std::set<std::array<double, dim>> centres;
+      for (const auto &cell : mesh.cell_iterators_on_level(0))
+        {
+          std::array<double, dim> centre;
+          for (unsigned int d = 0; d < dim; ++d)
+            centre[d] = cell->center()[d];
+          const auto place = fmt::format("({:.4g})", fmt::join(centre, ", "));
+          if (!centres.insert(centre).second)
+            return ": two cells lie on each other at " + place;
+          dealii::Point<dim>     vertices[1 << dim];
+          dealii::Tensor<0, dim> volumes[1 << dim];
+          for (unsigned int v = 0; v < (1u << dim); ++v)
+            vertices[v] = cell->vertex(v);
+          dealii::GeometryInfo<dim>::alternating_form_at_vertices(vertices, volumes);
+          if (!(*std::min_element(std::begin(volumes), std::end(volumes)) > 0))
+            return ": the cell at " + place + " is flat, inside out or crosses itself";
+        }
+      return "";
+    }
+
+
+    template <int dim>
+    InputError
+    no_volume(const Obstacle<dim> &obstacle, const dealii::Triangulation<dim> &mesh)
+    {
+      const std::string what    = "makes an obstacle that is inside out or has no volume";
+      const auto       &options = obstacle.options;
+      if (obstacle.has_map)
+        return options.error(
+          "Map", what, "Try: a map that is one-to-one and keeps the orientation.");
+      if (!options.given("File"))
+        return options.error("Shape", what, "Try: larger lengths.");
+      std::string file;
+      options.add("File", file, "", Allowed::anything(), "Mesh.");
+      return options.error("File",
+                           "'" + file + "' " + what + wrong_cells(mesh),
+                           "Try: correct the mesh; cells share vertices with their neighbours "
+                           "alone, numbered around them without crossing.");
+    }
+
+
+    /// Take each node to where the map has it.
+    template <int dim>
+    void
+    apply_map(std::vector<dealii::Point<dim>> &nodes, const Obstacle<dim> &obstacle)
+    {
+      constexpr double farthest = 1e100; // of which differences and products stay finite
+      for (auto &node : nodes)
+        {
+          const dealii::Point<dim> image(obstacle.map.vector(node, 0.));
+          for (unsigned int d = 0; d < dim; ++d)
+            if (!(std::abs(image[d]) < farthest))
+              throw obstacle.options.error(
+                "Map",
+                fmt::format("takes ({:.4g}) to a place that is not a number, or too far away",
+                            fmt::join(node.begin_raw(), node.begin_raw() + dim, ", ")),
+                "Try: a map that is finite on the whole shape.");
+          node = image;
+        }
+    }
+
+
     template <int dim>
     Boundary<dim>
     make_boundary(const Obstacle<dim> &obstacle)
@@ -142,17 +219,14 @@ namespace undine
         refine_boundary(mesh);
       auto result = collect_boundary(mesh);
       if (obstacle.has_map)
-        for (auto &node : result.nodes)
-          node = dealii::Point<dim>(obstacle.map.vector(node, 0.));
+        apply_map(result.nodes, obstacle);
 
       const Surface<dim> surface(result.nodes.size(),
                                  result.facets,
                                  std::vector<unsigned int>(result.facets.size(), 0),
                                  {obstacle.name});
       if (!(body_volumes(surface, result.nodes)[0] > 0))
-        throw obstacle.options.error(obstacle.has_map ? "Map" : "Shape",
-                                     "makes an obstacle that is inside out or has no volume",
-                                     "Try: a map that is one-to-one and keeps the orientation.");
+        throw no_volume(obstacle, mesh);
       return result;
     }
 

@@ -102,9 +102,10 @@ namespace undine
     Columns
     columns(const Field<dim> &pressure, const dealii::Tensor<1, dim> &gravity, double time) const;
 
-    /// What was wrong with the surfaces, where; empty if nothing was.
-    const std::string &
-    complaint() const;
+    /// What is wrong with the surfaces, where; empty if nothing is, or if accept() has been called
+    /// for the same since.
+    std::string
+    news() const;
 
   private:
     void
@@ -124,9 +125,15 @@ namespace undine
     CutWorkspace<dim>                          work;
     CutParts<dim>                              parts;
     CutReport                                  cut_report;
+    std::string                                told; ///< CutReport::subject
     std::unique_ptr<const BoundaryFlux<dim>>   flux_operator;
     std::unique_ptr<const SurfaceQueries<dim>> queries;
   };
+
+  /// What is wrong with the surfaces at the start, see CutReport::message. Collective.
+  template <int dim>
+  std::string
+  complaint_at_start(const Models<dim> &models);
 
   /// The grid as it was cut when the fluid's fields of a state were computed, with surfaces that
   /// stand still. nullptr if nothing stands in the fluid. Collective. Throws SolveError as place()

@@ -20,8 +20,11 @@ namespace undine
     unsigned int reordered_edges = 0; ///< grid edges with ties, halos counted twice
     double       closure         = 0; ///< worst defect in cells that are not flagged
 
-    /// Which bodies, where and what, for the first flagged cell in the lowest rank; empty if there
-    /// is none.
+    /// Which bodies do what in the first flagged cell of the lowest rank, such as "'a' and 'b'
+    /// overlap"; empty if there is none.
+    std::string subject;
+
+    /// The same with place and number, what is done about it and what to try.
     std::string message;
   };
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <regex>
 #include <sstream>
 
 namespace undine
@@ -115,6 +116,15 @@ namespace undine
     for (unsigned int c = 0; c < n_components; ++c)
       result[c] = value(point, time, c);
     return result;
+  }
+
+
+  template <int dim, int n_components>
+  bool
+  Expression<dim, n_components>::names_time() const
+  {
+    static const std::regex time("\\bt\\b");
+    return std::regex_search(expression, time);
   }
 
 

@@ -161,7 +161,7 @@ TEST_CASE("Overlaps with or without a node of the grid in them are sampled", "[i
         const auto result  = report(cut, surface, MPI_COMM_SELF);
         CHECK(result.sampled_cells > 0);
         CHECK(result.sampled_cells < result.cut_cells);
-        CHECK_THAT(result.message, Contains("Bodies 'body 0' and 'body 1' near ("));
+        CHECK_THAT(result.message, Contains("'body 0' and 'body 1' overlap near ("));
         CHECK(cut.counts.closure <= 1e-13);
         for (const auto &piece : cut.pieces)
           CHECK(piece.area > 0);
@@ -216,5 +216,5 @@ TEST_CASE("An inverted body is flagged in every cell with a node in it", "[inter
   const auto surface = body.surface();
   const auto result  = report(cut_all<2>(planes, surface, body.nodes), surface, MPI_COMM_SELF);
   CHECK(result.flagged_cells == result.cut_cells);
-  CHECK_THAT(result.message, Contains("inside-out"));
+  CHECK_THAT(result.message, Contains("is inside out near ("));
 }

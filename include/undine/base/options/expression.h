@@ -34,6 +34,10 @@ namespace undine
     const std::string &
     text() const;
 
+    /// True if the time t occurs in the text.
+    bool
+    names_time() const;
+
     /// True if the text is the number zero (or a list of them): nothing to evaluate.
     bool
     is_zero() const;
