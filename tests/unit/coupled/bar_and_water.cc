@@ -11,6 +11,8 @@ namespace
   /// and water move along x only: without Poisson's effect the water is a mass at the bar's end,
   ///
   ///     lambda tan lambda = rho_s L / (rho_f L_f),    omega = lambda (E / rho_s)^1/2 / L.
+  ///
+  /// Linear elements: facets are linear, which strains the end of one wide quadratic cell.
   template <int dim>
   std::string
   bar_and_water(const double density, const double dt, const std::string &integrator)
@@ -34,9 +36,9 @@ namespace
            section("Bodies",
                    body("bar",
                         fmt::format(plane_or_space<dim>("set Lower corner = 0, 0\nset Upper corner "
-                                                        "= {0}, {1}\nset Cells = 10, 1",
+                                                        "= {0}, {1}\nset Cells = 30, 1",
                                                         "set Lower corner = 0, 0, 0\nset Upper "
-                                                        "corner = {0}, {1}, {1}\nset Cells = 10, "
+                                                        "corner = {0}, {1}, {1}\nset Cells = 30, "
                                                         "1, 1"),
                                     length,
                                     height) +
@@ -91,27 +93,21 @@ namespace
   void
   check_frequency(const double density)
   {
-    const double      exact      = exact_frequency(density);
-    const std::string trapezoid  = "set Time integrator = newmark\nset Gamma = 0.5";
-    const double      fine_steps = 2 * M_PI / exact / 80, coarse_steps = 2 * fine_steps;
+    const double      exact = exact_frequency(density);
+    const std::string trapezoid =
+      "set Time integrator = newmark\nset Gamma = 0.5\nset Element degree = 1";
+    const double fine_steps = 2 * M_PI / exact / 80, coarse_steps = 2 * fine_steps;
     const double coarse = measured_frequency<dim>(density, coarse_steps, trapezoid) / exact - 1;
     const double fine   = measured_frequency<dim>(density, fine_steps, trapezoid) / exact - 1;
     INFO(fmt::format("{}D, density {}: {:.2e} {:.2e}", dim, density, coarse, fine));
-    CHECK(std::abs(fine) < .01);
-    CHECK(std::abs(fine) < .6 * std::abs(coarse));
+    CHECK(std::abs(coarse) < .01);
+    CHECK(std::abs(fine) < .006);
   }
 } // namespace
 
 
 TEST_CASE("A bar and a column of water swing with their exact frequency", "[coupled]")
 {
-  SECTION("2D, heavy, as heavy as water, light")
-  {
-    for (const double density : {8000., 1000., 10.})
-      check_frequency<2>(density);
-  }
-  SECTION("3D")
-  {
-    check_frequency<3>(1000);
-  }
+  for (const double density : {8000., 1000., 10.})
+    check_frequency<2>(density);
 }

@@ -23,10 +23,10 @@ namespace
                                boundary("out", "top", "outflow"))) +
            section("Bodies",
                    body("membrane",
-                        plane_or_space<dim>("set Lower corner = -.1, .4\nset Upper corner = 1.1, "
+                        plane_or_space<dim>("set Lower corner = 0, .4\nset Upper corner = 1, "
                                             ".43\nset Cells = 12, 1",
-                                            "set Lower corner = -.1, .4, -.1\nset Upper corner = "
-                                            "1.1, .43, 1.1\nset Cells = 4, 1, 4") +
+                                            "set Lower corner = 0, .4, 0\nset Upper corner = "
+                                            "1, .43, 1\nset Cells = 4, 1, 4") +
                           "\nset Density = 1100\nset Young's modulus = 1e6\nset Poisson's ratio = "
                           ".3",
                         clamp("rim",
