@@ -41,7 +41,7 @@ namespace
     auto run = in_closed_box<dim>(obstacle("thing", shape, keys));
     for (unsigned int n = 0; n < 3; ++n)
       run.step();
-    CHECK(run.column("Fluid divergence") <= 1e-6);
+    CHECK(run.column("Fluid divergence") <= 1e-10);
   }
 
 

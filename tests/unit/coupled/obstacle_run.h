@@ -133,6 +133,21 @@ namespace undine_tests
   {
     return dim == 2 ? plane : space;
   }
+
+
+  /// A stream along x through the unit box, from the left side to the right one.
+  template <int dim>
+  std::string
+  stream_to_the_right(const std::string &cells, const double density, const double speed)
+  {
+    const std::string right = fmt::format(plane_or_space<dim>("{}; 0", "{}; 0; 0"), speed);
+    return section("Domain", "set Cells = " + cells) +
+           section("Fluid",
+                   fmt::format("set Density = {}\nset Initial velocity = {}\n", density, right) +
+                     section("Boundaries",
+                             boundary("in", "left", "inflow", "set Velocity = " + right) +
+                               boundary("out", "right", "outflow")));
+  }
 } // namespace undine_tests
 
 #endif

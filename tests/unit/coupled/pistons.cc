@@ -127,7 +127,7 @@ TEST_CASE("A stirrer turns in a closed chamber", "[coupled][mpi]")
     for (unsigned int n = 0; n < 20; ++n)
       {
         run.step();
-        REQUIRE(run.column("Fluid divergence") <= 1e-6);
+        REQUIRE(run.column("Fluid divergence") <= 1e-10);
         REQUIRE(run.column("Fluid largest speed") < 5);
       }
     CHECK(run.column("Fluid largest speed") > .1);

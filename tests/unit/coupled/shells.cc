@@ -238,7 +238,7 @@ namespace
       .05);
     for (unsigned int n = 0; n < 3; ++n)
       run.step();
-    CHECK(run.column("Fluid divergence") <= 1e-6);
+    CHECK(run.column("Fluid divergence") <= 1e-10);
     CHECK(run.column("Fluid largest speed") < angular_speed);
   }
 } // namespace

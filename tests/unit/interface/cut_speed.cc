@@ -76,7 +76,8 @@ TEST_CASE("a ball of more and more facets cuts finer and finer grids", "[.][spee
 
 TEST_CASE("Cells in which finely meshed bodies overlap cost little", "[interface]")
 {
-  // In proportion to the facets in them: less than 1 ms each, and 500 ms if each place met each.
+  // In proportion to the facets in them: 2 to 4 ms each with 850, and 500 ms if each place met
+  // each.
   auto       bodies = ball<3>(5, 1.3);
   const auto other  = bodies;
   bodies.append(other);
