@@ -52,7 +52,8 @@ namespace undine
     hL.compress(dealii::VectorOperation::add);
     hL *= dt;
 
-    const Field<dim> no_pressure(model.grid().cells(), all_numbers.open_parts());
+    Field<dim> no_pressure(model.grid().cells(), all_numbers.open_parts());
+    no_pressure.exchange(1);
     add(velocity, dt, pressure_acceleration(model, no_pressure, openings));
     closed_openings = openings;
     for (auto &opening : closed_openings)

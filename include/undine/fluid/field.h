@@ -132,6 +132,7 @@ namespace undine
     std::size_t
     position(const GridIndex<dim> &index) const
     {
+      Assert(box.contains(index), dealii::ExcMessage("no such value, or exchange() is missing"));
       std::ptrdiff_t result = 0;
       for (unsigned int d = 0; d < dim; ++d)
         result += (index[d] - box.lower[d]) * strides[d];
