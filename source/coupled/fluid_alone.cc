@@ -4,9 +4,11 @@
 namespace undine
 {
   template <int dim>
-  FluidAlone<dim>::FluidAlone(const Models<dim> &models, TimingTree &timing)
-    : timing(timing)
-    , fluid_side(models, timing)
+  FluidAlone<dim>::FluidAlone(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing)
+    : model(*models.fluid)
+    , ledger(ledger)
+    , timing(timing)
+    , fluid_side(models, ledger, timing)
     , projection(*models.fluid)
   {
   }
@@ -37,8 +39,28 @@ namespace undine
                                      fluid->dt,
                                      geometry ? geometry->pushed(fluid->dt) : PushedVolume());
     }
+    if (ledger.is_on())
+      balance(state, projected, fluid->dt);
     report.linear_iterations += projected.iterations;
     fluid_side.finish(*fluid, state, report, projected.divergence);
+  }
+
+
+  template <int dim>
+  void
+  FluidAlone<dim>::balance(const State<dim>                       &state,
+                           const typename Projection<dim>::Report &projected,
+                           const double                            dt)
+  {
+    const auto phase = timing.section("measure");
+    ledger.add(projected.balance(model, state.fluid), dt);
+    if (const auto *geometry = fluid_side.geometry())
+      {
+        SurfaceExchange<dim> exchange;
+        exchange.by_fluid   = geometry->pressure_forces(state.fluid.pressure);
+        exchange.velocities = geometry->surface_velocities();
+        ledger.add(exchange, dt);
+      }
   }
 
 

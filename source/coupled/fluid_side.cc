@@ -6,9 +6,10 @@
 namespace undine
 {
   template <int dim>
-  FluidSide<dim>::FluidSide(const Models<dim> &models, TimingTree &timing)
+  FluidSide<dim>::FluidSide(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing)
     : models(models)
     , model(*models.fluid)
+    , ledger(ledger)
     , timing(timing)
     , uniform_gravity(models.environment().gravity)
   {
@@ -69,6 +70,7 @@ namespace undine
   std::unique_ptr<FluidStep<dim>>
   FluidSide<dim>::predict(State<dim> &state, const double dt)
   {
+    ledger.start(state.fluid.velocity);
     place_surfaces(state, dt);
     auto fluid = std::make_unique<FluidStep<dim>>(
       model, state.fluid, uniform_gravity, state.clock.time, dt, timing, bodies());
@@ -77,16 +79,19 @@ namespace undine
       for (const auto &effect : models.effects)
         effect->transport(*fluid);
       fluid->settle();
+      ledger.add(Ledger<dim>::transport, state.fluid.velocity);
     }
     {
       const auto phase = timing.section("accelerate");
       for (const auto &effect : models.effects)
         effect->accelerate(*fluid);
+      ledger.add(Ledger<dim>::forces, state.fluid.velocity);
     }
     {
       const auto phase = timing.section("diffuse");
       for (const auto &effect : models.effects)
         effect->diffuse(*fluid);
+      ledger.add(Ledger<dim>::diffusion, state.fluid.velocity);
     }
     return fluid;
   }

@@ -5,12 +5,15 @@
 namespace undine
 {
   template <int dim>
-  SolidAlone<dim>::SolidAlone(const Models<dim> &models, TimingTree &timing)
+  SolidAlone<dim>::SolidAlone(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing)
     : model(*models.solid)
+    , ledger(ledger)
     , timing(timing)
     , environment(models.environment())
     , solid_step(model)
   {
+    if (ledger.is_on())
+      solid_step.keep_balance();
   }
 
 
@@ -20,7 +23,7 @@ namespace undine
   {
     const double time = state.clock.time;
     state.solid       = solid_step.initialize(environment, time, dt);
-    const SolidReport no_step;
+    const SolidReport<dim> no_step;
     append(report.columns,
            solid_columns(model, solid_step, environment, state.solid, time, no_step));
   }
@@ -32,6 +35,9 @@ namespace undine
   {
     const double time  = state.clock.time;
     const auto   solid = solid_step.step(state.solid, environment, time, report.dt, timing);
+    ledger.start();
+    if (solid.balance)
+      ledger.add(*solid.balance, report.dt);
     report.newton_iterations += solid.newton.iterations;
     report.linear_iterations += solid.newton.linear_iterations;
     report.note           = solid.note;

@@ -36,6 +36,12 @@ namespace undine
              Allowed::between(0, 20),
              "A step that fails is redone with half its length; the run stops where that would be "
              "less than Step halved so often.");
+    options.section("Output").add(
+      "Ledger",
+      keeps_ledger,
+      "",
+      Allowed::anything(),
+      "Write what energy and momentum of every step come from and go to, and what the sums lack.");
   }
 
 
@@ -43,15 +49,17 @@ namespace undine
   Report
   SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
   {
+    ledger = std::make_unique<Ledger<dim>>(models, keeps_ledger);
     if (models.solid && models.fluid)
-      physics = couple(models, timing);
+      physics = couple(models, *ledger, timing);
     else if (models.solid)
-      physics = std::make_unique<SolidAlone<dim>>(models, timing);
+      physics = std::make_unique<SolidAlone<dim>>(models, *ledger, timing);
     else
-      physics = std::make_unique<FluidAlone<dim>>(models, timing);
+      physics = std::make_unique<FluidAlone<dim>>(models, *ledger, timing);
 
     Report report;
     physics->initialize(state, choose_dt(state), report);
+    append(report.columns, ledger->columns());
     return report;
   }
 
@@ -74,6 +82,7 @@ namespace undine
         {
           report.dt = asked / (1u << report.cuts);
           physics->step(state, report);
+          append(report.columns, ledger->columns());
           assert_finite(report.columns);
           allowed_step = report.cuts > 0 ? report.dt : 2 * allowed_step;
           return report;

@@ -114,14 +114,21 @@ namespace undine
 
 
   template <int dim>
+  typename FluidGeometry<dim>::Velocities
+  SurfaceFlux<dim>::nodal_forces(const Field<dim> &pressure) const
+  {
+    return undine::nodal_forces(*flux_operator,
+                                geometry.cut_parts().of_cut_cells(pressure.parts()),
+                                models.solid->communicator());
+  }
+
+
+  template <int dim>
   typename SurfaceFlux<dim>::Vector
   SurfaceFlux<dim>::forces(const Field<dim> &pressure) const
   {
     auto result = models.solid->vector();
-    models.surface->add_to_bodies(result,
-                                  nodal_forces(*flux_operator,
-                                               geometry.cut_parts().of_cut_cells(pressure.parts()),
-                                               models.solid->communicator()));
+    models.surface->add_to_bodies(result, nodal_forces(pressure));
     return result;
   }
 

@@ -17,15 +17,21 @@ namespace undine
   class SplitPhysics : public Physics<dim>
   {
   public:
-    SplitPhysics(const Models<dim> &models, TimingTree &timing, const std::string &driven_by)
+    SplitPhysics(const Models<dim> &models,
+                 Ledger<dim>       &ledger,
+                 TimingTree        &timing,
+                 const std::string &driven_by)
       : models(models)
+      , ledger(ledger)
       , timing(timing)
       , driven_by(driven_by)
       , environment(models.environment())
-      , fluid_side(models, timing)
+      , fluid_side(models, ledger, timing)
       , solid_step(*models.solid)
       , projection(*models.fluid)
     {
+      if (ledger.is_on())
+        solid_step.keep_balance();
     }
 
     void
@@ -33,35 +39,46 @@ namespace undine
     {
       state.solid = solid_step.initialize(environment, state.clock.time, dt);
       fluid_side.initialize(state, projection, dt, report);
-      add_solid_columns(report, state, state.clock.time, {});
+      add_solid_columns(report, state, state.clock.time, SolidReport<dim>());
     }
 
     void
     step(State<dim> &state, Report &report) override
     {
-      auto         forces   = pressure_forces(state);
+      SurfaceExchange<dim> exchange;
+      // J p^n, where the grid was cut when p^n was computed.
+      exchange.on_bodies    = geometry_of(models, state)->pressure_forces(state.fluid.pressure);
       const auto   fluid    = fluid_side.predict(state, report.dt);
       const auto  &geometry = *fluid_side.geometry();
       const double end      = fluid->time + fluid->dt;
-      models.surface->add_to_bodies(forces, geometry.other_forces(fluid->gravity, end));
+      exchange.at_rest      = geometry.other_forces(fluid->gravity, end);
+      auto forces           = models.solid->vector();
+      models.surface->add_to_bodies(forces, exchange.on_bodies);
+      models.surface->add_to_bodies(forces, exchange.at_rest);
 
-      auto       change = state.solid.displacement;
+      auto       way = state.solid.displacement;
       const auto solid =
         solid_step.step(state.solid, environment, fluid->time, fluid->dt, timing, forces);
-      change.sadd(-1 / fluid->dt, 1 / fluid->dt, state.solid.displacement);
-
-      const auto &moves = driven_by == "velocity" ? state.solid.velocity : change;
+      way.sadd(-1, 1, state.solid.displacement);
+      exchange.way        = models.surface->with_bodies(way, still());
+      exchange.velocities = node_velocities(state, exchange.way, fluid->dt);
       typename Projection<dim>::Report projected;
       {
         const auto phase = timing.section("project");
-        projected        = projection.project(
-          state.fluid,
-          fluid->flow.velocity(),
-          end,
-          fluid->dt,
-          geometry.pushed(models.surface->with_bodies(moves, geometry.surface_velocities()),
-                          fluid->dt));
+        projected        = projection.project(state.fluid,
+                                       fluid->flow.velocity(),
+                                       end,
+                                       fluid->dt,
+                                       geometry.pushed(exchange.velocities, fluid->dt));
       }
+      if (ledger.is_on())
+        {
+          const auto phase  = timing.section("measure");
+          exchange.by_fluid = geometry.pressure_forces(state.fluid.pressure);
+          ledger.add(projected.balance(*models.fluid, state.fluid), fluid->dt);
+          ledger.add(exchange, fluid->dt);
+          ledger.add(*solid.balance, fluid->dt);
+        }
       report.newton_iterations += solid.newton.iterations;
       report.linear_iterations += solid.newton.linear_iterations + projected.iterations;
       report.note = solid.note;
@@ -70,23 +87,32 @@ namespace undine
     }
 
   private:
-    using Vector = typename SolidModel<dim>::Vector;
+    using Vectors = typename SurfaceExchange<dim>::Vectors;
 
-    /// J p^n, where the grid was cut when p^n was computed [N].
-    Vector
-    pressure_forces(const State<dim> &state) const
+    /// Zero in all nodes of surfaces.
+    Vectors
+    still() const
     {
-      auto result = models.solid->vector();
-      models.surface->add_to_bodies(
-        result, geometry_of(models, state)->pressure_forces(state.fluid.pressure));
+      return Vectors(models.surface->surface().n_nodes());
+    }
+
+    /// What the fluid is driven by [m/s].
+    Vectors
+    node_velocities(const State<dim> &state, const Vectors &way, const double dt) const
+    {
+      auto result = fluid_side.geometry()->surface_velocities();
+      if (driven_by == "velocity")
+        return models.surface->with_bodies(state.solid.velocity, result);
+      for (std::size_t node = 0; node < models.surface->n_body_nodes(); ++node)
+        result[node] = way[node] / dt;
       return result;
     }
 
     void
-    add_solid_columns(Report            &report,
-                      const State<dim>  &state,
-                      const double       time,
-                      const SolidReport &solid) const
+    add_solid_columns(Report                 &report,
+                      const State<dim>       &state,
+                      const double            time,
+                      const SolidReport<dim> &solid) const
     {
       const auto measured = timing.section("measure");
       append(report.columns,
@@ -94,6 +120,7 @@ namespace undine
     }
 
     const Models<dim>          &models;
+    Ledger<dim>                &ledger;
     TimingTree                 &timing;
     const std::string           driven_by; ///< velocity | displacement
     const SolidEnvironment<dim> environment;
@@ -124,9 +151,9 @@ namespace undine
 
   protected:
     std::unique_ptr<Physics<dim>>
-    couple(const Models<dim> &models, TimingTree &timing) const override
+    couple(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing) const override
     {
-      return std::make_unique<SplitPhysics<dim>>(models, timing, driven_by);
+      return std::make_unique<SplitPhysics<dim>>(models, ledger, timing, driven_by);
     }
 
   private:

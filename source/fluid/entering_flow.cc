@@ -71,10 +71,12 @@ namespace undine
       if (opening.kind == BoundaryKind::outflow)
         {
           const auto   size = extent(model.grid(), velocity.open_parts(), opening);
-          const double now  = std::max(0., -opening.side.sign() * value_on(velocity, opening));
+          const double u    = -opening.side.sign() * value_on(velocity, opening);
+          const double now  = std::max(0., u);
           const double miss = now - opening.entering;
           largest =
             std::max(largest, opening.mobility * dt * size.area / (2 * size.volume) * miss * miss);
+          opening.pressure -= model.density() * opening.entering * u;
           opening.entering = now;
         }
     return dealii::Utilities::MPI::max(largest, model.grid().communicator());

@@ -30,6 +30,27 @@ namespace undine
     }
 
 
+    /// action(axis, rho V_f, v_f) for all owned faces and pieces.
+    template <int dim, class Action>
+    void
+    for_each_mass(const FluidModel<dim> &model, const Velocity<dim> &velocity, const Action &action)
+    {
+      const auto *open = velocity.open_parts();
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          const auto &component = velocity[axis];
+          const auto *divided   = component.divided();
+          for_each(component.owned(), [&](const GridIndex<dim> &face) {
+            if (!divided || divided->kind(face) == LatticeParts<dim>::Kind::whole)
+              action(axis, model.density() * model.grid().dual_volume(axis, face), component(face));
+          });
+          for (std::size_t k = 0; k < component.parts().size(); ++k)
+            if (divided->owns(k))
+              action(axis, model.density() * open->pieces[axis][k].volume, component.parts()[k]);
+        }
+    }
+
+
     void
     check_finite(const bool finite, const MPI_Comm communicator)
     {
@@ -46,21 +67,22 @@ namespace undine
   kinetic_energy(const FluidModel<dim> &model, const Velocity<dim> &velocity)
   {
     double energy = 0;
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      {
-        const auto &component = velocity[axis];
-        const auto *divided   = component.divided();
-        for_each(component.owned(), [&](const GridIndex<dim> &face) {
-          if (!divided || divided->kind(face) == LatticeParts<dim>::Kind::whole)
-            energy += model.density() * model.grid().dual_volume(axis, face) * component(face) *
-                      component(face) / 2;
-        });
-        for (std::size_t k = 0; k < component.parts().size(); ++k)
-          if (divided->owns(k))
-            energy += model.density() * velocity.open_parts()->pieces[axis][k].volume *
-                      component.parts()[k] * component.parts()[k] / 2;
-      }
+    for_each_mass(model, velocity, [&](const unsigned int, const double mass, const double v) {
+      energy += mass * v * v / 2;
+    });
     return dealii::Utilities::MPI::sum(energy, model.grid().communicator());
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  linear_momentum(const FluidModel<dim> &model, const Velocity<dim> &velocity)
+  {
+    dealii::Tensor<1, dim> momentum;
+    for_each_mass(model, velocity, [&](const unsigned int axis, const double mass, const double v) {
+      momentum[axis] += mass * v;
+    });
+    return dealii::Utilities::MPI::sum(momentum, model.grid().communicator());
   }
 
 
@@ -180,6 +202,7 @@ namespace undine
 
 #define INSTANTIATE(dim)                                                                           \
   template double                 kinetic_energy(const FluidModel<dim> &, const Velocity<dim> &);  \
+  template dealii::Tensor<1, dim> linear_momentum(const FluidModel<dim> &, const Velocity<dim> &); \
   template dealii::Tensor<1, dim> largest_components(const FluidModel<dim> &,                      \
                                                      const Velocity<dim> &);                       \
   template double                 largest_speed(const FluidModel<dim> &, const Velocity<dim> &);   \

@@ -33,7 +33,7 @@ namespace undine
   {
     set_boundary_velocity(velocity, model, time);
     regions.balanced_fluxes(velocity, pushed, time);
-    openings = open_faces(model, carrying, all_numbers.open_parts().get(), time);
+    openings = undine::open_faces(model, carrying, all_numbers.open_parts().get(), time);
   }
 
 

@@ -10,17 +10,6 @@ namespace undine
   {
     template <int dim>
     using Kind = typename LatticeParts<dim>::Kind;
-
-
-    /// Call `action(part)` for the parts of a divided point.
-    template <int dim, class Action>
-    void
-    for_each_part(const LatticeParts<dim> &divided, const GridIndex<dim> &index, Action &&action)
-    {
-      const int last = divided.last(index);
-      for (int part = divided.first(index); part < last; ++part)
-        action(part);
-    }
   } // namespace
 
 
@@ -32,46 +21,27 @@ namespace undine
              const double           time)
   {
     std::vector<OpenFace<dim>> result;
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      for (unsigned int end = 0; end < 2 && !model.grid().periodic(axis); ++end)
-        {
-          const Side  side{axis, end};
-          const int   plane     = end == 0 ? 0 : model.grid().cells_along()[axis];
-          const auto &component = velocity[axis];
-          auto        layer     = component.owned();
-          layer.lower[axis]     = std::max(layer.lower[axis], plane);
-          layer.upper[axis]     = std::min(layer.upper[axis], plane + 1);
-          for_each(layer, [&](const GridIndex<dim> &face) {
-            const auto &boundary = model.boundaries().at(side, face);
-            if (!boundary.is_open())
-              return;
-            const auto cell = end == 0 ? face : moved<dim>(face, axis, -1);
-            const auto add  = [&](const auto &place, const int piece) {
-              const double entering = std::max(0., -side.sign() * component(face));
-              const double pressure = boundary.kind == BoundaryKind::outflow
-                                         ? -model.density() / 2 * entering * entering
-                                         : boundary.pressure.value(place, time);
-              result.push_back({side, face, cell, pressure, piece, boundary.kind, entering});
-            };
-            if (!open_parts || open_parts->faces[axis].kind(face) == Kind<dim>::whole)
-              add(component.lattice().point(face), -1);
-            else
-              for_each_part(open_parts->faces[axis], face, [&](const int piece) {
-                add(open_parts->faces[axis].all()[piece].place, piece);
-              });
-          });
-        }
+    for_each_side_face(model, open_parts, [&](const SideFace<dim> &at, const auto &place) {
+      const auto &boundary = model.boundaries().at(at.side, at.face);
+      if (!boundary.is_open())
+        return;
+      const double entering = std::max(0., -at.side.sign() * velocity[at.side.axis](at.face));
+      const double pressure = boundary.kind == BoundaryKind::outflow
+                                ? -model.density() / 2 * entering * entering
+                                : boundary.pressure.value(place, time);
+      result.push_back({at, pressure, boundary.kind, entering});
+    });
     return result;
   }
 
 
   template <int dim>
   PressurePlace<dim>
-  place_inside(const OpenParts<dim> *open_parts, const OpenFace<dim> &opening)
+  place_inside(const OpenParts<dim> *open_parts, const SideFace<dim> &face)
   {
-    if (opening.piece < 0)
-      return {opening.cell, -1};
-    return end_of_piece(*open_parts, opening.side.axis, opening.piece, 1 - opening.side.end);
+    if (face.piece < 0)
+      return {face.cell, -1};
+    return end_of_piece(*open_parts, face.side.axis, face.piece, 1 - face.side.end);
   }
 
 
@@ -242,7 +212,7 @@ namespace undine
 #define INSTANTIATE(dim)                                                                   \
   template std::vector<OpenFace<dim>> open_faces(                                          \
     const FluidModel<dim> &, const Velocity<dim> &, const OpenParts<dim> *, const double); \
-  template PressurePlace<dim> place_inside(const OpenParts<dim> *, const OpenFace<dim> &); \
+  template PressurePlace<dim> place_inside(const OpenParts<dim> *, const SideFace<dim> &); \
   template Field<dim>         divergence(const FluidModel<dim> &, const Velocity<dim> &);  \
   template Velocity<dim>      pressure_acceleration(                                       \
          const FluidModel<dim> &, const Field<dim> &, const std::vector<OpenFace<dim>> &); \

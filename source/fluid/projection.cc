@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace undine
 {
@@ -37,6 +38,14 @@ namespace undine
   Projection<dim>::Projection(const FluidModel<dim> &model_)
     : model(model_)
   {
+  }
+
+
+  template <int dim>
+  PressureBalance<dim>
+  Projection<dim>::Report::balance(const FluidModel<dim> &model, const FluidState<dim> &state) const
+  {
+    return pressure_balance(model, before, state.velocity, state.pressure, openings);
   }
 
 
@@ -160,7 +169,7 @@ namespace undine
     // or two rounds; those that are far too large are halved in each.
     constexpr unsigned int most_rounds = 20;
     constexpr double       tolerance   = 1e-4;
-    const auto             before      = velocity;
+    auto                   before      = velocity;
     Report                 report;
     for (unsigned int round = 0; round < most_rounds; ++round)
       {
@@ -177,6 +186,8 @@ namespace undine
         if (change <= tolerance * largest_components(model, velocity).norm())
           break;
       }
+    report.before   = std::move(before);
+    report.openings = std::move(openings);
     return report;
   }
 

@@ -213,7 +213,7 @@ namespace undine
                 const SolidEnvironment<dim> &environment,
                 const SolidState            &state,
                 const double                 time,
-                const SolidReport           &report)
+                const SolidReport<dim>      &report)
   {
     Columns    columns;
     const auto add = [&](const std::string &name, const std::string &unit, const double value) {
@@ -265,7 +265,7 @@ namespace undine
                                                        const SolidEnvironment<dim> &,             \
                                                        const SolidState &,                        \
                                                        double,                                    \
-                                                       const SolidReport &);
+                                                       const SolidReport<dim> &);
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

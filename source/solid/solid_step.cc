@@ -234,6 +234,14 @@ namespace undine
 
 
   template <int dim>
+  void
+  SolidStep<dim>::keep_balance()
+  {
+    keeps_balance = true;
+  }
+
+
+  template <int dim>
   SolidState
   SolidStep<dim>::initialize(const SolidEnvironment<dim> &environment,
                              const double                 time,
@@ -258,7 +266,7 @@ namespace undine
 
 
   template <int dim>
-  SolidReport
+  SolidReport<dim>
   SolidStep<dim>::step(SolidState                  &state,
                        const SolidEnvironment<dim> &environment,
                        const double                 time,
@@ -272,12 +280,14 @@ namespace undine
     StepProblem<dim> problem(equations, solver, model.numerics().newton.relative_tolerance, timing);
     auto             velocity = model.vector();
 
-    SolidReport report;
+    SolidReport<dim> report;
     report.newton             = solve_step(velocity, problem, equations, model.numerics().newton);
     report.reactions          = equations.reactions(velocity);
     report.note               = solver.note();
     report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
-    state                     = equations.end_state(velocity);
+    if (keeps_balance)
+      report.balance = equations.balance(velocity, report.reactions);
+    state = equations.end_state(velocity);
     return report;
   }
 

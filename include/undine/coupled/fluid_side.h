@@ -4,6 +4,7 @@
 
 #include <undine/base/core/timing.h>
 #include <undine/coupled/fluid_geometry.h>
+#include <undine/coupled/ledger.h>
 #include <undine/coupled/models.h>
 #include <undine/coupled/report.h>
 #include <undine/coupled/state.h>
@@ -20,7 +21,7 @@ namespace undine
   {
   public:
     /// The references must outlive it. Collective.
-    FluidSide(const Models<dim> &models, TimingTree &timing);
+    FluidSide(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing);
 
     /// The fluid at the start; what stands in it is where `state` says. `dt` [s] is the length of
     /// the first step. Collective. Throws SolveError.
@@ -60,6 +61,7 @@ namespace undine
 
     const Models<dim>                  &models;
     const FluidModel<dim>              &model;
+    Ledger<dim>                        &ledger;
     TimingTree                         &timing;
     const dealii::Tensor<1, dim>        uniform_gravity; ///< [m/s^2]
     std::unique_ptr<FluidGeometry<dim>> cut;

@@ -16,7 +16,7 @@ namespace undine
   {
   public:
     /// The references must outlive it. Collective.
-    SolidAlone(const Models<dim> &models, TimingTree &timing);
+    SolidAlone(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing);
 
     void
     initialize(State<dim> &state, double dt, Report &report) override;
@@ -26,6 +26,7 @@ namespace undine
 
   private:
     const SolidModel<dim> &model;
+    Ledger<dim>           &ledger;
     TimingTree            &timing;
     SolidEnvironment<dim>  environment;
     SolidStep<dim>         solid_step;
@@ -37,7 +38,7 @@ namespace undine
   {
   public:
     /// The references must outlive it. Collective.
-    FluidAlone(const Models<dim> &models, TimingTree &timing);
+    FluidAlone(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing);
 
     void
     initialize(State<dim> &state, double dt, Report &report) override;
@@ -46,9 +47,14 @@ namespace undine
     step(State<dim> &state, Report &report) override;
 
   private:
-    TimingTree     &timing;
-    FluidSide<dim>  fluid_side;
-    Projection<dim> projection;
+    void
+    balance(const State<dim> &state, const typename Projection<dim>::Report &projected, double dt);
+
+    const FluidModel<dim> &model;
+    Ledger<dim>           &ledger;
+    TimingTree            &timing;
+    FluidSide<dim>         fluid_side;
+    Projection<dim>        projection;
   };
 } // namespace undine
 

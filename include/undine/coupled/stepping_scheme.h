@@ -3,6 +3,7 @@
 #define undine_coupled_stepping_scheme_h
 
 #include <undine/base/core/errors.h>
+#include <undine/coupled/ledger.h>
 #include <undine/coupled/physics.h>
 #include <undine/coupled/scheme.h>
 
@@ -39,7 +40,7 @@ namespace undine
   protected:
     /// Fluid and bodies together.
     virtual std::unique_ptr<Physics<dim>>
-    couple(const Models<dim> &models, TimingTree &timing) const = 0;
+    couple(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing) const = 0;
 
   private:
     double
@@ -50,6 +51,8 @@ namespace undine
     double                        asked_step   = 0.01; // [s]
     unsigned int                  maximum_cuts = 6;
     double                        allowed_step = std::numeric_limits<double>::infinity(); // [s]
+    bool                          keeps_ledger = false;
+    std::unique_ptr<Ledger<dim>>  ledger;
     std::unique_ptr<Physics<dim>> physics;
   };
 } // namespace undine

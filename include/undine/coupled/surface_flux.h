@@ -50,6 +50,10 @@ namespace undine
     std::vector<double>
     fluxes() const;
 
+    /// B^T p in all nodes [N]. Collective.
+    typename FluidGeometry<dim>::Velocities
+    nodal_forces(const Field<dim> &pressure) const;
+
     /// J p = B^T p over the bodies' degrees of freedom, fixed ones included [N]. Collective.
     Vector
     forces(const Field<dim> &pressure) const;

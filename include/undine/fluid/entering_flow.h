@@ -39,7 +39,8 @@ namespace undine
                           const FluidModel<dim>      &model,
                           const double                dt);
 
-  /// s := max(0, u) with u of `velocity` = v^{n+1}. Returns how much that would change v^{n+1}, at
+  /// s := max(0, u) with u of `velocity` = v^{n+1}; the openings get the pressure that has acted,
+  /// with the s before. Returns how much that would change v^{n+1}, at
   /// most [m/s]: m h a (u - s)^2/(2 V). Collective.
   template <int dim>
   double

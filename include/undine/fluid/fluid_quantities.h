@@ -20,6 +20,11 @@ namespace undine
   double
   kinetic_energy(const FluidModel<dim> &model, const Velocity<dim> &velocity);
 
+  /// sum_f rho V_f v_f of the faces normal to each axis, [kg m/s] (per metre in 2D).
+  template <int dim>
+  dealii::Tensor<1, dim>
+  linear_momentum(const FluidModel<dim> &model, const Velocity<dim> &velocity);
+
   /// Largest |v_f| of the faces normal to each axis, [m/s]. Throws SolveError if one is not finite.
   template <int dim>
   dealii::Tensor<1, dim>

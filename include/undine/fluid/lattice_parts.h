@@ -103,6 +103,16 @@ namespace undine
     std::map<unsigned int, std::vector<int>>   wanted;  ///< by rank: parts that it owns
     std::map<unsigned int, std::vector<int>>   offered; ///< by rank: parts that it wants
   };
+
+  /// Call `action(part)` for the parts of a divided point.
+  template <int dim, class Action>
+  void
+  for_each_part(const LatticeParts<dim> &divided, const GridIndex<dim> &index, Action &&action)
+  {
+    const int last = divided.last(index);
+    for (int part = divided.first(index); part < last; ++part)
+      action(part);
+  }
 } // namespace undine
 
 #endif

@@ -76,6 +76,13 @@ namespace undine
       return regions;
     }
 
+    /// With the pressures that have acted, after update_entering_flow().
+    const std::vector<OpenFace<dim>> &
+    open_faces() const
+    {
+      return openings;
+    }
+
     /// A number for each pressure from one for each component of the fluid; zero in whole cells.
     Vector
     from_components(const std::vector<double> &values) const;

@@ -6,6 +6,7 @@
 #include <undine/fluid/fluid_quantities.h>
 #include <undine/fluid/pressure_numbers.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace undine
@@ -14,18 +15,53 @@ namespace undine
   /// walls and inflows are held: D sees their velocity, pressure does not accelerate them.
   /// @{
 
-  /// A face of this rank through which fluid may leave or enter freely.
+  /// A face of this rank on a side of the domain.
   template <int dim>
-  struct OpenFace
+  struct SideFace
   {
     Side           side;
     GridIndex<dim> face;
-    GridIndex<dim> cell;     ///< the one inside
-    double         pressure; ///< reduced pressure on the face [Pa]
-    int            piece;    ///< of a divided face: which one; else -1
-    BoundaryKind   kind;     ///< outflow or pressure
-    double         entering; ///< how fast fluid enters through it, if at all [m/s]
-    double mobility = 1; ///< share of an acceleration that is left, see hold_back_entering_flow()
+    GridIndex<dim> cell;  ///< the one inside
+    int            piece; ///< of a divided face: which one; else -1
+  };
+
+  /// action(SideFace, place) for all of them. `open_parts`: what bodies leave of the grid; nullptr:
+  /// everything.
+  template <int dim, class Action>
+  void
+  for_each_side_face(const FluidModel<dim> &model,
+                     const OpenParts<dim>  *open_parts,
+                     const Action          &action)
+  {
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      for (unsigned int end = 0; end < 2 && !model.grid().periodic(axis); ++end)
+        {
+          const int   plane   = end == 0 ? 0 : model.grid().cells_along()[axis];
+          const auto &lattice = *model.grid().faces(axis);
+          auto        layer   = lattice.owned();
+          layer.lower[axis]   = std::max(layer.lower[axis], plane);
+          layer.upper[axis]   = std::min(layer.upper[axis], plane + 1);
+          for_each(layer, [&](const GridIndex<dim> &face) {
+            const auto  cell    = end == 0 ? face : moved<dim>(face, axis, -1);
+            const auto *divided = open_parts ? &open_parts->faces[axis] : nullptr;
+            if (!divided || divided->kind(face) == LatticeParts<dim>::Kind::whole)
+              action(SideFace<dim>{{axis, end}, face, cell, -1}, lattice.point(face));
+            else
+              for_each_part(*divided, face, [&](const int piece) {
+                action(SideFace<dim>{{axis, end}, face, cell, piece}, divided->all()[piece].place);
+              });
+          });
+        }
+  }
+
+  /// One through which fluid may leave or enter freely.
+  template <int dim>
+  struct OpenFace : SideFace<dim>
+  {
+    double       pressure; ///< reduced pressure on the face [Pa]
+    BoundaryKind kind;     ///< outflow or pressure
+    double       entering; ///< how fast fluid enters through it, if at all [m/s]
+    double mobility = 1;   ///< share of an acceleration that is left, see hold_back_entering_flow()
   };
 
   /// The openings of this rank with their pressures at `time`. Where fluid enters through an
@@ -40,10 +76,10 @@ namespace undine
              const OpenParts<dim>  *open_parts,
              const double           time);
 
-  /// Where the pressure next to an opening is.
+  /// Where the pressure next to a side is.
   template <int dim>
   PressurePlace<dim>
-  place_inside(const OpenParts<dim> *open_parts, const OpenFace<dim> &opening);
+  place_inside(const OpenParts<dim> *open_parts, const SideFace<dim> &face);
 
   /// (D v)_c = sum_f +-a_f v_f over the faces of every owned cell, or over the pieces of faces
   /// around every component: the volume that leaves it, [m^dim/s]; zero in bodies. One ghost layer

@@ -6,6 +6,7 @@
 #include <undine/fluid/entering_flow.h>
 #include <undine/fluid/fluid_model.h>
 #include <undine/fluid/fluid_quantities.h>
+#include <undine/fluid/pressure_balance.h>
 #include <undine/fluid/pressure_gradient.h>
 #include <undine/fluid/pressure_numbers.h>
 #include <undine/fluid/pushed_volume.h>
@@ -35,6 +36,15 @@ namespace undine
     {
       unsigned int iterations = 0;
       double       divergence = 0; ///< max |div v| dx / max |v| afterwards [1]
+
+      /// Of a step: v* with the velocity on walls and inflows, and the openings with the pressures
+      /// that have acted.
+      Velocity<dim>              before;
+      std::vector<OpenFace<dim>> openings;
+
+      /// Of that step, which led to `state`. Collective.
+      PressureBalance<dim>
+      balance(const FluidModel<dim> &model, const FluidState<dim> &state) const;
     };
 
     /// The model must outlive the projection. Nothing is assembled before the first use.

@@ -77,7 +77,7 @@ namespace undine
                 const SolidEnvironment<dim> &environment,
                 const SolidState            &state,
                 double                       time,
-                const SolidReport           &report);
+                const SolidReport<dim>      &report);
 } // namespace undine
 
 #endif

@@ -3,6 +3,7 @@
 #define undine_solid_solid_equations_h
 
 #include <undine/base/core/timing.h>
+#include <undine/solid/solid_balance.h>
 #include <undine/solid/solid_environment.h>
 #include <undine/solid/solid_model.h>
 #include <undine/solid/solid_state.h>
@@ -78,6 +79,11 @@ namespace undine
     std::vector<double>
     momentum_residuals(const Vector &velocity, const Vector &reactions) const;
 
+    /// Energy and momentum of the step that ends with `velocity`, for the `reactions` of the same.
+    /// Costs several evaluations of internal forces. Collective.
+    SolidBalance<dim>
+    balance(const Vector &velocity, const Vector &reactions) const;
+
     /// d residual / du [kg/s], with a diagonal of its own size at fixed degrees of freedom.
     Matrix
     jacobian(const Vector &velocity) const;
@@ -124,6 +130,10 @@ namespace undine
     add_damping(Vector &forces, const Vector &velocity, double factor) const;
     void
     add_stage(Vector &forces, const StepCoefficients::Stage &stage, const Vector &displacement);
+    void
+    balance_inertia(SolidBalance<dim> &result, const Vector &velocity, const Vector &way) const;
+    void
+    balance_elasticity(SolidBalance<dim> &result, const Vector &end, const Vector &way) const;
     Matrix
     full_jacobian(const Vector &end_displacement) const;
     Vector

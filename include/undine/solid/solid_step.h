@@ -4,16 +4,19 @@
 
 #include <undine/base/core/newton.h>
 #include <undine/base/core/timing.h>
+#include <undine/solid/solid_balance.h>
 #include <undine/solid/solid_environment.h>
 #include <undine/solid/solid_model.h>
 #include <undine/solid/solid_state.h>
 #include <undine/solid/tangent_solver.h>
 
+#include <optional>
 #include <string>
 
 namespace undine
 {
   /// How a step of the bodies went.
+  template <int dim>
   struct SolidReport
   {
     NewtonReport newton;
@@ -25,6 +28,9 @@ namespace undine
     /// For each body the force that the balance of its linear momentum over the step lacks [1], of
     /// the size of the forces by which Newton's method is stopped (SolidEquations::scale).
     std::vector<double> momentum_residuals;
+
+    /// Only if asked for, see SolidStep::keep_balance().
+    std::optional<SolidBalance<dim>> balance;
 
     /// What was unusual: "the tangent is indefinite: solved directly". Empty if nothing was.
     std::string note;
@@ -41,6 +47,10 @@ namespace undine
     /// `model` must outlive it. Collective.
     explicit SolidStep(const SolidModel<dim> &model);
 
+    /// From now on reports hold the balance of energy and momentum, which costs time.
+    void
+    keep_balance();
+
     /// The state at `time` [s]: displacements and velocities from the scene's expressions, and for
     /// the integrators that use it the acceleration that the loads give. `dt` [s] is the step that
     /// will follow: prescribed motions are differentiated within it. Collective.
@@ -54,7 +64,7 @@ namespace undine
     ///  2. Newton: assemble residual and tangent, solve, line search
     ///  3. if that fails, again from the guess d^{n+1} = d^n
     ///  4. d^{n+1}, u^{n+1}, a^{n+1} from u^{n+1}
-    SolidReport
+    SolidReport<dim>
     step(SolidState                  &state,
          const SolidEnvironment<dim> &environment,
          double                       time,
@@ -75,6 +85,7 @@ namespace undine
     const Matrix           mass_matrix;
     std::vector<double>    volumes; ///< at t = 0
     TangentSolver<dim>     solver;
+    bool                   keeps_balance = false;
   };
 } // namespace undine
 

@@ -73,7 +73,7 @@ namespace undine_tests
     {
     }
 
-    SolidReport
+    SolidReport<dim>
     advance(const double dt)
     {
       report = stepper.step(state, environment, time, dt, timing);
@@ -112,7 +112,7 @@ namespace undine_tests
     SolidStep<dim>        stepper;
     SolidEnvironment<dim> environment;
     SolidState            state;
-    SolidReport           report;
+    SolidReport<dim>      report;
     TimingTree            timing;
     double                time = 0;
   };

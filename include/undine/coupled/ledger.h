@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_ledger_h
+#define undine_coupled_ledger_h
+
+#include <undine/base/core/column.h>
+#include <undine/coupled/models.h>
+#include <undine/fluid/fluid_state.h>
+#include <undine/fluid/pressure_balance.h>
+#include <undine/solid/solid_balance.h>
+
+#include <array>
+#include <vector>
+
+namespace undine
+{
+  /// What fluid and surfaces did to each other in a step, in the nodes of all surfaces, those of
+  /// bodies first.
+  template <int dim>
+  struct SurfaceExchange
+  {
+    using Vectors = std::vector<dealii::Tensor<1, dim>>;
+
+    Vectors by_fluid;   ///< B^T p with the pressure that accelerated the fluid [N]
+    Vectors velocities; ///< w, with which the surfaces pushed the fluid: B w [m/s]
+    Vectors on_bodies;  ///< J p that the bodies felt [N]; simultaneously the same as `by_fluid`
+    Vectors at_rest;    ///< what the fluid did to bodies besides: weight, void regions [N]
+    Vectors way;        ///< d^{n+1} - d^n of bodies [m]
+  };
+
+
+  /// Where energy and momentum of a step come from and go to, each term from its own formula, and
+  /// what is missing in the sum. A ledger that is not switched on does nothing and costs nothing.
+  template <int dim>
+  class Ledger
+  {
+  public:
+    /// What changes the fluid's velocity before pressures do.
+    enum Phase
+    {
+      transport, ///< to the new place of surfaces, too
+      forces,
+      diffusion,
+      boundary_values ///< of inflows and walls
+    };
+
+    /// `models` must outlive it.
+    Ledger(const Models<dim> &models, bool is_on);
+
+    bool
+    is_on() const
+    {
+      return on;
+    }
+
+    /// A step begins; with a fluid: with v^n, collective. @{
+    void
+    start();
+    void
+    start(const Velocity<dim> &velocity);
+    /// @}
+
+    /// A phase has led to `velocity`. Collective.
+    void
+    add(Phase phase, const Velocity<dim> &velocity);
+
+    /// What followed in a step of `dt` [s]; boundary_values are what pressures found changed.
+    /// @{
+    void
+    add(const PressureBalance<dim> &pressures, double dt);
+    void
+    add(const SurfaceExchange<dim> &surfaces, double dt);
+    void
+    add(const SolidBalance<dim> &solid, double dt);
+    /// @}
+
+    /// The terms as gains of fluid and bodies, energies in J, momenta in kg m/s (in 2D per metre).
+    /// "energy closure": |gain - sum of terms| over energy and |terms|. "momentum closure": the
+    /// same over h sum_i |(B^T p)_i| or, where surfaces feel nothing, over |terms|. None if off.
+    Columns
+    columns() const;
+
+  private:
+    enum Term
+    {
+      // fluid
+      by_transport,
+      by_forces,
+      by_diffusion,
+      by_boundary_values,
+      by_sides,    ///< where the velocity is given
+      by_openings, ///< where the pressure is given
+      by_projection,
+      // surfaces
+      by_obstacles,
+      by_interface, ///< what bodies get less what the fluid gives
+      by_fluid_at_rest,
+      // bodies
+      by_loads,
+      by_supports,
+      by_damping,
+      by_inertia,    ///< of the integrator
+      by_elasticity, ///< of the integrator
+      n_terms
+    };
+
+    struct Amount
+    {
+      double                 energy = 0;
+      dealii::Tensor<1, dim> momentum;
+    };
+
+    static const char *const names[n_terms];
+
+    bool
+    concerns(unsigned int term) const;
+    Amount
+    missing() const;
+
+    const Models<dim>          &models;
+    const bool                  on;
+    Amount                      fluid; ///< what it has, as far as the step has come
+    Amount                      gain;
+    std::array<Amount, n_terms> terms;
+    double                      energy           = 0; ///< of fluid and bodies
+    double                      impulse_of_fluid = 0; ///< h sum_i |(B^T p)_i|
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_solid_balance_h
+#define undine_solid_solid_balance_h
+
+#include <deal.II/base/tensor.h>
+
+namespace undine
+{
+  /// What became of the bodies' energy and momentum in a step, each term from its own formula. With
+  /// dd = d^{n+1} - d^n and the terms of StepCoefficients,
+  ///
+  ///     kinetic + elastic = loads + nodal + supports - damping - inertia_loss - elastic_loss
+  ///     momentum = h (loads_force + damping_force + supports_force + nodal forces)
+  ///
+  /// up to the tolerance of Newton's method and to rounding.
+  template <int dim>
+  struct SolidBalance
+  {
+    double kinetic      = 0; ///< gain of u.M u/2 [J]
+    double elastic      = 0; ///< gain of int W dX [J]
+    double loads        = 0; ///< dead loads and follower pressures times dd [J]
+    double nodal        = 0; ///< given nodal forces times dd [J]
+    double supports     = 0; ///< forces at fixed degrees of freedom times dd [J]
+    double damping      = 0; ///< C (c u + c_u u^n) times dd [J]
+    double inertia_loss = 0; ///< the integrator's: M (m u + ...).dd - kinetic [J]
+    double elastic_loss = 0; ///< the integrator's: sum_e w_e K(d_e).dd - int K(d).dd [J]
+
+    dealii::Tensor<1, dim> momentum;       ///< h sum M (m u + ...) [kg m/s]
+    dealii::Tensor<1, dim> loads_force;    ///< [N]
+    dealii::Tensor<1, dim> supports_force; ///< [N]
+    dealii::Tensor<1, dim> damping_force;  ///< [N]
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/coupled_step.h>
+#include <undine/interface/flux_matrix.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// With the surfaces where the bodies' first guess takes them.
+    template <int dim>
+    std::unique_ptr<SurfaceFlux<dim>>
+    moved(std::unique_ptr<SurfaceFlux<dim>> surface, const BlockSystem::Vector &velocity)
+    {
+      surface->move(velocity);
+      return surface;
+    }
+  } // namespace
+
+
+  template <int dim>
+  CoupledStep<dim>::CoupledStep(const Parts          &parts,
+                                const FluidStep<dim> &fluid,
+                                State<dim>           &state,
+                                const std::string    &boundary_flux)
+    : parts(parts)
+    , fluid(fluid)
+    , state(state)
+    , newton(parts.models.solid->numerics().newton)
+    , end_time(fluid.time + fluid.dt)
+    , old_solid(state.solid)
+    , equations(*parts.models.solid,
+                parts.mass,
+                old_solid,
+                parts.environment,
+                fluid.time,
+                fluid.dt,
+                parts.timing,
+                loads_at_rest())
+    , numbers(parts.models.fluid->grid(), parts.geometry.bodies().open_parts)
+    , surface(moved(make_surface_flux(
+                      boundary_flux, parts.models, parts.geometry, numbers, equations, fluid.dt),
+                    equations.guess()))
+    , pressures(*parts.models.fluid, numbers, filled_rows(surface->matrix()), fluid.dt)
+    , problem(*parts.models.solid, equations, *surface, pressures, parts.solver, parts.timing)
+    , x(problem.vector())
+  {
+    pressures.start(state.fluid.velocity,
+                    fluid.flow.velocity(),
+                    end_time,
+                    parts.geometry.pushed(surface->node_velocities(), fluid.dt));
+    predicted = state.fluid.velocity;
+  }
+
+
+  /// What the fluid does to the bodies besides its reduced pressure [N].
+  template <int dim>
+  typename CoupledStep<dim>::Vector
+  CoupledStep<dim>::loads_at_rest()
+  {
+    surfaces.at_rest = parts.geometry.other_forces(fluid.gravity, end_time);
+    auto result      = parts.models.solid->vector();
+    parts.models.surface->add_to_bodies(result, surfaces.at_rest);
+    return result;
+  }
+
+
+  template <int dim>
+  SolidReport<dim>
+  CoupledStep<dim>::solve()
+  {
+    const auto       timed = parts.timing.section("couple");
+    SolidReport<dim> report;
+    parts.solver.start_step();
+    report.newton = solve_with_openings();
+    report.note   = parts.solver.note();
+    end(report);
+    return report;
+  }
+
+
+  /// Newton's method for u^{n+1} and p, and around it for how fast fluid enters through outflows:
+  /// once or twice, as long as that changes v^{n+1} (see hold_back_entering_flow()).
+  template <int dim>
+  NewtonReport
+  CoupledStep<dim>::solve_with_openings()
+  {
+    constexpr unsigned int most_rounds = 20;
+    constexpr double       tolerance   = 1e-4;
+    NewtonReport           all;
+    for (unsigned int round = 0; round < most_rounds; ++round)
+      {
+        state.fluid.velocity = predicted;
+        pressures.open(state.fluid.velocity);
+        const auto report = round == 0 ? solve_first() : solve_newton(problem, x, newton);
+        all.iterations += report.iterations;
+        all.linear_iterations = report.linear_iterations;
+        all.residuals.insert(all.residuals.end(), report.residuals.begin(), report.residuals.end());
+        pressures.accelerate(state.fluid.velocity, x.block(1));
+        if (pressures.update_entering_flow(state.fluid.velocity) <= tolerance)
+          break;
+      }
+    return all;
+  }
+
+
+  /// From u^n and p^n; if that fails, from bodies that keep their place.
+  template <int dim>
+  NewtonReport
+  CoupledStep<dim>::solve_first()
+  {
+    copy_to_vector(x.block(1), state.fluid.pressure);
+    if (newton.fixed_iterations == 0)
+      try
+        {
+          x.block(0) = equations.guess();
+          return solve_newton(problem, x, newton);
+        }
+      catch (const SolveError &)
+        {
+        }
+    x.block(0) = equations.guess_at_rest();
+    copy_to_vector(x.block(1), state.fluid.pressure);
+    return solve_newton(problem, x, newton);
+  }
+
+
+  /// d^{n+1} from u^{n+1}, and what else follows.
+  template <int dim>
+  void
+  CoupledStep<dim>::end(SolidReport<dim> &report)
+  {
+    const auto &velocity = x.block(0);
+    surface->move(velocity);
+    const auto pressure = pressures.field(x.block(1));
+    surfaces.by_fluid   = surface->nodal_forces(pressure);
+    surfaces.velocities = surface->node_velocities();
+    equations.add_forces(surface->forces(pressure));
+    report.reactions          = equations.reactions(velocity);
+    report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
+    divergence_left           = pressures.divergence(state.fluid.velocity, surface->fluxes());
+    state.fluid.pressure      = pressure;
+    pressures.closed_regions().remove_means(state.fluid.pressure);
+    set_means(state.fluid.pressure, parts.models.fluid->grid());
+    state.solid = equations.end_state(velocity);
+  }
+
+
+  template <int dim>
+  double
+  CoupledStep<dim>::divergence() const
+  {
+    return divergence_left;
+  }
+
+
+  template <int dim>
+  PressureBalance<dim>
+  CoupledStep<dim>::pressure_balance() const
+  {
+    return undine::pressure_balance(*parts.models.fluid,
+                                    predicted,
+                                    state.fluid.velocity,
+                                    pressures.field(x.block(1)),
+                                    pressures.open_faces());
+  }
+
+
+  template <int dim>
+  SurfaceExchange<dim>
+  CoupledStep<dim>::exchange() const
+  {
+    auto result      = surfaces;
+    result.on_bodies = result.by_fluid;
+    auto way         = state.solid.displacement;
+    way.add(-1., old_solid.displacement);
+    result.way = parts.models.surface->with_bodies(
+      way, typename SurfaceExchange<dim>::Vectors(result.by_fluid.size()));
+    return result;
+  }
+
+
+  template <int dim>
+  SolidBalance<dim>
+  CoupledStep<dim>::solid_balance(const SolidReport<dim> &report) const
+  {
+    return equations.balance(x.block(0), report.reactions);
+  }
+
+
+  template class CoupledStep<2>;
+  template class CoupledStep<3>;
+} // namespace undine

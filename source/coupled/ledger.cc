@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/ledger.h>
+#include <undine/fluid/fluid_quantities.h>
+
+#include <cmath>
+
+namespace undine
+{
+  namespace
+  {
+    /// value / scale, 0 / 0 = 0.
+    double
+    relative(const double value, const double scale)
+    {
+      return value == 0 ? 0. : value / scale;
+    }
+  } // namespace
+
+
+  template <int dim>
+  const char *const Ledger<dim>::names[n_terms] = {"transport",
+                                                   "forces",
+                                                   "diffusion",
+                                                   "boundary values",
+                                                   "sides",
+                                                   "openings",
+                                                   "projection",
+                                                   "obstacles",
+                                                   "interface",
+                                                   "fluid at rest",
+                                                   "loads",
+                                                   "supports",
+                                                   "damping",
+                                                   "inertia",
+                                                   "elasticity"};
+
+
+  template <int dim>
+  Ledger<dim>::Ledger(const Models<dim> &models, const bool is_on)
+    : models(models)
+    , on(is_on)
+  {
+  }
+
+
+  template <int dim>
+  void
+  Ledger<dim>::start()
+  {
+    gain   = {};
+    terms  = {};
+    energy = impulse_of_fluid = 0;
+  }
+
+
+  template <int dim>
+  void
+  Ledger<dim>::start(const Velocity<dim> &velocity)
+  {
+    start();
+    if (!on)
+      return;
+    fluid = {kinetic_energy(*models.fluid, velocity), linear_momentum(*models.fluid, velocity)};
+    gain.energy -= fluid.energy;
+    gain.momentum -= fluid.momentum;
+  }
+
+
+  template <int dim>
+  void
+  Ledger<dim>::add(const Phase phase, const Velocity<dim> &velocity)
+  {
+    if (!on)
+      return;
+    const Amount now{kinetic_energy(*models.fluid, velocity),
+                     linear_momentum(*models.fluid, velocity)};
+    terms[phase].energy   = now.energy - fluid.energy;
+    terms[phase].momentum = now.momentum - fluid.momentum;
+    fluid                 = now;
+  }
+
+
+  template <int dim>
+  void
+  Ledger<dim>::add(const PressureBalance<dim> &pressures, const double dt)
+  {
+    terms[by_boundary_values].energy   = pressures.energy_before - fluid.energy;
+    terms[by_boundary_values].momentum = pressures.momentum_before - fluid.momentum;
+    terms[by_sides]                    = {dt * pressures.power_of_sides, -dt * pressures.sides};
+    terms[by_openings]          = {dt * pressures.power_of_openings, -dt * pressures.openings};
+    terms[by_projection].energy = -pressures.loss;
+    gain.energy += pressures.energy_after;
+    gain.momentum += pressures.momentum_before + pressures.momentum;
+    energy += pressures.energy_after;
+  }
+
+
+  template <int dim>
+  void
+  Ledger<dim>::add(const SurfaceExchange<dim> &surfaces, const double dt)
+  {
+    const auto n_nodes = surfaces.by_fluid.size();
+    const auto n_body  = models.surface->n_body_nodes();
+    for (std::size_t node = 0; node < n_nodes; ++node)
+      {
+        const auto  &force = surfaces.by_fluid[node];
+        const double power = force * surfaces.velocities[node];
+        auto        &term  = terms[node < n_body ? by_interface : by_obstacles];
+        term.energy -= dt * power;
+        term.momentum -= dt * force;
+        impulse_of_fluid += dt * force.norm();
+      }
+    for (std::size_t node = 0; node < n_body; ++node)
+      {
+        terms[by_interface].energy += surfaces.on_bodies[node] * surfaces.way[node];
+        terms[by_interface].momentum += dt * surfaces.on_bodies[node];
+        terms[by_fluid_at_rest].energy += surfaces.at_rest[node] * surfaces.way[node];
+        terms[by_fluid_at_rest].momentum += dt * surfaces.at_rest[node];
+      }
+  }
+
+
+  template <int dim>
+  void
+  Ledger<dim>::add(const SolidBalance<dim> &solid, const double dt)
+  {
+    gain.energy += solid.kinetic + solid.elastic;
+    gain.momentum += solid.momentum;
+    energy += std::abs(solid.kinetic) + std::abs(solid.elastic);
+    terms[by_loads]             = {solid.loads, dt * solid.loads_force};
+    terms[by_supports]          = {solid.supports, dt * solid.supports_force};
+    terms[by_damping]           = {-solid.damping, dt * solid.damping_force};
+    terms[by_inertia].energy    = -solid.inertia_loss;
+    terms[by_elasticity].energy = -solid.elastic_loss;
+  }
+
+
+  template <int dim>
+  bool
+  Ledger<dim>::concerns(const unsigned int term) const
+  {
+    if (term < by_obstacles)
+      return models.fluid != nullptr;
+    if (term == by_obstacles)
+      return models.surface && models.surface->surface().n_nodes() > models.surface->n_body_nodes();
+    if (term < by_loads)
+      return models.fluid && models.solid;
+    return models.solid != nullptr;
+  }
+
+
+  template <int dim>
+  typename Ledger<dim>::Amount
+  Ledger<dim>::missing() const
+  {
+    Amount result = gain;
+    for (const auto &term : terms)
+      {
+        result.energy -= term.energy;
+        result.momentum -= term.momentum;
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  Columns
+  Ledger<dim>::columns() const
+  {
+    if (!on)
+      return {};
+    Columns result{{"energy gain", "J", gain.energy}};
+    double  energies = std::abs(energy), impulses = impulse_of_fluid;
+    for (unsigned int term = 0; term < n_terms; ++term)
+      if (concerns(term))
+        {
+          result.push_back({std::string("energy by ") + names[term], "J", terms[term].energy});
+          energies += std::abs(terms[term].energy);
+          if (impulse_of_fluid == 0)
+            impulses += terms[term].momentum.norm();
+        }
+    result.push_back({"energy closure", "1", relative(std::abs(missing().energy), energies)});
+    for (unsigned int term = 0; term < n_terms; ++term)
+      if (concerns(term) && term != by_projection && term < by_inertia)
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          result.push_back({std::string("momentum by ") + names[term] + " " + char('x' + axis),
+                            "kg m/s",
+                            terms[term].momentum[axis]});
+    result.push_back({"momentum closure", "1", relative(missing().momentum.norm(), impulses)});
+    return result;
+  }
+
+
+  template class Ledger<2>;
+  template class Ledger<3>;
+} // namespace undine
