@@ -132,7 +132,8 @@ namespace undine
     const auto &velocity = x.block(0);
     surface->move(velocity);
     const auto pressure = pressures.field(x.block(1));
-    surfaces.by_fluid   = surface->nodal_forces(pressure);
+    surfaces.by_fluid   = parts.geometry.pressure_forces(pressure);
+    surfaces.pushed     = surface->nodal_forces(pressure);
     surfaces.velocities = surface->node_velocities();
     equations.add_forces(surface->forces(pressure));
     report.reactions          = equations.reactions(velocity);
@@ -170,7 +171,7 @@ namespace undine
   CoupledStep<dim>::exchange() const
   {
     auto result      = surfaces;
-    result.on_bodies = result.by_fluid;
+    result.on_bodies = result.pushed;
     auto way         = state.solid.displacement;
     way.add(-1., old_solid.displacement);
     result.way = parts.models.surface->with_bodies(

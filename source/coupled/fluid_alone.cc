@@ -58,6 +58,7 @@ namespace undine
       {
         SurfaceExchange<dim> exchange;
         exchange.by_fluid   = geometry->pressure_forces(state.fluid.pressure);
+        exchange.pushed     = exchange.by_fluid;
         exchange.velocities = geometry->surface_velocities();
         ledger.add(exchange, dt);
       }

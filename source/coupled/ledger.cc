@@ -104,7 +104,7 @@ namespace undine
     for (std::size_t node = 0; node < n_nodes; ++node)
       {
         const auto  &force = surfaces.by_fluid[node];
-        const double power = force * surfaces.velocities[node];
+        const double power = surfaces.pushed[node] * surfaces.velocities[node];
         auto        &term  = terms[node < n_body ? by_interface : by_obstacles];
         term.energy -= dt * power;
         term.momentum -= dt * force;

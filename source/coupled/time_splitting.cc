@@ -75,6 +75,7 @@ namespace undine
         {
           const auto phase  = timing.section("measure");
           exchange.by_fluid = geometry.pressure_forces(state.fluid.pressure);
+          exchange.pushed   = exchange.by_fluid;
           ledger.add(projected.balance(*models.fluid, state.fluid), fluid->dt);
           ledger.add(exchange, fluid->dt);
           ledger.add(*solid.balance, fluid->dt);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/solid/factorisation_work.h>
 #include <undine/solid/rigid_motions.h>
 #include <undine/solid/tangent_multigrid.h>
 
 #include <Teuchos_ParameterList.hpp>
 
 #include <algorithm>
-#include <array>
 
 namespace undine
 {
@@ -16,17 +16,15 @@ namespace undine
     const std::string &choice = model.numerics().linear_solver;
     if (choice != "auto")
       return choice == "direct";
-    // Where a factorisation costs as much as multigrid. Elements with a dilatation of their own
-    // need more iterations: at a Poisson's ratio of 0.48 in 3D both cost the same with 20000
-    // unknowns, at 0.4999 the iteration does not converge.
-    const std::array<unsigned int, 2> most_in_2d_and_3d{{30000, 6000}};
-    const std::array<unsigned int, 2> most_if_separated{{100000, 20000}};
-    const bool                        separated =
+    // Where a factorisation costs as much as multigrid: 30000 unknowns of a square, 6000 of a cube.
+    // Elements with a dilatation of their own need more iterations: at a Poisson's ratio of 0.48 in
+    // 3D both cost the same with 20000 unknowns, at 0.4999 the iteration does not converge.
+    const double most = 7e9, most_if_separated = 8e10;
+    const bool   separated =
       std::any_of(model.bodies().begin(), model.bodies().end(), [](auto &body) {
         return body.kinematics->separates_volumetric_part(*body.material);
       });
-    const auto &most = separated ? most_if_separated : most_in_2d_and_3d;
-    return model.dof_handler().n_dofs() <= most[dim - 2];
+    return factorisation_work(model) <= (separated ? most_if_separated : most);
   }
 
 

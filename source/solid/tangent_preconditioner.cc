@@ -21,6 +21,7 @@ namespace undine
   template <int dim>
   TangentPreconditioner<dim>::TangentPreconditioner(const SolidModel<dim> &model)
     : model(model)
+    , direct(solves_directly(model))
   {
   }
 
@@ -30,7 +31,7 @@ namespace undine
   TangentPreconditioner<dim>::initialize(const Matrix &A, const Vector &displacement)
   {
     multigrid.reset();
-    if (solves_directly(model))
+    if (direct)
       {
         factorisation.factorise(A);
         return;

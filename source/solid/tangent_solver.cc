@@ -15,6 +15,7 @@ namespace undine
   template <int dim>
   TangentSolver<dim>::TangentSolver(const SolidModel<dim> &model)
     : model(model)
+    , direct(solves_directly(model))
     , symmetric(!has_pressure_loads(model))
   {
   }
@@ -24,7 +25,7 @@ namespace undine
   bool
   TangentSolver<dim>::is_direct() const
   {
-    return solves_directly(model) || (gave_up && model.numerics().linear_solver == "auto");
+    return direct || (gave_up && model.numerics().linear_solver == "auto");
   }
 
 

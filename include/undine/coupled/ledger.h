@@ -20,9 +20,10 @@ namespace undine
   {
     using Vectors = std::vector<dealii::Tensor<1, dim>>;
 
-    Vectors by_fluid;   ///< B^T p with the pressure that accelerated the fluid [N]
+    Vectors by_fluid;   ///< B^T p where the grid was cut, the p that accelerated the fluid [N]
+    Vectors pushed;     ///< the same with the B that follows [N]
     Vectors velocities; ///< w, with which the surfaces pushed the fluid: B w [m/s]
-    Vectors on_bodies;  ///< J p that the bodies felt [N]; simultaneously the same as `by_fluid`
+    Vectors on_bodies;  ///< J p that the bodies felt [N]
     Vectors at_rest;    ///< what the fluid did to bodies besides: weight, void regions [N]
     Vectors way;        ///< d^{n+1} - d^n of bodies [m]
   };

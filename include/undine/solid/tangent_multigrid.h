@@ -9,6 +9,7 @@
 namespace undine
 {
   /// Is a factorisation what the key `Linear solver` asks for, or with `auto` the cheaper way?
+  /// Collective.
   template <int dim>
   bool
   solves_directly(const SolidModel<dim> &model);

@@ -41,6 +41,7 @@ namespace undine
     };
 
     const SolidModel<dim>     &model;
+    const bool                 direct;
     mutable Factorisation      factorisation;
     std::unique_ptr<Multigrid> multigrid; ///< nullptr: there are factors
   };

@@ -66,6 +66,7 @@ namespace undine
     iterate(Vector &x, const Matrix &A, const Vector &b, double negligible);
 
     const SolidModel<dim>     &model;
+    const bool                 direct;
     const bool                 symmetric;
     Factorisation              factorisation;
     std::unique_ptr<Multigrid> multigrid;

@@ -9,7 +9,7 @@
 
 namespace undine_tests
 {
-  /// Bodies in a fluid, step by step, by the scheme that the text names.
+  /// Bodies, a fluid or both, step by step, by the scheme that the text names.
   template <int dim>
   struct CoupledRun
   {
@@ -17,15 +17,13 @@ namespace undine_tests
       : options(read_scene_text(text))
       , scheme(options.choose<Scheme<dim>>("Scheme", "simultaneous", ""))
     {
-      models.solid   = std::make_unique<const SolidModel<dim>>(options, MPI_COMM_WORLD);
-      models.fluid   = std::make_unique<const FluidModel<dim>>(options, MPI_COMM_WORLD);
+      if (options.section("Bodies").given())
+        models.solid = std::make_unique<const SolidModel<dim>>(options, MPI_COMM_WORLD);
+      if (options.section("Fluid").given())
+        models.fluid = std::make_unique<const FluidModel<dim>>(options, MPI_COMM_WORLD);
       models.effects = make_effects<dim>(options);
-      models.surface = std::make_unique<const ImmersedSurface<dim>>(
-        options, models.solid.get(), models.fluid->grid());
-      auto voids = std::make_unique<const VoidRegions<dim>>(
-        options, models.fluid->grid(), models.fluid->boundaries());
-      if (!voids->empty())
-        models.void_regions = std::move(voids);
+      if (models.solid && models.fluid)
+        add_surface();
       options.assert_all_used();
       state.clock.end_time = 1e9;
       report               = scheme->initialize(state, models, timing);
@@ -47,6 +45,18 @@ namespace undine_tests
           return column.value;
       FAIL("no column " << name);
       return 0;
+    }
+
+    void
+    add_surface()
+    {
+      const auto &grid = models.fluid->grid();
+      models.surface =
+        std::make_unique<const ImmersedSurface<dim>>(options, models.solid.get(), grid);
+      auto voids =
+        std::make_unique<const VoidRegions<dim>>(options, grid, models.fluid->boundaries());
+      if (!voids->empty())
+        models.void_regions = std::move(voids);
     }
 
     const Options                options;

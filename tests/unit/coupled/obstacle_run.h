@@ -34,7 +34,8 @@ namespace undine_tests
       : options(
           read_scene_text(fluid + section("Obstacles", obstacles) + section("Effects", effects)))
       , models(make_models<dim>(options))
-      , scheme(models, timing)
+      , ledger(models, false)
+      , scheme(models, ledger, timing)
       , dt(dt)
     {
       scheme.initialize(state, dt, report);
@@ -85,6 +86,7 @@ namespace undine_tests
     const Options   options;
     Models<dim>     models;
     TimingTree      timing;
+    Ledger<dim>     ledger;
     FluidAlone<dim> scheme;
     State<dim>      state;
     Report          report;
