@@ -108,6 +108,17 @@ namespace undine
 
 
   template <int dim>
+  PushedVolume
+  FluidGeometry<dim>::pushed_at_start(const double dt) const
+  {
+    auto       result     = pushed(dt);
+    const auto areas      = wetted_areas(cells, surface.surface(), surface.n_body_nodes());
+    result.yielding_areas = parts.of_open_parts(areas);
+    return result;
+  }
+
+
+  template <int dim>
   typename FluidGeometry<dim>::Velocities
   FluidGeometry<dim>::pressure_forces(const Field<dim> &pressure) const
   {

@@ -53,8 +53,8 @@ namespace undine
     state.fluid       = model.initial_state(bodies().open_parts);
     for (const auto &effect : models.effects)
       effect->initialize(model, state.fluid);
-    const auto projected =
-      projection.make_divergence_free(state.fluid, time, cut ? cut->pushed(dt) : PushedVolume());
+    const auto projected = projection.make_divergence_free(
+      state.fluid, time, cut ? cut->pushed_at_start(dt) : PushedVolume());
     report.linear_iterations += projected.iterations;
     if (cut)
       {

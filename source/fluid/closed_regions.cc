@@ -220,15 +220,24 @@ namespace undine
       held[axis] = Field<dim>(velocity[axis].shared_lattice(), velocity[axis].open_parts());
     set_boundary_velocity(held, model, time);
     exchange(held);
-    const auto          fluxes     = divergence(model, held);
-    const auto          boundaries = sums_of(fluxes, [](const double flux) { return flux; });
-    const auto          sizes  = sums_of(fluxes, [](const double flux) { return std::abs(flux); });
-    const auto          bodies = sums_on_components(pushed.fluxes);
-    const auto          uncertainty = sums_on_components(pushed.uncertainties);
+    const auto fluxes      = divergence(model, held);
+    const auto boundaries  = sums_of(fluxes, [](const double flux) { return flux; });
+    const auto sizes       = sums_of(fluxes, [](const double flux) { return std::abs(flux); });
+    const auto bodies      = sums_on_components(pushed.fluxes);
+    const auto uncertainty = sums_on_components(pushed.uncertainties);
+    auto       areas       = pushed.yielding_areas;
+    areas.resize(pushed.fluxes.size(), 0.);
+    const auto          yielding = sums_on_components(areas);
     std::vector<double> shares(boundaries.size(), 0.); // of the uncertainties
+    std::vector<double> speeds(boundaries.size(), 0.); // at which surfaces yield
     for (std::size_t region = 0; region < shares.size(); ++region)
       {
         const double sum = boundaries[region] + bodies[region];
+        if (yielding[region] > 0)
+          {
+            speeds[region] = sum / yielding[region];
+            continue;
+          }
         if (std::abs(sum) > 1e-8 * sizes[region] + uncertainty[region])
           throw InputError(fmt::format(
             "{}: at {:.6g} s {:.6g} m^{}/s in sum flow out of {}. Likely an obstacle grows or "
@@ -246,9 +255,11 @@ namespace undine
     const auto which  = regions_of_pressures();
     auto       result = pushed.fluxes;
     for (std::size_t c = 0; c < result.size(); ++c)
-      if (const double uncertain = pushed.uncertainties[c]; uncertain > 0)
-        if (const int region = static_cast<int>(which.parts()[c]); region != open_region)
-          result[c] -= shares[region] * uncertain;
+      if (const int region = static_cast<int>(which.parts()[c]); region != open_region)
+        {
+          result[c] -= shares[region] * pushed.uncertainties[c];
+          result[c] -= speeds[region] * areas[c];
+        }
     return result;
   }
 

@@ -6,29 +6,6 @@
 
 namespace undine
 {
-  namespace
-  {
-    /// a n on a face or piece of a side [m^(dim-1)].
-    template <int dim>
-    double
-    signed_area(const MacGrid<dim> &grid, const OpenParts<dim> *open, const SideFace<dim> &face)
-    {
-      const unsigned int axis = face.side.axis;
-      return face.side.sign() * (face.piece < 0 ? grid.face_area(axis, face.face)
-                                                : open->faces[axis].all()[face.piece].measure);
-    }
-
-
-    template <int dim>
-    double
-    value_on(const Velocity<dim> &velocity, const SideFace<dim> &face)
-    {
-      const auto &component = velocity[face.side.axis];
-      return face.piece < 0 ? component(face.face) : component.parts()[face.piece];
-    }
-  } // namespace
-
-
   template <int dim>
   PressureBalance<dim>
   pressure_balance(const FluidModel<dim>            &model,
@@ -50,9 +27,9 @@ namespace undine
     });
     for (const auto &opening : openings)
       {
-        const double force = opening.pressure * signed_area<dim>(grid, open, opening);
+        const double force = opening.pressure * signed_area(grid, open, opening);
         result.openings[opening.side.axis] += force;
-        result.power_of_openings -= force * value_on<dim>(after, opening);
+        result.power_of_openings -= force * value_on(after, opening);
       }
     const auto communicator  = grid.communicator();
     result.sides             = dealii::Utilities::MPI::sum(result.sides, communicator);

@@ -36,6 +36,33 @@ namespace undine
 
 
   template <int dim>
+  double
+  signed_area(const MacGrid<dim> &grid, const OpenParts<dim> *open_parts, const SideFace<dim> &face)
+  {
+    const unsigned int axis = face.side.axis;
+    return face.side.sign() * (face.piece < 0 ? grid.face_area(axis, face.face)
+                                              : open_parts->faces[axis].all()[face.piece].measure);
+  }
+
+
+  template <int dim>
+  double
+  value_on(const Velocity<dim> &velocity, const SideFace<dim> &face)
+  {
+    const auto &component = velocity[face.side.axis];
+    return face.piece < 0 ? component(face.face) : component.parts()[face.piece];
+  }
+
+
+  template <int dim>
+  double
+  outward_flux(const MacGrid<dim> &grid, const Velocity<dim> &velocity, const SideFace<dim> &face)
+  {
+    return signed_area(grid, velocity.open_parts(), face) * value_on(velocity, face);
+  }
+
+
+  template <int dim>
   PressurePlace<dim>
   place_inside(const OpenParts<dim> *open_parts, const SideFace<dim> &face)
   {
@@ -212,6 +239,11 @@ namespace undine
 #define INSTANTIATE(dim)                                                                   \
   template std::vector<OpenFace<dim>> open_faces(                                          \
     const FluidModel<dim> &, const Velocity<dim> &, const OpenParts<dim> *, const double); \
+  template double signed_area(                                                             \
+    const MacGrid<dim> &, const OpenParts<dim> *, const SideFace<dim> &);                  \
+  template double value_on(const Velocity<dim> &, const SideFace<dim> &);                  \
+  template double outward_flux(                                                            \
+    const MacGrid<dim> &, const Velocity<dim> &, const SideFace<dim> &);                   \
   template PressurePlace<dim> place_inside(const OpenParts<dim> *, const SideFace<dim> &); \
   template Field<dim>         divergence(const FluidModel<dim> &, const Velocity<dim> &);  \
   template Velocity<dim>      pressure_acceleration(                                       \

@@ -164,6 +164,19 @@ namespace undine
 
 
   template <int dim>
+  std::vector<double>
+  wetted_areas(const CutCells<dim> &cut, const Surface<dim> &surface, const std::size_t n_nodes)
+  {
+    std::vector<double> result(cut.components.size(), 0.);
+    for_each_wet_fragment(cut, [&](const auto &fragment) {
+      if (surface.facets()[fragment.facet][0] < n_nodes)
+        result[fragment.component] += fragment.area_vector.norm();
+    });
+    return result;
+  }
+
+
+  template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   nodal_forces(const BoundaryFlux<dim>   &boundary_flux,
                const std::vector<double> &pressures,
@@ -205,6 +218,8 @@ namespace undine
                                       const CutParts<dim> &, const Surface<dim> &,                 \
                                       const std::vector<dealii::Tensor<1, dim>> &,                 \
                                       const StepAccuracy &);                                       \
+  template std::vector<double> wetted_areas(const CutCells<dim> &, const Surface<dim> &,           \
+                                            const std::size_t);                                    \
   template std::vector<dealii::Tensor<1, dim>> nodal_forces(const BoundaryFlux<dim> &,             \
                                                             const std::vector<double> &, MPI_Comm);\
   template std::vector<dealii::Tensor<1, dim>> gravity_loads(                                      \

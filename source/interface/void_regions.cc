@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/interface/pressure_place_at.h>
 #include <undine/interface/void_regions.h>
 #include <undine/solid/throw_together.h>
 
@@ -83,26 +84,18 @@ namespace undine
                                   const OpenParts<dim>   &open,
                                   const Obstruction<dim> &obstruction) const
   {
-    using Kind        = typename LatticeParts<dim>::Kind;
-    const auto cell   = grid.cell_at(region.seed);
-    const auto advice = [&](const std::string &what) {
-      return SolveError(fmt::format("The seed of the void region '{}' at {} {}. Try: a seed "
-                                    "farther away from the bodies, or a smaller time step.",
-                                    region.name,
-                                    place(region.seed),
-                                    what));
-    };
-    if (open.cells.kind(cell) == Kind::closed)
-      throw advice("lies in a body");
-    if (open.cells.kind(cell) == Kind::whole)
-      return {cell, -1};
-    std::vector<int> visible;
-    for (int c = open.cells.first(cell); c < open.cells.last(cell); ++c)
-      if (obstruction.first_hit(region.seed, open.cells.all()[c].place) > 1)
-        visible.push_back(c);
-    if (visible.size() != 1)
-      throw advice("lies in a body or too near to one to tell on which side");
-    return {cell, visible[0]};
+    try
+      {
+        return pressure_place_at(region.seed, grid, &open, &obstruction);
+      }
+    catch (const SolveError &error)
+      {
+        throw SolveError(fmt::format("The seed of the void region '{}' at {} {}. Try: a seed "
+                                     "farther away from the bodies, or a smaller time step.",
+                                     region.name,
+                                     place(region.seed),
+                                     error.what()));
+      }
   }
 
 

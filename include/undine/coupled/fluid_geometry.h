@@ -88,6 +88,11 @@ namespace undine
     pushed(double dt) const;
     /// @}
 
+    /// The same at the start of a run, when nothing has pushed yet: bodies that close a chamber are
+    /// taken to yield at once to what flows in.
+    PushedVolume
+    pushed_at_start(double dt) const;
+
     /// In all nodes the forces of the fluid's reduced pressure, J p = B^T p [N]. Collective.
     Velocities
     pressure_forces(const Field<dim> &pressure) const;

@@ -37,8 +37,9 @@ namespace undine
     }
 
     /// The fluxes pushed by bodies, changed within their uncertainties so that the volume of each
-    /// closed region is kept. Throws InputError if more than that enters or leaves one: through
-    /// held faces of `velocity`, or pushed by bodies. Collective.
+    /// closed region is kept; where surfaces yield, they move as far as that takes. Throws
+    /// InputError if more enters or leaves a region: through held faces of `velocity`, or pushed by
+    /// bodies. Collective.
     std::vector<double>
     balanced_fluxes(const Velocity<dim> &velocity,
                     const PushedVolume  &pushed,

@@ -54,6 +54,23 @@ namespace undine
         }
   }
 
+  /// a n along the axis [m^(dim-1)].
+  template <int dim>
+  double
+  signed_area(const MacGrid<dim>   &grid,
+              const OpenParts<dim> *open_parts,
+              const SideFace<dim>  &face);
+
+  /// The velocity along the axis [m/s].
+  template <int dim>
+  double
+  value_on(const Velocity<dim> &velocity, const SideFace<dim> &face);
+
+  /// a v.n [m^dim/s].
+  template <int dim>
+  double
+  outward_flux(const MacGrid<dim> &grid, const Velocity<dim> &velocity, const SideFace<dim> &face);
+
   /// One through which fluid may leave or enter freely.
   template <int dim>
   struct OpenFace : SideFace<dim>

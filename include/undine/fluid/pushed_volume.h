@@ -23,7 +23,12 @@ namespace undine
     std::vector<double>      uncertainties; ///< of these, by rounding [m^dim/s]
     std::vector<Part>        parts;         ///< of which they are the sums
     std::vector<std::string> bodies;        ///< what messages call them
-    std::string              scene;         ///< name of the file
+
+    /// Of the surfaces around each component those that will yield to pressure [m^(dim-1)]; empty:
+    /// none will.
+    std::vector<double> yielding_areas;
+
+    std::string scene; ///< name of the file
   };
 } // namespace undine
 

@@ -90,6 +90,12 @@ namespace undine
                 const std::vector<dealii::Tensor<1, dim>> &velocities,
                 const StepAccuracy                        &accuracy);
 
+  /// Of the surface around each component of the cut cells the area of facets of the first
+  /// `n_nodes` nodes [m^(dim-1)].
+  template <int dim>
+  std::vector<double>
+  wetted_areas(const CutCells<dim> &cut, const Surface<dim> &surface, const std::size_t n_nodes);
+
   /// B^T p in all nodes of the surface, on all ranks, given a number for each of cut.components.
   /// Collective.
   template <int dim>

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_chamber_h
+#define undine_coupled_chamber_h
+
+#include <undine/coupled/models.h>
+#include <undine/coupled/state.h>
+
+namespace undine
+{
+  /// A region of fluid: all that one reaches from a place without crossing a body or an obstacle.
+  struct Chamber
+  {
+    double volume = 0; ///< now [m^dim]
+    double inflow = 0; ///< through boundaries of the domain, in the step that led here [m^dim/s]
+  };
+
+  /// The one around `point`, of bodies that stand where `state` has them. Cuts the grid.
+  /// Collective. Throws SolveError, whose message begins with "lies", if the point is not in the
+  /// fluid.
+  template <int dim>
+  Chamber
+  measure_chamber(const Models<dim>        &models,
+                  const State<dim>         &state,
+                  const dealii::Point<dim> &point);
+} // namespace undine
+
+#endif

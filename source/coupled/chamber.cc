@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/chamber.h>
+#include <undine/coupled/fluid_geometry.h>
+#include <undine/fluid/fluid_regions.h>
+#include <undine/fluid/pressure_gradient.h>
+#include <undine/interface/pressure_place_at.h>
+#include <undine/solid/throw_together.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// For each owned pressure, in the order of its number: is it in the region around the point?
+    template <int dim>
+    std::vector<bool>
+    region_around(const dealii::Point<dim>         &point,
+                  const MacGrid<dim>               &grid,
+                  const PressureNumbers<dim>       &numbers,
+                  const typename Flow<dim>::Bodies &bodies)
+    {
+      const FluidRegions<dim> regions(grid, numbers);
+      int                     found = -1;
+      std::string             complaint;
+      if (grid.cells()->owned().contains(grid.cell_at(point)))
+        try
+          {
+            const auto place =
+              pressure_place_at(point, grid, bodies.open_parts.get(), bodies.obstruction);
+            found = regions.of_pressures()[numbers.owned().index_within_set(numbers.of(place))];
+          }
+        catch (const SolveError &error)
+          {
+            complaint = error.what();
+          }
+      throw_together(complaint, grid.communicator());
+      found = dealii::Utilities::MPI::max(found, grid.communicator());
+      std::vector<bool> result;
+      for (const unsigned int region : regions.of_pressures())
+        result.push_back(static_cast<int>(region) == found);
+      return result;
+    }
+
+
+    template <int dim>
+    double
+    volume_around(const dealii::Point<dim>         &point,
+                  const MacGrid<dim>               &grid,
+                  const typename Flow<dim>::Bodies &bodies)
+    {
+      const PressureNumbers<dim> numbers(grid, bodies.open_parts);
+      const auto                 is_in = region_around(point, grid, numbers, bodies);
+      Field<dim>                 volumes(grid.cells(), bodies.open_parts);
+      set_volumes(volumes, grid);
+      std::size_t k   = 0;
+      double      sum = 0;
+      for_each_value(volumes, [&](const double volume, const auto &, const auto &) {
+        sum += is_in[k++] ? volume : 0;
+      });
+      return dealii::Utilities::MPI::sum(sum, grid.communicator());
+    }
+
+
+    template <int dim>
+    double
+    inflow_around(const dealii::Point<dim>         &point,
+                  const FluidModel<dim>            &model,
+                  const typename Flow<dim>::Bodies &bodies,
+                  const Velocity<dim>              &velocity)
+    {
+      const auto                &grid = model.grid();
+      const PressureNumbers<dim> numbers(grid, bodies.open_parts);
+      const auto                 is_in = region_around(point, grid, numbers, bodies);
+      const auto                *open  = bodies.open_parts.get();
+      double                     sum   = 0;
+      for_each_side_face(model, open, [&](const SideFace<dim> &face, const auto &) {
+        const auto number = numbers.of(place_inside(open, face));
+        if (is_in[numbers.owned().index_within_set(number)])
+          sum -= outward_flux(grid, velocity, face);
+      });
+      return dealii::Utilities::MPI::sum(sum, grid.communicator());
+    }
+  } // namespace
+
+
+  template <int dim>
+  Chamber
+  measure_chamber(const Models<dim>        &models,
+                  const State<dim>         &state,
+                  const dealii::Point<dim> &point)
+  {
+    const auto &model = *models.fluid;
+    if (!models.surface)
+      return {volume_around<dim>(point, model.grid(), {}),
+              inflow_around<dim>(point, model, {}, state.fluid.velocity)};
+    using Velocities = typename FluidGeometry<dim>::Velocities;
+    FluidGeometry<dim> geometry(models);
+    const auto         now = models.surface->positions(state.solid, state.clock.time);
+    geometry.place(now, now, Velocities(now.size()));
+    const double volume = volume_around(point, model.grid(), geometry.bodies());
+    // The velocity belongs to where the grid was cut for it.
+    const auto before = geometry_of(models, state);
+    return {volume, inflow_around(point, model, before->bodies(), state.fluid.velocity)};
+  }
+
+
+  template Chamber
+  measure_chamber(const Models<2> &, const State<2> &, const dealii::Point<2> &);
+  template Chamber
+  measure_chamber(const Models<3> &, const State<3> &, const dealii::Point<3> &);
+} // namespace undine

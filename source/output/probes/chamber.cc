@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/chamber.h>
+#include <undine/output/probe.h>
+
+namespace undine
+{
+  /// The fluid around a place up to bodies, obstacles and the sides of the domain: its volume
+  /// [m^dim], and what flows in through the domain's boundaries [m^dim/s].
+  template <int dim>
+  class ChamberProbe : public Probe<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override
+    {
+      options.require("Point",
+                      point,
+                      "m",
+                      Allowed::anything(),
+                      "A place that always lies in the chamber, not in a body.");
+    }
+
+    void
+    start(const std::string &probe_name, const Options &options, const Models<dim> &models) override
+    {
+      name = probe_name;
+      if (!models.fluid)
+        throw options.error("Kind", "the scene has no fluid", "Try: remove the probe.");
+      const auto &grid = models.fluid->grid();
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        if (!(point[axis] > grid.lower()[axis] && point[axis] < grid.upper()[axis]))
+          throw options.error("Point", "lies outside the domain", "Try: a place inside.");
+    }
+
+    Columns
+    columns(const Models<dim> &models, const State<dim> &state) const override
+    try
+      {
+        const auto chamber = measure_chamber(models, state, point);
+        const auto unit    = "m^" + std::to_string(dim);
+        return {{name + " volume", unit, chamber.volume},
+                {name + " inflow", unit + "/s", chamber.inflow}};
+      }
+    catch (const SolveError &error)
+      {
+        throw SolveError("The point of the probe '" + name + "' " + error.what() +
+                         ". Try: a place farther away from the bodies.");
+      }
+
+  private:
+    std::string        name;
+    dealii::Point<dim> point;
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Probe, ChamberProbe>
+      chamber("chamber", "volume of the fluid around a place, and what flows into it");
+  }
+} // namespace undine
