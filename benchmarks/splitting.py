@@ -6,7 +6,7 @@ usage: benchmarks/splitting.py [PROGRAM] [--out DIR] [--quick]
 
 Writes splitting.md (tables) and splitting.png (energies over time) to DIR (default: .);
 doc/splitting.md holds those of one machine. --quick leaves out the shortest steps and the search.
-Needs the Debian package python3-matplotlib. All runs: one rank, one at a time, about an hour in all.
+Needs the Debian package python3-matplotlib. One rank, one run at a time: about half an hour, with --quick some minutes.
 """
 import argparse
 import os
@@ -15,6 +15,7 @@ import resource
 import subprocess
 import sys
 import tempfile
+import textwrap
 from dataclasses import dataclass
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -26,6 +27,7 @@ SCHEMES = {"simultaneous": ["Scheme=simultaneous"],
            "splitting u": ["Scheme=time_splitting", "Coupling/Fluid driven by=velocity"],
            "splitting w": ["Scheme=time_splitting", "Coupling/Fluid driven by=displacement"]}
 STEPS = [30, 60, 120, 480]  # in a second
+QUICK = STEPS[:3]
 SHAKING = 10  # times the largest kinetic energy of the reference
 
 
@@ -52,17 +54,18 @@ def stiff_sheets(density, modulus, damping, theta, newton, speed):
 
 # Letter: (what, end, assignments)
 CASES = {
-    "A": ("stiff sheets, 100 kg/m³, 9.5e7 Pa, jet of 4 m/s from rest", 2.5,
+    "A": ("stiff sheets, 100 kg/m³, 9.5e7 Pa, jet of 4 m/s from rest, theta 0.55", 2.5,
           stiff_sheets(100, 9.5e7, 2e-4, 0.55, 3, "4")),
-    "B": ("stiff light sheets, 24.1 kg/m³, 7.7e7 Pa, jet up to 2 m/s within 0.3 s, hardly damped", 8,
+    "B": ("stiff light sheets, 24.1 kg/m³, 7.7e7 Pa, jet up to 2 m/s within 0.3 s, theta 0.505", 8,
           stiff_sheets(24.1, 7.7e7, 1e-3, 0.505, 4, "2*min(t/0.3,1)")),
-    "C": ("light sheets, 10 kg/m³, 3e6 Pa, the scene as it is", 3, []),
-    "D": ("rubber in water, 1100 kg/m³ against 1000, 1e8 Pa, jet of 1 m/s", 3,
+    "C": ("light sheets, 10 kg/m³, 3e6 Pa, jet of 4 m/s from rest, theta 0.75: the scene", 3, []),
+    "D": ("rubber in water, 1100 kg/m³ against 1000, 1e8 Pa, jet of 1 m/s from rest, theta 0.75", 3,
           air_and_sheets(1100, 1e8, "1") + ["Fluid/Density=1000"]),
 }
-HEAVY = ("heavy soft sheets, density ratio 10000, 5e5 Pa, jet of 0.5 m/s", 8,
+HEAVY = ("heavy soft sheets, density ratio 10000, 5e5 Pa, jet of 0.5 m/s, theta 0.75", 8,
          air_and_sheets(12000, 5e5, "0.5"))
-SEARCH = [(density, modulus) for modulus in (3e5, 3e6) for density in (1, 3, 10, 25, 100)]
+SEARCH = [(density, modulus) for modulus in (3e5, 3e6) for density in (3, 10, 25, 100)]
+THETAS = (0.6, 0.75)
 
 
 @dataclass
@@ -94,10 +97,12 @@ class Run:
 
 
 def complaint(text):
-    """First clause of the program's message."""
-    error = re.search(r"Error: (.*?)(?=\n\S*The state|\Z)", text, re.S)[1].replace("\n", " ")
-    error = re.sub(r"^.*?the last one of [^:]*: ", "", error)
-    return re.split(r"\. |: (?=\d)|; ", re.sub(r"^.*?\.prm: at [\d.e+-]+ s ", "", error))[0][:90]
+    """The program's message, shortened: why a step failed, without which one and where in the body."""
+    error = re.search(r"Error: (.*?)(?=\n\S*The state|\Z)", text, re.S)[1]
+    for preamble in (r".*?the last one of [^:]*: ", r".*?\.prm: at [\d.e+-]+ s ",
+                     r"body .*?the point that rests at .*?: "):
+        error = re.sub("^" + preamble, "", error, flags=re.S)
+    return textwrap.shorten(re.split(r"[.:;] ", error)[0], 64, placeholder=" …")
 
 
 def run(program, scheme, per_second, end, assignments):
@@ -192,7 +197,7 @@ def plot(results, file):
 def differences(program):
     """Tips of heavy sheets by the three schemes at three steps; the reference is simultaneous."""
     title, end, assignments = HEAVY
-    steps = STEPS[:3]
+    steps = QUICK
     runs = runs_of(program, end, assignments, SCHEMES, steps)
     lines = ["", f"## Heavy sheets: {title}, {end} s", "",
              "Largest difference between the tips' displacements at the times that all runs share, over the "
@@ -215,19 +220,21 @@ def differences(program):
 
 def search(program):
     """The scene with other densities and moduli; what stops, and when."""
-    steps = STEPS
     lines = ["", "## A search", "", "The scene with other sheets, 2.5 s: the verdict, and when a run stopped.", "",
-             "| density [kg/m³] | modulus [Pa] | simultaneous, 1/30 | " +
-             " | ".join(f"{variant}, 1/{step}" for variant in "uw" for step in steps) + " |",
-             "|---" * (3 + 2 * len(steps)) + "|"]
-    for density, modulus in SEARCH:
-        assignments = air_and_sheets(density, modulus)
-        runs = runs_of(program, 2.5, assignments, ["simultaneous"], STEPS[:1])
-        reference = next(iter(runs.values()))
-        runs.update(runs_of(program, 2.5, assignments, list(SCHEMES)[1:], steps))
-        words = [verdict(this, reference) + (f" {this.last_time():.2f} s" if this.complaint else "")
-                 for this in runs.values()]
-        lines.append(f"| {density} | {modulus:g} | " + " | ".join(words) + " |")
+             "| theta | density [kg/m³] | modulus [Pa] | simultaneous, 1/30 | " +
+             " | ".join(f"{variant}, 1/{step}" for variant in "uw" for step in QUICK) + " |",
+             "|---" * (4 + 2 * len(QUICK)) + "|"]
+    for theta in THETAS:
+        for density, modulus in SEARCH:
+            assignments = air_and_sheets(density, modulus) + [f"Solid numerics/Theta={theta}"]
+            runs = runs_of(program, 2.5, assignments, ["simultaneous"], STEPS[:1])
+            reference = next(iter(runs.values()))
+            if not reference.complaint:
+                runs.update(runs_of(program, 2.5, assignments, list(SCHEMES)[1:], QUICK))
+            words = [verdict(this, reference) + (f" {this.last_time():.2f} s" if this.complaint else "")
+                     for this in runs.values()]
+            words += [""] * (1 + 2 * len(QUICK) - len(words))
+            lines.append(f"| {theta} | {density} | {modulus:g} | " + " | ".join(words) + " |")
     return lines
 
 
@@ -247,7 +254,7 @@ def main():
     for letter, (title, end, assignments) in CASES.items():
         print(f"case {letter}", file=sys.stderr)
         runs = runs_of(options.program, end, assignments, SCHEMES,
-                       STEPS[:3] if options.quick else STEPS)
+                       QUICK if options.quick else STEPS)
         reference = [this for (scheme, _), this in runs.items() if scheme == "simultaneous"][-1]
         lines += ["", f"## Case {letter}: {title}, {end} s", ""] + table(runs, reference)
         lines += cheapest(runs, reference)
