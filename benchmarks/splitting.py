@@ -147,42 +147,46 @@ def table(runs, reference):
              "| factor per step | tip at the end [m] | s per simulated s | what the program says |",
              "|---" * 10 + "|"]
     for (scheme, per_second), this in runs.items():
+        seconds = "" if this.complaint else f"{this.seconds:.2f}"
         lines.append(f"| {scheme} | 1/{per_second} | {verdict(this, reference)} | {this.last_time():.3f} "
-                     f"| {max(this.kinetic()):.1e} | {this.last_quarter():.1e} | {this.growth():.3f} "
-                     f"| {this.columns['first_tip displacement x'][-1]:.4f} | {this.seconds:.1f} "
+                     f"| {max(this.kinetic()):.1e} | {this.last_quarter():.1e} | {this.growth():#.4g} "
+                     f"| {this.columns['first_tip displacement x'][-1]:.4f} | {seconds} "
                      f"| {this.complaint} |")
     return lines
 
 
 def cheapest(runs, reference):
     """What each scheme costs at the largest step that holds."""
-    lines = ["", "| scheme | largest step that holds [s] | s per simulated s |", "|---|---|---|"]
+    lines = ["", "| scheme | steps that hold [s] | s per simulated s at the largest |", "|---|---|---|"]
     for scheme in SCHEMES:
         held = [(per_second, this) for (name, per_second), this in runs.items()
                 if name == scheme and verdict(this, reference) == "holds"]
-        lines.append(f"| {scheme} | 1/{held[0][0]} | {held[0][1].seconds:.1f} |" if held
-                     else f"| {scheme} | none of these | |")
+        lines.append(f"| {scheme} | " + (", ".join(f"1/{per_second}" for per_second, _ in held) +
+                                        f" | {held[0][1].seconds:.2f} |" if held else "none | |"))
     return lines
 
 
 def plot(results, file):
     import matplotlib
     matplotlib.use("Agg")
+    from PIL import Image
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(len(results), len(SCHEMES), figsize=(11, 2.6 * len(results)),
                                    sharey="row", sharex="row", squeeze=False)
     for row, (letter, runs) in zip(axes, results.items()):
         peak = max(runs["simultaneous", STEPS[0]].kinetic())
         row[0].set_ylim(1e-6 * peak, 1e7 * peak)
-        row[0].set_ylabel(f"case {letter}\nenergy of the sheets [J]")
+        row[0].set_ylabel(f"case {letter}\nenergy [J]")
         for axis, scheme in zip(row, SCHEMES):
             axis.set_title(scheme if letter == next(iter(results)) else "", fontsize=10)
             axis.set_yscale("log")
             for colour, (key, this) in enumerate((key, this) for key, this in runs.items()
                                                  if key[0] == scheme):
-                times = this.columns["Time"]
-                axis.plot(times, this.kinetic(), color=f"C{colour}", lw=1, label=f"1/{key[1]} s")
-                axis.plot(times, this.columns["solid elastic energy"], color=f"C{colour}", lw=0.6, ls=":")
+                times = this.columns["Time"][1:]
+                axis.plot(times, this.kinetic()[1:], color=f"C{colour}", lw=1,
+                          label=f"1/{key[1]} s")
+                axis.plot(times, this.columns["solid elastic energy"][1:], color=f"C{colour}",
+                          lw=0.7, ls=":")
                 if this.complaint:
                     axis.plot(times[-1], min(this.kinetic()[-1], 0.5e7 * peak), "x",
                               color=f"C{colour}", ms=8, mew=2)
@@ -190,8 +194,10 @@ def plot(results, file):
     axes[0][0].legend(fontsize=8, ncol=2)
     for axis in axes[-1]:
         axis.set_xlabel("time [s]")
+    figure.suptitle("energies of the sheets: kinetic (full), elastic (dotted); x: the run stops", fontsize=10)
     figure.tight_layout()
     figure.savefig(file, dpi=75)
+    Image.open(file).convert("RGB").quantize(64).save(file, optimize=True)
 
 
 def differences(program):
@@ -201,7 +207,7 @@ def differences(program):
     runs = runs_of(program, end, assignments, SCHEMES, steps)
     lines = ["", f"## Heavy sheets: {title}, {end} s", "",
              "Largest difference between the tips' displacements at the times that all runs share, over the "
-             "largest displacement.", "",
+             "largest displacement of that tip.", "",
              "| tip | schemes | " + " | ".join(f"1/{step} s" for step in steps) + " | ratios |",
              "|---" * (3 + len(steps)) + "|"]
     names = list(SCHEMES)
