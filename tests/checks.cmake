@@ -17,6 +17,11 @@ add_test(NAME malformed/scenes
                  $<TARGET_FILE:undine> ${CMAKE_CURRENT_SOURCE_DIR}/malformed)
 set_tests_properties(malformed/scenes PROPERTIES TIMEOUT 600)
 
+add_test(NAME runs/splitting
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_splitting.py $<TARGET_FILE:undine>
+                 ${PROJECT_SOURCE_DIR}/prm/jet_two_sheets_split_2d.prm)
+set_tests_properties(runs/splitting PROPERTIES TIMEOUT 300)
+
 # Pictures need packages that the program does not: without them the test is skipped.
 add_test(NAME contrib/render
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_render.py ${PROJECT_SOURCE_DIR}/contrib/render
