@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
 #include <undine/coupled/fluid_side.h>
 #include <undine/coupled/stepping_scheme.h>
 #include <undine/solid/solid_columns.h>
@@ -60,17 +61,9 @@ namespace undine
       const auto solid =
         solid_step.step(state.solid, environment, fluid->time, fluid->dt, timing, forces);
       way.sadd(-1, 1, state.solid.displacement);
-      exchange.way        = models.surface->with_bodies(way, still());
-      exchange.velocities = node_velocities(state, exchange.way, fluid->dt);
-      typename Projection<dim>::Report projected;
-      {
-        const auto phase = timing.section("project");
-        projected        = projection.project(state.fluid,
-                                       fluid->flow.velocity(),
-                                       end,
-                                       fluid->dt,
-                                       geometry.pushed(exchange.velocities, fluid->dt));
-      }
+      exchange.way         = models.surface->with_bodies(way, still());
+      exchange.velocities  = node_velocities(state, exchange.way, fluid->dt);
+      const auto projected = project(state, *fluid, exchange.velocities);
       if (ledger.is_on())
         {
           const auto phase  = timing.section("measure");
@@ -89,6 +82,25 @@ namespace undine
 
   private:
     using Vectors = typename SurfaceExchange<dim>::Vectors;
+
+    /// Throws SolveError where bodies close off fluid, whose volume their motion does not keep.
+    typename Projection<dim>::Report
+    project(State<dim> &state, const FluidStep<dim> &fluid, const Vectors &velocities)
+    try
+      {
+        const auto phase = timing.section("project");
+        return projection.project(state.fluid,
+                                  fluid.flow.velocity(),
+                                  fluid.time + fluid.dt,
+                                  fluid.dt,
+                                  fluid_side.geometry()->pushed(velocities, fluid.dt));
+      }
+    catch (const InputError &error)
+      {
+        throw SolveError(std::string(error.what()) +
+                         " If bodies close this part off, time splitting has no solution. Try: "
+                         "'Scheme = simultaneous'.");
+      }
 
     /// Zero in all nodes of surfaces.
     Vectors
