@@ -54,7 +54,7 @@ TEST_CASE("A plate under water bends as under its pressure and stays at rest", "
       inflow -= run.report.dt * run.column("Flux through surface");
     }
 
-  // Bodies alone, pressed by rho g times the depth of the bent plate:
+  // The plate alone, pressed by rho g times the depth of the bent plate:
   // benchmarks/hydrostatic_plate.py.
   const double same_mesh = -.0206931, converged = -.020829;
   CHECK(deflection(run) == Approx(same_mesh).epsilon(1e-4));
@@ -71,7 +71,7 @@ TEST_CASE("A plate under water bends as under its pressure and stays at rest", "
   for (unsigned int n = 0; n < 20; ++n)
     {
       later.step();
-      CHECK(later.column("max speed plate") <= 1e-10);
+      CHECK(later.column("max speed plate") <= 1e-8);
       CHECK(later.column("Fluid largest speed") <= 2e-6);
     }
   CHECK(deflection(later) == Approx(rest).epsilon(1e-10));
