@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A run of many steps is the same on 1, 2, 3 and 4 ranks to 1e-8 if its solvers are exact.
 
-usage: check_ranks.py PROGRAM SCENE.prm
+usage: check_ranks.py PROGRAM SCENE.prm [Section/Key=value]...
 """
 import os
 import sys
@@ -18,7 +18,8 @@ SETTINGS = (f"Time/Maximum steps={STEPS}", "Output/Parts=statistics",
 
 def main():
     program, scene = sys.argv[1:3]
-    arguments = [word for setting in SETTINGS for word in ("--set", setting)]
+    settings = SETTINGS + tuple(sys.argv[3:])
+    arguments = [word for setting in settings for word in ("--set", setting)]
     found = []
     with tempfile.TemporaryDirectory() as folder:
         texts = []

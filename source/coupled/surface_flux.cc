@@ -56,10 +56,10 @@ namespace undine
       void
       move(const Vector &velocity) override
       {
-        Vector way = solid.displacement(velocity);
-        way.add(-1., solid.old_displacement());
-        way *= 1 / dt;
-        this->velocities   = this->models.surface->with_bodies(way, this->velocities);
+        // Not from d^{n+1}: near rest its rounding is more than what Newton's method may leave.
+        Vector mean_velocity = solid.increment(velocity);
+        mean_velocity *= 1 / dt;
+        this->velocities   = this->models.surface->with_bodies(mean_velocity, this->velocities);
         const auto &before = this->geometry.surface_positions();
         auto        after  = before;
         for (std::size_t node = 0; node < after.size(); ++node)

@@ -189,25 +189,39 @@ namespace undine
   }
 
 
+  /// d^{n+1} - d^n at free degrees of freedom [m].
   template <int dim>
   typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::displacement(const Vector &velocity) const
+  SolidEquations<dim>::free_increment(const Vector &velocity) const
   {
-    Vector result = old_state.displacement;
-    result.add(coefficients.displacement, velocity);
+    Vector result = velocity;
+    result *= coefficients.displacement;
     result.add(coefficients.displacement_velocity, old_state.velocity);
     if (coefficients.displacement_acceleration != 0)
       result.add(coefficients.displacement_acceleration, old_state.acceleration);
-    prescribe_displacement(result, model, time + dt);
     return result;
   }
 
 
   template <int dim>
-  double
-  SolidEquations<dim>::displacement_factor() const
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::increment(const Vector &velocity) const
   {
-    return coefficients.displacement;
+    Vector result = free_increment(velocity);
+    clear_fixed(result, model);
+    result.add(1., prescribed_increment());
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::displacement(const Vector &velocity) const
+  {
+    Vector result = free_increment(velocity);
+    result.add(1., old_state.displacement);
+    prescribe_displacement(result, model, time + dt);
+    return result;
   }
 
 
@@ -289,14 +303,6 @@ namespace undine
       result(fixed.dof) -= old_state.displacement(fixed.dof);
     result.compress(dealii::VectorOperation::add);
     return result;
-  }
-
-
-  template <int dim>
-  bool
-  SolidEquations<dim>::has_motion() const
-  {
-    return prescribed_increment().linfty_norm() > 0;
   }
 
 

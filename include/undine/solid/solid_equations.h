@@ -53,7 +53,10 @@ namespace undine
 
     /// Do fixed degrees of freedom move during the step?
     bool
-    has_motion() const;
+    has_motion() const
+    {
+      return prescribed_increment().linfty_norm() > 0;
+    }
 
     /// Linearised at d^n: the change of u at free degrees of freedom by which the bodies follow the
     /// prescribed motions, A_ff du_f = -A_fg dd_g / (d d^{n+1} / du).
@@ -92,16 +95,16 @@ namespace undine
     Vector
     displacement(const Vector &velocity) const;
 
-    /// d^n [m].
-    const Vector &
-    old_displacement() const
-    {
-      return old_state.displacement;
-    }
+    /// d^{n+1} - d^n [m], without what rounding leaves of the difference of both.
+    Vector
+    increment(const Vector &velocity) const;
 
     /// d d^{n+1} / du at free degrees of freedom [s].
     double
-    displacement_factor() const;
+    displacement_factor() const
+    {
+      return coefficients.displacement;
+    }
 
     /// The state at the end of the step.
     SolidState
@@ -122,6 +125,8 @@ namespace undine
   private:
     Vector
     full_residual(const Vector &velocity);
+    Vector
+    free_increment(const Vector &velocity) const;
     Vector
     stage_displacement(const Vector &end_displacement, double position) const;
     Vector
