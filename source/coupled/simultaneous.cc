@@ -5,6 +5,7 @@
 #include <undine/interface/flux_matrix.h>
 #include <undine/solid/solid_columns.h>
 #include <undine/solid/solid_step.h>
+#include <undine/solid/tangent_solver.h>
 
 namespace undine
 {
@@ -35,6 +36,7 @@ namespace undine
       , fluid_side(models, timing)
       , solid_step(*models.solid)
       , solver(*models.solid, settings.solver)
+      , motion_solver(*models.solid)
     {
     }
 
@@ -172,9 +174,25 @@ namespace undine
         catch (const SolveError &)
           {
           }
-      x.block(0) = equations.guess_at_rest();
+      x.block(0) = resting_guess(equations);
       copy_to_vector(x.block(1), state.fluid.pressure);
       return solve_newton(problem, x, newton());
+    }
+
+    /// u that keeps d^n, but for what supports that have moved draw with them, as without a fluid.
+    Vector
+    resting_guess(const SolidEquations<dim> &equations)
+    {
+      auto velocity = equations.guess_at_rest();
+      if (equations.has_motion())
+        {
+          const auto system = equations.motion_predictor();
+          motion_solver.start_counting();
+          velocity.add(1.,
+                       motion_solver.solve(
+                         system.matrix, system.right_side, equations.displacement(velocity)));
+        }
+      return velocity;
     }
 
     const NewtonOptions &
@@ -203,6 +221,7 @@ namespace undine
     FluidSide<dim>              fluid_side;
     SolidStep<dim>              solid_step;
     BlockSolver<dim>            solver;
+    TangentSolver<dim>          motion_solver;
   };
 
 
