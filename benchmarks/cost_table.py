@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Seconds per step by phase, for three sizes of the solid alone and of the fluid alone, with and
-without obstacles, on 1 and 2 ranks, as Markdown tables (doc/costs.md holds those of one machine).
+"""Seconds per step by phase, for three sizes of the solid alone, of the fluid alone, with and
+without obstacles, and of both together, by either scheme, on 1 and 2 ranks, as Markdown tables
+(doc/costs.md holds those of one machine).
 
-usage: benchmarks/cost_table.py [PROGRAM]
+usage: benchmarks/cost_table.py [PROGRAM] [--smallest]
+
+--smallest takes the first of the three sizes alone, and leaves out what follows these tables.
 
 Beside PROGRAM its tests are expected: tests/unit_fluid holds the projection of a million cells,
 tests/unit_interface the cutting of a grid.
@@ -21,15 +24,33 @@ sys.path.insert(0, os.path.join(ROOT, "tests"))
 import scene_tools  # noqa: E402
 
 STEPS = 5
+
+
+def sizes(key, *values):
+    return [[f"{key}={value}"] for value in values]
+
+
+def jet(scheme):
+    """Grids, and sheets refined alike."""
+    return [[f"Scheme={scheme}", f"Domain/Cells={grid}", f"Bodies/first/Cells={sheet}",
+             f"Bodies/second/Cells={sheet}"]
+            for grid, sheet in (("24, 12, 12", "1, 7, 4"), ("48, 24, 24", "1, 13, 8"),
+                                ("72, 36, 36", "1, 20, 12"))]
+
+
+# Title, scene, and what is set for each size.
 CASES = [
     ("Solid alone: 3D cantilever, Q2 elements, theta integrator", "prm/cantilever.prm",
-     "Bodies/beam/Cells", ["20, 2, 4", "32, 4, 6", "48, 6, 10"]),
+     sizes("Bodies/beam/Cells", "20, 2, 4", "32, 4, 6", "48, 6, 10")),
     ("Fluid alone: 3D plume, two scalars", "prm/plume.prm",
-     "Domain/Cells", ["32, 64, 32", "50, 100, 50", "80, 156, 80"]),
+     sizes("Domain/Cells", "32, 64, 32", "50, 100, 50", "80, 156, 80")),
     ("Fluid past a fixed ball: one scalar", "prm/ball_in_stream.prm",
-     "Domain/Cells", ["60, 40, 40", "96, 64, 64", "150, 80, 80"]),
+     sizes("Domain/Cells", "60, 40, 40", "96, 64, 64", "150, 80, 80")),
     ("Fluid past a ball that moves", "tests/resume/ball.prm",
-     "Domain/Cells", ["60, 40, 40", "96, 64, 64", "150, 80, 80"]),
+     sizes("Domain/Cells", "60, 40, 40", "96, 64, 64", "150, 80, 80")),
+    ("A jet and two sheets, Q2 elements: simultaneous", "prm/jet_two_sheets.prm",
+     jet("simultaneous")),
+    ("The same by time splitting", "prm/jet_two_sheets.prm", jet("time_splitting")),
 ]
 
 
@@ -45,26 +66,33 @@ def phases(folder):
     return result
 
 
-def measure(program, scene, assignment, ranks):
+def measure(program, scene, assignments, ranks):
     with tempfile.TemporaryDirectory() as folder:
-        result = scene_tools.run(program, [os.path.join(ROOT, scene), "--output", folder,
-                                           "--set", assignment, "--set", "Output/Interval=0",
-                                           "--set", "Output/Parts=statistics",
-                                           "--set", f"Time/Maximum steps={STEPS}"], ranks)
+        arguments = [os.path.join(ROOT, scene), "--output", folder]
+        for assignment in assignments + ["Output/Interval=0", "Output/Parts=statistics",
+                                         f"Time/Maximum steps={STEPS}"]:
+            arguments += ["--set", assignment]
+        result = scene_tools.run(program, arguments, ranks)
         size = re.findall(r"(?:fluid|bodies): (.*)", result.stdout)
-        return size[0], phases(folder)
+        return ", ".join(size), phases(folder)
 
 
-def table(program, title, scene, key, values):
-    columns, sizes = [], []
+def step_alone(seconds):
+    """Of the outermost phases without the start [s]."""
+    return sum(value for name, value in seconds.items()
+               if " / " not in name and name != "initialise")
+
+
+def table(program, title, scene, values):
+    columns, labels = [], []
     for value in values:
         for ranks in (1, 2):
-            size, seconds = measure(program, scene, f"{key}={value}", ranks)
+            size, seconds = measure(program, scene, value, ranks)
             columns.append((ranks, seconds))
-            sizes.append(size)
+            labels.append(size)
     print(f"\n## {title}\n\n{STEPS} steps of `{scene}`; seconds per step, `initialise` once.\n")
     print("| phase | " + " | ".join(f"{size}, {ranks} rank{'s' if ranks > 1 else ''}"
-                                   for size, (ranks, _) in zip(sizes, columns)) + " |")
+                                   for size, (ranks, _) in zip(labels, columns)) + " |")
     print("|---" * (len(columns) + 1) + "|")
     names = list(dict.fromkeys(name for _, seconds in columns for name in seconds))
     for name in names:
@@ -73,6 +101,8 @@ def table(program, title, scene, key, values):
         if max(cells) >= 0.001:
             label = "&nbsp;&nbsp;" * name.count(" / ") + name.split(" / ")[-1]
             print(f"| {label} | " + " | ".join(f"{cell:.3f}" for cell in cells) + " |")
+    print("| **a step** | " + " | ".join(f"{step_alone(seconds) / STEPS:.3f}"
+                                         for _, seconds in columns) + " |")
     sys.stdout.flush()
 
 
@@ -100,12 +130,16 @@ def cuts(tests):
 
 
 def main():
-    program = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "build", "undine")
+    given = [argument for argument in sys.argv[1:] if not argument.startswith("--")]
+    program = given[0] if given else os.path.join(ROOT, "build", "undine")
+    smallest = "--smallest" in sys.argv
     version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout.strip()
     print(f"# What a step costs\n\nWritten by `benchmarks/cost_table.py`: {version}, "
           f"{os.cpu_count()} cores ({platform.machine()}).")
-    for case in CASES:
-        table(program, *case)
+    for title, scene, values in CASES:
+        table(program, title, scene, values[:1] if smallest else values)
+    if smallest:
+        return
     tests = os.path.join(os.path.dirname(program), "tests")
     projections(os.path.join(tests, "unit_fluid"))
     cuts(os.path.join(tests, "unit_interface"))

@@ -27,3 +27,11 @@ add_test(NAME contrib/render
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_render.py ${PROJECT_SOURCE_DIR}/contrib/render
                  $<TARGET_FILE:undine> ${PROJECT_SOURCE_DIR}/prm)
 set_tests_properties(contrib/render PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+
+# Iterations of the simultaneous scheme's linear solver, as recorded.
+foreach(ranks 1 2)
+  add_test(NAME runs/iterations.mpirun=${ranks}
+           COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_iterations.py
+                   $<TARGET_FILE:undine> ${ranks})
+  set_tests_properties(runs/iterations.mpirun=${ranks} PROPERTIES PROCESSORS ${ranks} TIMEOUT 300)
+endforeach()

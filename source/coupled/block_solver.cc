@@ -136,8 +136,12 @@ namespace undine
         tangent_inverse.initialize(system.tangent(), displacement);
         settings.preconditioner->initialize(
           system, schur, [&](Vector &x, const Vector &b) { tangent_inverse.vmult(x, b); });
-        auto solution = system.vector();
-        if (iterate(solution, system, right_side, std::max(reduction, settings.tolerance)))
+        auto       solution = system.vector();
+        const bool converged =
+          iterate(solution, system, right_side, std::max(reduction, settings.tolerance));
+        if (!tangent_inverse.note().empty())
+          all_notes = tangent_inverse.note();
+        if (converged)
           return solution;
         all_notes = fmt::format("GMRES did not converge within {} iterations: solved directly",
                                 settings.maximum_iterations);

@@ -118,9 +118,27 @@ namespace undine
       catch (const SolveError &)
         {
         }
-    x.block(0) = equations.guess_at_rest();
+    x.block(0) = resting_guess();
     copy_to_vector(x.block(1), state.fluid.pressure);
     return solve_newton(problem, x, newton);
+  }
+
+
+  /// u that keeps d^n, but for what supports that have moved draw with them, as without a fluid.
+  template <int dim>
+  typename CoupledStep<dim>::Vector
+  CoupledStep<dim>::resting_guess() const
+  {
+    auto velocity = equations.guess_at_rest();
+    if (equations.has_motion())
+      {
+        const auto system = equations.motion_predictor();
+        parts.motion_solver.start_counting();
+        velocity.add(1.,
+                     parts.motion_solver.solve(
+                       system.matrix, system.right_side, equations.displacement(velocity)));
+      }
+    return velocity;
   }
 
 
@@ -172,10 +190,9 @@ namespace undine
   {
     auto result      = surfaces;
     result.on_bodies = result.pushed;
-    auto way         = state.solid.displacement;
-    way.add(-1., old_solid.displacement);
-    result.way = parts.models.surface->with_bodies(
-      way, typename SurfaceExchange<dim>::Vectors(result.by_fluid.size()));
+    result.way       = parts.models.surface->with_bodies(
+      equations.increment(x.block(0)),
+      typename SurfaceExchange<dim>::Vectors(result.by_fluid.size()));
     return result;
   }
 

@@ -36,6 +36,7 @@ namespace undine
       , fluid_side(models, ledger, timing)
       , solid_step(*models.solid)
       , solver(*models.solid, settings.solver)
+      , motion_solver(*models.solid)
     {
     }
 
@@ -102,6 +103,7 @@ namespace undine
     FluidSide<dim>              fluid_side;
     SolidStep<dim>              solid_step;
     BlockSolver<dim>            solver;
+    TangentSolver<dim>          motion_solver;
   };
 
 

@@ -42,8 +42,7 @@ namespace undine
   SolidEquations<dim>::balance(const Vector &velocity, const Vector &reactions) const
   {
     const Vector end = displacement(velocity);
-    Vector       way = end;
-    way.add(-1., old_state.displacement);
+    const Vector way = increment(velocity);
 
     SolidBalance<dim> result;
     Vector            damping = model.vector();

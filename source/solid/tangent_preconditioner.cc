@@ -4,6 +4,7 @@
 #include <undine/solid/tangent_multigrid.h>
 #include <undine/solid/tangent_preconditioner.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_cg.h>
 
 #include <cmath>
@@ -30,6 +31,7 @@ namespace undine
   void
   TangentPreconditioner<dim>::initialize(const Matrix &A, const Vector &displacement)
   {
+    last_note.clear();
     multigrid.reset();
     if (direct)
       {
@@ -38,34 +40,84 @@ namespace undine
       }
     if (!std::isfinite(A.frobenius_norm()))
       throw SolveError("the matrix of the bodies is not a number. Try a smaller step.");
-    multigrid = std::make_unique<Multigrid>();
-    multigrid->matrix.reinit(A);
-    add_matrix(multigrid->matrix, 1, A);
-    initialize_multigrid(multigrid->hierarchy, multigrid->matrix, model, displacement);
+    make_multigrid(A, displacement);
+    if (!multigrid)
+      give_way(A);
   }
 
 
   template <int dim>
   void
-  TangentPreconditioner<dim>::vmult(Vector &x, const Vector &b) const
+  TangentPreconditioner<dim>::make_multigrid(const Matrix &A, const Vector &displacement)
   {
-    if (!multigrid)
+    bool failed = false;
+    multigrid   = std::make_unique<Multigrid>();
+    multigrid->matrix.reinit(A);
+    add_matrix(multigrid->matrix, 1, A);
+    try
       {
-        x = factorisation.solve(b);
-        return;
+        initialize_multigrid(multigrid->hierarchy, multigrid->matrix, model, displacement);
       }
+    catch (const std::exception &)
+      {
+        failed = true;
+      }
+    if (dealii::Utilities::MPI::max(int(failed), model.communicator()) > 0)
+      multigrid.reset();
+  }
+
+
+  template <int dim>
+  void
+  TangentPreconditioner<dim>::give_way(const Matrix &A)
+  {
+    factorisation.factorise(A);
+    multigrid.reset();
+    last_note = "multigrid does not serve the bodies (their tangent is indefinite, as when they "
+                "buckle): their matrix is factorised";
+  }
+
+
+  template <int dim>
+  void
+  TangentPreconditioner<dim>::vmult(Vector &x, const Vector &b)
+  {
+    if (multigrid && iterate(x, b))
+      return;
+    if (multigrid)
+      give_way(multigrid->matrix);
+    x = factorisation.solve(b);
+  }
+
+
+  template <int dim>
+  bool
+  TangentPreconditioner<dim>::iterate(Vector &x, const Vector &b) const
+  {
     dealii::ReductionControl control(most_iterations, 0., reduction);
+    dealii::SolverCG<Vector> solver(control);
+    bool                     indefinite = false;
+    solver.connect_coefficients_slot(
+      [&](const double step_length, const double) { indefinite |= !(step_length > 0); });
     x = 0;
     try
       {
-        dealii::SolverCG<Vector>(control).solve(multigrid->matrix, x, b, multigrid->hierarchy);
+        solver.solve(multigrid->matrix, x, b, multigrid->hierarchy);
       }
     catch (const dealii::SolverControl::NoConvergence &)
       {
-        // What there is will do, if it is a number: A may be indefinite.
-        if (!std::isfinite(x.l2_norm()))
-          multigrid->hierarchy.vmult(x, b);
+        // What there is will do, if nothing but the number of steps was against it.
+        return !indefinite && std::isfinite(x.l2_norm());
       }
+    return true;
+  }
+
+
+  template <int dim>
+  const std::string &
+  TangentPreconditioner<dim>::note() const
+  {
+    return last_note;
   }
 
 

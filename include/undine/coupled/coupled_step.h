@@ -7,6 +7,7 @@
 #include <undine/coupled/state.h>
 #include <undine/fluid/fluid_step.h>
 #include <undine/solid/solid_step.h>
+#include <undine/solid/tangent_solver.h>
 
 #include <memory>
 #include <string>
@@ -29,6 +30,7 @@ namespace undine
       const SolidEnvironment<dim>            &environment;
       const FluidGeometry<dim>               &geometry;
       BlockSolver<dim>                       &solver;
+      TangentSolver<dim>                     &motion_solver; ///< for bodies alone
       TimingTree                             &timing;
     };
 
@@ -61,6 +63,8 @@ namespace undine
     solve_with_openings();
     NewtonReport
     solve_first();
+    Vector
+    resting_guess() const;
     void
     end(SolidReport<dim> &report);
     Vector

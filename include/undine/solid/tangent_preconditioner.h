@@ -8,13 +8,15 @@
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include <memory>
+#include <string>
 
 namespace undine
 {
   /// What stands for A^{-1}, A being a Jacobian of the bodies' equations, in a preconditioner: its
   /// factors where solves_directly(), otherwise some steps of conjugate gradients with multigrid,
   /// not always the same: outer iterations must be flexible. The factors do not mind a tangent that
-  /// is indefinite (a body that buckles).
+  /// is indefinite (a body that buckles); conjugate gradients that meet a direction in which it is
+  /// not positive, and do not converge, give way to them until the next matrix comes.
   template <int dim>
   class TangentPreconditioner
   {
@@ -29,9 +31,13 @@ namespace undine
     void
     initialize(const Matrix &A, const Vector &displacement);
 
-    /// x = about A^{-1} b. Collective.
+    /// x = about A^{-1} b. Collective. Throws as initialize() does.
     void
-    vmult(Vector &x, const Vector &b) const;
+    vmult(Vector &x, const Vector &b);
+
+    /// What was unusual since initialize(); empty if nothing was.
+    const std::string &
+    note() const;
 
   private:
     struct Multigrid
@@ -40,10 +46,23 @@ namespace undine
       dealii::TrilinosWrappers::PreconditionAMG hierarchy;
     };
 
+    /// Leaves no hierarchy if none can be made.
+    void
+    make_multigrid(const Matrix &A, const Vector &displacement);
+
+    /// Replace the multigrid of a matrix by factors of it.
+    void
+    give_way(const Matrix &A);
+
+    /// False, on all ranks, if x is of no use.
+    bool
+    iterate(Vector &x, const Vector &b) const;
+
     const SolidModel<dim>     &model;
     const bool                 direct;
-    mutable Factorisation      factorisation;
+    Factorisation              factorisation;
     std::unique_ptr<Multigrid> multigrid; ///< nullptr: there are factors
+    std::string                last_note;
   };
 } // namespace undine
 
