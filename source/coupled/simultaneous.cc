@@ -53,12 +53,17 @@ namespace undine
     step(State<dim> &state, Report &report) override
     {
       const auto       fluid = fluid_side.predict(state, report.dt);
-      CoupledStep<dim> coupled(
-        {models, solid_step.mass(), environment, *fluid_side.geometry(), solver, timing},
-        *fluid,
-        state,
-        settings.boundary_flux);
-      const auto solid = coupled.solve();
+      CoupledStep<dim> coupled({models,
+                                solid_step.mass(),
+                                environment,
+                                *fluid_side.geometry(),
+                                solver,
+                                motion_solver,
+                                timing},
+                               *fluid,
+                               state,
+                               settings.boundary_flux);
+      const auto       solid = coupled.solve();
       balance(coupled, solid, report.dt);
       report.newton_iterations += solid.newton.iterations;
       report.linear_iterations += solid.newton.linear_iterations;
