@@ -159,10 +159,11 @@ class Run:
         return time > self.times[-1] + 1e-9 and end > self.times[-1] + 1e-9
 
     def label(self):
-        title = self.parameters.get("Title", self.results.name)
+        name = self.results.resolve().name
         step = float(self.parameters.get("Time", {}).get("Step", 0))
         scheme = self.parameters.get("Scheme", "").replace("_", " ")
-        return f"{title}\n{scheme}, h = {step:.3g} s" if scheme else title
+        return (f"{self.parameters.get('Title', '')}\n" +
+                (f"{name}: {scheme}, h = {step:.3g} s" if scheme else name))
 
     def parts(self, time):
         """The parts at one of its times that exist, are not empty, and are drawn: obstacles are, but
