@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""contrib/render makes pictures of bodies, of a fluid and of an obstacle that are not just background.
+"""contrib/render makes pictures of bodies, of a fluid, of an obstacle, of bodies in a fluid and of two
+runs side by side that are not just background.
 
 usage: check_render.py RENDER PROGRAM SCENES      leaves with 77 (skipped) where VTK is missing
 """
@@ -35,27 +36,42 @@ def pixels(file):
     return width, height, zlib.decompress(packed)
 
 
+def check(name, render, arguments, folder, n_expected):
+    """Pictures into folder/frames; leaves if there are not so many or the last one is empty."""
+    result = subprocess.run([render, *arguments, "--size", "320x180", "--out", folder + "/frames"],
+                            capture_output=True, text=True)
+    pictures = sorted(pathlib.Path(folder, "frames").glob("*.png"))
+    if result.returncode != 0 or len(pictures) != n_expected:
+        sys.exit(f"{name}: exit code {result.returncode}, pictures {pictures}\n{result.stderr}")
+    width, height, rows = pixels(pictures[-1])
+    if (width, height) != SIZE or len(set(rows)) < 64:
+        sys.exit(f"{name}: a picture of {width} x {height} with {len(set(rows))} values")
+    print(f"{name}: {result.stdout.strip()}")
+
+
+def check_comparison(render, program, scenes):
+    """The second run has the shorter interval and stops first: its five times, two of the other."""
+    with tempfile.TemporaryDirectory() as folder:
+        runs = [folder + "/long", folder + "/short"]
+        for results, step in zip(runs, ("1/30", "1/60")):
+            scene_tools.run(program, [f"{scenes}/jet_two_sheets_2d.prm", "--output", results,
+                                      "--set", "Time/Maximum steps=4", "--set", "Time/Step=" + step,
+                                      "--set", "Output/Interval=" + step])
+        check("two runs", render, ["--compare", *runs], folder, 7)
+
+
 def main():
     render, program, scenes = sys.argv[1:4]
     if not is_installed():
         print("skipped: the Debian packages python3-vtk9 and xvfb are not installed")
         sys.exit(77)
     for name, options in (("cook_membrane", ["--field", "von_Mises_stress"]), ("plume", []),
-                          ("obstacle_flow", ["--field", "velocity"])):
+                          ("obstacle_flow", ["--field", "velocity"]), ("jet_two_sheets", [])):
         with tempfile.TemporaryDirectory() as folder:
             scene_tools.run(program, [f"{scenes}/{name}.prm", "--output", folder,
                                       "--set", "Time/Maximum steps=2"])
-            result = subprocess.run([render, folder, "--frames", "-1:", "--size", "320x180",
-                                     "--out", folder + "/frames", *options],
-                                    capture_output=True, text=True)
-            pictures = list(pathlib.Path(folder, "frames").glob("*.png"))
-            if result.returncode != 0 or len(pictures) != 1:
-                sys.exit(f"{name}: exit code {result.returncode}, pictures {pictures}\n"
-                         f"{result.stderr}")
-            width, height, rows = pixels(pictures[0])
-            if (width, height) != SIZE or len(set(rows)) < 64:
-                sys.exit(f"{name}: a picture of {width} x {height} with {len(set(rows))} values")
-            print(f"{name}: {result.stdout.strip()}")
+            check(name, render, [folder, "--frames", "-1:", *options], folder, 1)
+    check_comparison(render, program, scenes)
 
 
 main()

@@ -4,7 +4,9 @@ import json
 import sys
 import xml.etree.ElementTree
 
+import numpy
 import vtk
+from vtk.util.numpy_support import vtk_to_numpy
 
 
 def with_common_points(data):
@@ -28,20 +30,32 @@ def name_of(file):
     return file.stem.rsplit("_", 1)[0]
 
 
-def by_fraction(data):
-    """A fluid among bodies: voxels in bodies left out, those with most fluid last, so that they are
-    drawn over others in the same cell."""
-    append = vtk.vtkAppendFilter()
-    for low, high in ((1e-12, 0.5), (0.5, 2.0)):
-        threshold = vtk.vtkThreshold()
-        threshold.SetInputData(data)
-        threshold.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_POINTS,
-                                         "fluid_fraction")
-        threshold.SetLowerThreshold(low)
-        threshold.SetUpperThreshold(high)
-        append.AddInputConnection(threshold.GetOutputPort())
-    append.Update()
-    return append.GetOutput()
+def blended(data):
+    """A fluid among bodies, to be drawn as one continuous field. A cell that a body divides is there
+    once for each of its parts; its corners get what the cells around say that are fluid all over,
+    where there are none the mean by the share of fluid. Cells in bodies are left out."""
+    threshold = vtk.vtkThreshold()
+    threshold.SetInputData(data)
+    threshold.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_POINTS,
+                                     "fluid_fraction")
+    threshold.SetLowerThreshold(1e-12)
+    threshold.SetUpperThreshold(2)
+    threshold.Update()
+    data = threshold.GetOutput()
+    if data.GetNumberOfPoints() == 0:
+        return data
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    _, corner = numpy.unique(points, axis=0, return_inverse=True)
+    arrays = data.GetPointData()
+    fraction = vtk_to_numpy(arrays.GetArray("fluid_fraction"))
+    weight = numpy.where(fraction > 1 - 1e-6, 1e9, fraction)
+    total = numpy.bincount(corner, weight)
+    for name in [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())]:
+        values = vtk_to_numpy(arrays.GetArray(name))  # the array's own memory
+        if name not in ("component", "fluid_fraction"):
+            for column in values.reshape(len(values), -1).T:
+                column[:] = (numpy.bincount(corner, weight * column) / total)[corner]
+    return data
 
 
 class Part:
@@ -51,7 +65,8 @@ class Part:
                ".vti": "vtkXMLImageDataReader", ".pvti": "vtkXMLPImageDataReader",
                ".vtr": "vtkXMLRectilinearGridReader", ".pvtr": "vtkXMLPRectilinearGridReader"}
 
-    def __init__(self, file):
+    def __init__(self, file, moved):
+        """`moved`: by what share of their displacement bodies are moved in the file."""
         if file.suffix not in self.READERS:
             raise ValueError(f"'{file}': files {file.suffix} cannot be read")
         reader = getattr(vtk, self.READERS[file.suffix])()
@@ -60,13 +75,14 @@ class Part:
         to_points = vtk.vtkCellDataToPointData()
         data = reader.GetOutput()
         among_bodies = data.GetPointData().HasArray("fluid_fraction")
-        to_points.SetInputData(by_fraction(data) if among_bodies else with_common_points(data))
+        to_points.SetInputData(blended(data) if among_bodies else with_common_points(data))
         to_points.Update()
         self.data = to_points.GetOutput()
         point_data = self.data.GetPointData()
         self.fields = [point_data.GetArrayName(i) for i in range(point_data.GetNumberOfArrays())]
         self.is_bodies = "displacement" in self.fields
         self.is_obstacles = name_of(file) == "obstacles"
+        self.moved = moved
 
     def is_empty(self):
         return self.data.GetNumberOfPoints() == 0
@@ -91,7 +107,8 @@ class Part:
         return None
 
     def warped(self, factor):
-        """Where the bodies are now."""
+        """Where the bodies are now, with displacements this much larger."""
+        factor -= self.moved
         if not self.is_bodies or factor == 0:
             return self.data
         self.data.GetPointData().SetActiveVectors("displacement")
@@ -105,32 +122,62 @@ class Part:
         return self.data.GetPointData().GetArray(field).GetRange(-1)
 
 
-def read_times(results):
-    """Pairs (time, files) in the order of solution.pvd."""
-    pvd = results / "solution.pvd"
-    if not pvd.is_file():
-        sys.exit(f"render: '{pvd}' is not there: is '{results}' the folder of a run with output 'vtu'?")
-    times = {}
-    for data_set in xml.etree.ElementTree.parse(pvd).iter("DataSet"):
-        files = times.setdefault(float(data_set.get("timestep", "0")), [])
-        files.append(results / data_set.get("file"))
-    return sorted(times.items())
+class Run:
+    """The folder of a run: its times of output, and what it says of itself."""
+
+    def __init__(self, results):
+        self.results = results
+        self.files = self.read_times()  # by time
+        self.times = sorted(self.files)
+        try:
+            self.parameters = json.loads((results / "parameters.json").read_text())
+        except (OSError, ValueError):
+            self.parameters = {}
+        bodies = self.parameters.get("Output", {}).get("vtu", {}).get("Bodies")
+        self.moved = 1.0 if bodies == "deformed" else 0.0
+
+    def read_times(self):
+        pvd = self.results / "solution.pvd"
+        if not pvd.is_file():
+            sys.exit(f"render: '{pvd}' is not there: is '{self.results}' the folder of a run with "
+                     "output 'vtu'?")
+        files = {}
+        for data_set in xml.etree.ElementTree.parse(pvd).iter("DataSet"):
+            files.setdefault(float(data_set.get("timestep", "0")), []).append(
+                self.results / data_set.get("file"))
+        return files
+
+    def interval(self):
+        return (self.times[-1] - self.times[0]) / max(1, len(self.times) - 1)
+
+    def nearest(self, time):
+        return min(self.times, key=lambda own: abs(own - time))
+
+    def stopped(self, time):
+        """Was the run over at this time, before the end that it should have reached?"""
+        end = float(self.parameters.get("Time", {}).get("End", 0))
+        return time > self.times[-1] + 1e-9 and end > self.times[-1] + 1e-9
+
+    def label(self):
+        name = self.results.resolve().name
+        step = float(self.parameters.get("Time", {}).get("Step", 0))
+        scheme = self.parameters.get("Scheme", "").replace("_", " ")
+        return (f"{self.parameters.get('Title', '')}\n" +
+                (f"{name}: {scheme}, h = {step:.3g} s" if scheme else name))
+
+    def parts(self, time):
+        """The parts at one of its times that exist, are not empty, and are drawn: obstacles are, but
+        not the pieces into which the grid cuts all surfaces."""
+        parts = [Part(file, self.moved) for file in self.files[time]
+                 if file.is_file() and name_of(file) != "surface"]
+        return [part for part in parts if not part.is_empty()]
 
 
-def warp_of_files(results):
-    """By what share of the displacement the points in the files are moved already."""
-    try:
-        parameters = json.loads((results / "parameters.json").read_text())
-        return 1.0 if parameters["Output"]["vtu"]["Bodies"] == "deformed" else 0.0
-    except (OSError, ValueError, KeyError):
-        return 0.0
-
-
-def read_parts(files):
-    """The parts of one time that exist, are not empty, and are drawn: obstacles are, but not the
-    pieces into which the grid cuts all surfaces."""
-    parts = [Part(file) for file in files if file.is_file() and name_of(file) != "surface"]
-    return [part for part in parts if not part.is_empty()]
+def film_times(runs):
+    """Those of the run with the shorter interval, then what another has beyond its end."""
+    lead = min(runs, key=Run.interval)
+    later = {time for run in runs for time in run.times if time > lead.times[-1] + 1e-9}
+    return lead.times + sorted(later)
 
 
 class Extent:
