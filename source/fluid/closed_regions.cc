@@ -196,6 +196,21 @@ namespace undine
   }
 
 
+  /// What leaves each cell through walls and inflows. Faces between cells cancel in the sum over a
+  /// region; only what is held counts.
+  template <int dim>
+  Field<dim>
+  ClosedRegions<dim>::held_fluxes(const Velocity<dim> &velocity, const double time) const
+  {
+    Velocity<dim> held;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      held[axis] = Field<dim>(velocity[axis].shared_lattice(), velocity[axis].open_parts());
+    set_boundary_velocity(held, model, time);
+    exchange(held);
+    return divergence(model, held);
+  }
+
+
   template <int dim>
   std::vector<double>
   ClosedRegions<dim>::balanced_fluxes(const Velocity<dim> &velocity,
@@ -214,13 +229,7 @@ namespace undine
                                        complaint));
         return pushed.fluxes;
       }
-    // Faces between cells cancel in the sum over a region; only what is held counts.
-    Velocity<dim> held;
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      held[axis] = Field<dim>(velocity[axis].shared_lattice(), velocity[axis].open_parts());
-    set_boundary_velocity(held, model, time);
-    exchange(held);
-    const auto fluxes      = divergence(model, held);
+    const auto fluxes      = held_fluxes(velocity, time);
     const auto boundaries  = sums_of(fluxes, [](const double flux) { return flux; });
     const auto sizes       = sums_of(fluxes, [](const double flux) { return std::abs(flux); });
     const auto bodies      = sums_on_components(pushed.fluxes);

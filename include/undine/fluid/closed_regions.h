@@ -54,6 +54,9 @@ namespace undine
     remove_means(Field<dim> &pressure) const;
 
   private:
+    Field<dim>
+    held_fluxes(const Velocity<dim> &velocity, const double time) const;
+
     static constexpr int open_region = -1;
 
     /// The closed region of each pressure of this rank.

@@ -34,13 +34,24 @@ namespace
   }
 
 
+  template <int dim>
+  dealii::Point<dim>
+  inside()
+  {
+    dealii::Point<dim> result;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      result[axis] = axis == 1 ? .2 : .5;
+    return result;
+  }
+
+
   /// Of the chamber's volume after half a second, to what has flown in [1].
   template <int dim>
   double
   volume_error(const unsigned int steps, const std::string &boundary_flux)
   {
     CoupledRun<dim>    run(chamber<dim>(.5 / steps, boundary_flux, ".3*sin(pi*t)^2"));
-    ChamberRecord<dim> record(run, 0);
+    ChamberRecord<dim> record(run, inside<dim>());
     for (unsigned int n = 0; n < steps; ++n)
       {
         run.step();
@@ -59,7 +70,7 @@ namespace
   breathing_errors(const double seconds, const double dt, const std::string &boundary_flux)
   {
     CoupledRun<2>         run(chamber<2>(dt, boundary_flux, ".06*sin(2*pi*t)"));
-    ChamberRecord<2>      record(run, 0);
+    ChamberRecord<2>      record(run, inside<2>());
     std::array<double, 2> largest{{0, 0}};
     const unsigned int    steps = std::lround(seconds / dt);
     for (unsigned int n = 0; n < steps; ++n)
@@ -100,4 +111,28 @@ TEST_CASE("A closed chamber that breathes keeps its volume", "[coupled]")
   INFO(fmt::format("{:.2e} {:.2e}", coarse[1], fine[1]));
   CHECK(coarse[1] <= 3e-3);
   CHECK(coarse[1] / fine[1] == Approx(2).epsilon(.1));
+}
+
+
+TEST_CASE("A closed chamber takes an inflow that is there from the start", "[coupled][mpi]")
+{
+  CoupledRun<2>    run(chamber<2>(1. / 60, "swept", ".1"));
+  ChamberRecord<2> record(run, inside<2>());
+  CHECK(run.column("Flux through in") == Approx(-.1));
+  for (unsigned int n = 0; n < 10; ++n)
+    {
+      run.step();
+      record.note_step();
+    }
+  CHECK(record.inflow == Approx(1. / 60));
+  CHECK(std::abs(record.error()) <= 1e-10);
+}
+
+
+TEST_CASE("With time splitting a chamber has no solution, which the run says", "[coupled][mpi]")
+{
+  const auto    text = chamber<2>(1. / 60, "", ".1");
+  CoupledRun<2> run("set Scheme = time_splitting\n" +
+                    text.substr(0, text.rfind("subsection Coupling")));
+  CHECK_THROWS_WITH(run.step(), Catch::Matchers::Contains("Scheme = simultaneous"));
 }
