@@ -187,7 +187,7 @@ def cases(quick, dimension):
 
 
 def name(case):
-    return (f"{case.shape}, {case.cells} cells a metre, fluid {case.fluid:g}, ratio {case.ratio:g}, "
+    return (f"{case.dimension}D {case.shape}, {case.cells} cells a metre, fluid {case.fluid:g}, ratio {case.ratio:g}, "
             f"E {case.modulus:g}, h 1/{1 / case.step:.0f}")
 
 

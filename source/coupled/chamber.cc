@@ -8,6 +8,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace undine
 {
   namespace
@@ -32,7 +35,11 @@ namespace undine
           }
         catch (const SolveError &error)
           {
-            complaint = error.what();
+            complaint =
+              fmt::format("The point ({:.6g}) of a chamber {}. Try: a place farther away from the "
+                          "bodies.",
+                          fmt::join(point.begin_raw(), point.begin_raw() + dim, ", "),
+                          error.what());
           }
       throw_together(complaint, grid.communicator());
       found = dealii::Utilities::MPI::max(found, grid.communicator());

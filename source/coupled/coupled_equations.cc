@@ -63,13 +63,31 @@ namespace undine
 
     // What rounding leaves of the forces counts as converged.
     const double tolerance = model.numerics().newton.relative_tolerance;
-    largest_force =
-      std::max({largest_force, solid.scale(), pushing.l2_norm(), solid.rounding() / tolerance});
-    largest_flux =
-      std::max({largest_flux, by_pressure, pushed.l2_norm(), fluid.predicted_flux().l2_norm()});
-    last_norm = std::hypot(relative(residual.block(0).l2_norm(), largest_force),
-                           relative(residual.block(1).l2_norm(), largest_flux));
+    measure({std::max({solid.scale(), pushing.l2_norm(), solid.rounding() / tolerance}),
+             std::max({by_pressure, pushed.l2_norm(), fluid.predicted_flux().l2_norm()})});
+    last_norm = std::hypot(relative(residual.block(0).l2_norm(), here.force),
+                           relative(residual.block(1).l2_norm(), here.flux));
     return last_norm;
+  }
+
+
+  template <int dim>
+  void
+  CoupledEquations<dim>::start()
+  {
+    reference = {};
+  }
+
+
+  template <int dim>
+  void
+  CoupledEquations<dim>::measure(const Sizes &own)
+  {
+    const auto limited = [](const double size, const double known) {
+      return known == 0 ? size : std::clamp(size, known, 10 * known);
+    };
+    here.force = limited(own.force, reference.force);
+    here.flux  = limited(own.flux, reference.flux);
   }
 
 
@@ -77,6 +95,7 @@ namespace undine
   typename CoupledEquations<dim>::Unknown
   CoupledEquations<dim>::correction(const Unknown &x)
   {
+    reference                 = here;
     const auto        tangent = solid.jacobian(x.block(0));
     const auto        timed   = timing.section("solve linear system");
     const BlockSystem system(tangent, surface.matrix(), surface.factor(), fluid.matrix());
@@ -99,7 +118,7 @@ namespace undine
   double
   CoupledEquations<dim>::rounding() const
   {
-    return relative(solid.rounding(), largest_force);
+    return relative(solid.rounding(), here.force);
   }
 
 

@@ -91,7 +91,9 @@ namespace undine
       {
         state.fluid.velocity = predicted;
         pressures.open(state.fluid.velocity);
-        const auto report = round == 0 ? solve_first() : solve_newton(problem, x, newton);
+        // A given number of corrections begins anew, so that there are exactly so many.
+        const bool first  = round == 0 || newton.fixed_iterations > 0;
+        const auto report = first ? solve_first() : solve_from(x.block(0), x.block(1));
         all.iterations += report.iterations;
         all.linear_iterations = report.linear_iterations;
         all.residuals.insert(all.residuals.end(), report.residuals.begin(), report.residuals.end());
@@ -103,23 +105,36 @@ namespace undine
   }
 
 
-  /// From u^n and p^n; if that fails, from bodies that keep their place.
+  /// From u^n and p^n; if that fails, from bodies that keep their place. In the other order without
+  /// inertia, as without a fluid.
   template <int dim>
   NewtonReport
   CoupledStep<dim>::solve_first()
   {
-    copy_to_vector(x.block(1), state.fluid.pressure);
-    if (newton.fixed_iterations == 0)
-      try
-        {
-          x.block(0) = equations.guess();
-          return solve_newton(problem, x, newton);
-        }
-      catch (const SolveError &)
-        {
-        }
-    x.block(0) = resting_guess();
-    copy_to_vector(x.block(1), state.fluid.pressure);
+    Vector pressure = x.block(1);
+    copy_to_vector(pressure, state.fluid.pressure);
+    const bool rest_first = equations.is_static() || newton.fixed_iterations > 0;
+    try
+      {
+        return solve_from(rest_first ? resting_guess() : equations.guess(), pressure);
+      }
+    catch (const SolveError &)
+      {
+        if (newton.fixed_iterations > 0)
+          throw;
+      }
+    return solve_from(rest_first ? equations.guess() : resting_guess(), pressure);
+  }
+
+
+  template <int dim>
+  NewtonReport
+  CoupledStep<dim>::solve_from(const Vector velocity, const Vector pressure)
+  {
+    x.block(0) = velocity;
+    x.block(1) = pressure;
+    pressures.closed_regions().ground(x.block(1));
+    problem.start();
     return solve_newton(problem, x, newton);
   }
 

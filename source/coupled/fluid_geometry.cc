@@ -50,14 +50,22 @@ namespace undine
     const bool moved = now != positions;
     if (moved)
       surface.check(now);
-    if (moved || before != now || new_velocities != velocities)
+    if (moved || before != was_at || new_velocities != velocities)
       queries = std::make_unique<const SurfaceQueries<dim>>(
         model.grid(), MovedSurface<dim>{&surface.surface(), before, now, new_velocities});
     velocities = new_velocities;
-    if (moved)
+    was_at     = before;
+    if (!moved)
+      return;
+    positions = now;
+    try
       {
-        positions = now;
         cut();
+      }
+    catch (...)
+      {
+        positions.clear(); // what has been made of them is of no use
+        throw;
       }
   }
 

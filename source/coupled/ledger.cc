@@ -130,7 +130,7 @@ namespace undine
     terms[by_loads]             = {solid.loads, dt * solid.loads_force};
     terms[by_supports]          = {solid.supports, dt * solid.supports_force};
     terms[by_damping]           = {-solid.damping, dt * solid.damping_force};
-    terms[by_inertia].energy    = -solid.inertia_loss;
+    terms[by_inertia]           = {-solid.inertia_loss, -solid.inertia_gap};
     terms[by_elasticity].energy = -solid.elastic_loss;
   }
 
@@ -180,8 +180,11 @@ namespace undine
             impulses += terms[term].momentum.norm();
         }
     result.push_back({"energy closure", "1", relative(std::abs(missing().energy), energies)});
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      result.push_back(
+        {std::string("momentum gain ") + char('x' + axis), "kg m/s", gain.momentum[axis]});
     for (unsigned int term = 0; term < n_terms; ++term)
-      if (concerns(term) && term != by_projection && term < by_inertia)
+      if (concerns(term) && term != by_projection && term <= by_inertia)
         for (unsigned int axis = 0; axis < dim; ++axis)
           result.push_back({std::string("momentum by ") + names[term] + " " + char('x' + axis),
                             "kg m/s",

@@ -67,10 +67,8 @@ namespace undine
       balance(coupled, solid, report.dt);
       report.newton_iterations += solid.newton.iterations;
       report.linear_iterations += solid.newton.linear_iterations;
-      report.note           = solid.note;
-      const auto &residuals = solid.newton.residuals;
-      if (!residuals.empty() && residuals.front() > 0)
-        report.newton_reduction = residuals.back() / residuals.front();
+      report.newton_reduction = reduction(solid.newton);
+      report.note             = solid.note;
       fluid_side.finish(*fluid, state, report, coupled.divergence());
       add_solid_columns(report, state, fluid->time + fluid->dt, solid);
     }

@@ -40,11 +40,9 @@ namespace undine
       ledger.add(*solid.balance, report.dt);
     report.newton_iterations += solid.newton.iterations;
     report.linear_iterations += solid.newton.linear_iterations;
-    report.note           = solid.note;
-    const auto &residuals = solid.newton.residuals;
-    if (!residuals.empty() && residuals.front() > 0)
-      report.newton_reduction = residuals.back() / residuals.front();
-    const auto measured = timing.section("measure");
+    report.newton_reduction = reduction(solid.newton);
+    report.note             = solid.note;
+    const auto measured     = timing.section("measure");
     append(report.columns,
            solid_columns(model, solid_step, environment, state.solid, time + report.dt, solid));
   }

@@ -75,7 +75,8 @@ namespace undine
         }
       report.newton_iterations += solid.newton.iterations;
       report.linear_iterations += solid.newton.linear_iterations + projected.iterations;
-      report.note = solid.note;
+      report.newton_reduction = reduction(solid.newton);
+      report.note             = solid.note;
       fluid_side.finish(*fluid, state, report, projected.divergence);
       add_solid_columns(report, state, end, solid);
     }
@@ -95,7 +96,7 @@ namespace undine
                                   fluid.dt,
                                   fluid_side.geometry()->pushed(velocities, fluid.dt));
       }
-    catch (const InputError &error)
+    catch (const NoOutletError &error)
       {
         throw SolveError(std::string(error.what()) +
                          " If bodies close this part off, time splitting has no solution. Try: "

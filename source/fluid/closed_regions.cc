@@ -117,6 +117,23 @@ namespace undine
 
   template <int dim>
   void
+  ClosedRegions<dim>::ground(Vector &pressure) const
+  {
+    if (region_volumes.empty())
+      return;
+    std::vector<bool> is_pinned(regions.size(), false);
+    for (const auto pin : pins)
+      is_pinned[numbers.owned().index_within_set(pin)] = true;
+    const auto values =
+      sums([&](const std::size_t k) { return is_pinned[k] ? pressure.begin()[k] : 0.; });
+    for (std::size_t k = 0; k < regions.size(); ++k)
+      if (const int region = regions[k]; region != open_region)
+        pressure.begin()[k] -= values[region];
+  }
+
+
+  template <int dim>
+  void
   ClosedRegions<dim>::remove_means(Field<dim> &pressure) const
   {
     if (regions.empty())
@@ -248,7 +265,7 @@ namespace undine
             continue;
           }
         if (std::abs(sum) > 1e-8 * sizes[region] + uncertainty[region])
-          throw InputError(fmt::format(
+          throw NoOutletError(fmt::format(
             "{}: at {:.6g} s {:.6g} m^{}/s in sum flow out of {}. Likely an obstacle grows or "
             "shrinks, leaves the domain or enters it, moves into another one, or seals a place "
             "off. Try: another 'Displacement', an 'outflow' or a boundary of the kind 'pressure' "

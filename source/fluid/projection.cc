@@ -55,15 +55,19 @@ namespace undine
   {
     if (numbers && numbers->open_parts() == open_parts)
       return;
-    numbers        = std::make_unique<const PressureNumbers<dim>>(model.grid(), open_parts);
-    closed_regions = std::make_unique<const ClosedRegions<dim>>(model, *numbers);
+    numbers.reset(); // until all is there
+    auto new_numbers = std::make_unique<const PressureNumbers<dim>>(model.grid(), open_parts);
+    closed_regions   = std::make_unique<const ClosedRegions<dim>>(model, *new_numbers);
     multigrid.reset();
     matrix.reset();
     smallest_area = smallest_flux_area(model.grid());
-    if (numbers->owned().size() == 0)
-      return; // obstacles fill the domain
+    if (new_numbers->owned().size() == 0)
+      {
+        numbers = std::move(new_numbers);
+        return; // obstacles fill the domain
+      }
     matrix = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
-    build_pressure_matrix(*matrix, model, *numbers, closed_regions->pinned());
+    build_pressure_matrix(*matrix, model, *new_numbers, closed_regions->pinned());
 
     dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
     data.elliptic              = true;
@@ -72,6 +76,7 @@ namespace undine
     data.smoother_sweeps       = 2;
     multigrid                  = std::make_unique<dealii::TrilinosWrappers::PreconditionAMG>();
     multigrid->initialize(*matrix, data);
+    numbers = std::move(new_numbers);
   }
 
 

@@ -21,7 +21,7 @@ namespace undine
         defect.add(environment.mass_damping, product);
       }
     defect.add(-1., dead);
-    defect.add(-coefficients.sum_of_weights(), reactions);
+    defect.add(-1., weighted(reactions));
     if (has_pressure)
       for (const auto &stage : coefficients.stages)
         defect.add(-stage.weight,

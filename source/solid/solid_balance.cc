@@ -59,17 +59,24 @@ namespace undine
         loads.add(stage.weight,
                   pressure_loads(
                     model, stage_displacement(end, stage.position), time + stage.position * dt));
-    Vector supports = reactions;
-    supports *= coefficients.sum_of_weights();
-
-    result.damping        = damping * way;
-    result.loads          = loads * way;
-    result.supports       = supports * way;
-    result.damping_force  = -sum(model, damping);
-    result.loads_force    = sum(model, loads);
-    result.supports_force = sum(model, supports);
+    // Those against given forces act un-averaged, as these do.
+    const double weight   = coefficients.sum_of_weights();
+    const Vector averaged = weighted(reactions);
+    result.supports       = reactions * way;
+    result.supports_force = sum(model, reactions);
     balance_inertia(result, velocity, way);
     balance_elasticity(result, end, way);
+
+    result.damping       = damping * way / weight;
+    result.loads         = loads * way / weight;
+    result.damping_force = -sum(model, damping) / weight;
+    result.loads_force   = sum(model, loads) / weight;
+    Vector rest          = reactions;
+    rest.add(-1., averaged);
+    rest.add(1 / weight - 1, loads);
+    rest.add(1 - 1 / weight, damping);
+    result.inertia_loss += rest * way;
+    result.inertia_gap += dt * sum(model, rest);
     return result;
   }
 
@@ -82,10 +89,8 @@ namespace undine
   {
     if (coefficients.mass == 0)
       return;
-    const Vector force = inertia(velocity);
-    result.momentum    = dt * sum(model, force);
-
-    Vector change = velocity, mean = velocity, gain = model.vector();
+    const Vector force  = inertia(velocity);
+    Vector       change = velocity, mean = velocity, gain = model.vector();
     change.add(-1., old_state.velocity);
     mean.sadd(0.5, 0.5, old_state.velocity);
     mass.vmult(gain, change);
@@ -95,6 +100,8 @@ namespace undine
     further.add(-dt, mean);
     more.add(-1 / dt, gain);
     result.inertia_loss = force * further + dt * (more * mean);
+    result.momentum     = sum(model, gain);
+    result.inertia_gap  = dt * sum(model, more);
   }
 
 
@@ -111,7 +118,8 @@ namespace undine
     try
       {
         // Finer only where the way is so long that the rule does not resolve it.
-        double along_way = 0;
+        const double resolved  = 1e-12 * elastic_energy(model, end);
+        double       along_way = 0;
         for (unsigned int parts = 1; parts <= 16; parts *= 4)
           {
             const dealii::QIterated<1> rule(dealii::QGauss<1>(6), parts);
@@ -119,7 +127,7 @@ namespace undine
             for (unsigned int q = 0; q < rule.size(); ++q)
               along_way += rule.weight(q) *
                            internal_work(model, stage_displacement(end, rule.point(q)[0]), way);
-            if (std::abs(along_way - result.elastic) <= 1e-12 * elastic_energy(model, end))
+            if (std::abs(along_way - result.elastic) <= resolved)
               break;
           }
         result.elastic_loss -= along_way;

@@ -270,19 +270,6 @@ namespace undine
 
 
   template <int dim>
-  typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::reactions(const Vector &velocity)
-  {
-    const Vector forces = full_residual(velocity);
-    Vector       result = model.vector();
-    for (const auto &fixed : model.fixed())
-      result(fixed.dof) = forces(fixed.dof) / coefficients.sum_of_weights();
-    result.compress(dealii::VectorOperation::insert);
-    return result;
-  }
-
-
-  template <int dim>
   typename SolidEquations<dim>::Matrix
   SolidEquations<dim>::jacobian(const Vector &velocity) const
   {

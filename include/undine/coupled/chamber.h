@@ -15,8 +15,7 @@ namespace undine
   };
 
   /// The one around `point`, of bodies that stand where `state` has them. Cuts the grid.
-  /// Collective. Throws SolveError, whose message begins with "lies", if the point is not in the
-  /// fluid.
+  /// Collective. Throws SolveError if the point is not in the fluid.
   template <int dim>
   Chamber
   measure_chamber(const Models<dim>        &models,

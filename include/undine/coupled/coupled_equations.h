@@ -15,7 +15,9 @@ namespace undine
   ///     R(u) - B^T p = 0             [N]         R: SolidEquations
   ///     D v* + B u + h L p = 0       [m^dim/s]   B: SurfaceFlux
   ///
-  /// Norms are sums of both, each relative to the largest of its terms.
+  /// Norms are sums of both, each relative to the size of its terms: the largest where corrections
+  /// were computed. Points on trial may raise it tenfold at most, and only for themselves: they
+  /// must neither hide how far off they are nor loosen what follows.
   template <int dim>
   class CoupledEquations
   {
@@ -30,6 +32,10 @@ namespace undine
                      const PressureEquations<dim> &fluid,
                      BlockSolver<dim>             &solver,
                      TimingTree                   &timing);
+
+    /// Newton's method begins anew: forget sizes.
+    void
+    start();
 
     double
     evaluate(const Unknown &x);
@@ -58,9 +64,20 @@ namespace undine
     BlockSolver<dim>             &solver;
     TimingTree                   &timing;
     Unknown                       residual;
-    double                        largest_force = 0; ///< [N]
-    double                        largest_flux  = 0; ///< [m^dim/s]
-    double                        last_norm     = 0;
+
+    /// Of the terms of both rows.
+    struct Sizes
+    {
+      double force = 0; ///< [N]
+      double flux  = 0; ///< [m^dim/s]
+    };
+
+    void
+    measure(const Sizes &own);
+
+    Sizes  reference; ///< where corrections were computed
+    Sizes  here;      ///< for the point evaluated last
+    double last_norm = 0;
   };
 } // namespace undine
 

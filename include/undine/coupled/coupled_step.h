@@ -63,6 +63,8 @@ namespace undine
     solve_with_openings();
     NewtonReport
     solve_first();
+    NewtonReport
+    solve_from(Vector velocity, Vector pressure);
     Vector
     resting_guess() const;
     void

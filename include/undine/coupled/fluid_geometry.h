@@ -125,6 +125,7 @@ namespace undine
     const VoidRegions<dim>                    *void_regions; ///< nullptr: none
     VoidParts                                  voids, accepted_voids;
     Positions                                  positions; ///< for which `cells` holds
+    Positions                                  was_at;    ///< as place() was told
     Velocities                                 velocities;
     CutCells<dim>                              cells;
     CutWorkspace<dim>                          work;

@@ -2,6 +2,7 @@
 #ifndef undine_coupled_physics_h
 #define undine_coupled_physics_h
 
+#include <undine/base/core/newton.h>
 #include <undine/coupled/report.h>
 #include <undine/coupled/state.h>
 
@@ -24,6 +25,15 @@ namespace undine
     virtual void
     step(State<dim> &state, Report &report) = 0;
   };
+
+
+  /// The last residual of Newton's method over the first [1]; zero if there was none.
+  inline double
+  reduction(const NewtonReport &newton)
+  {
+    const auto &residuals = newton.residuals;
+    return residuals.empty() || residuals.front() <= 0 ? 0. : residuals.back() / residuals.front();
+  }
 
 
   inline void

@@ -2,6 +2,7 @@
 #ifndef undine_fluid_closed_regions_h
 #define undine_fluid_closed_regions_h
 
+#include <undine/base/core/errors.h>
 #include <undine/fluid/fluid_model.h>
 #include <undine/fluid/pressure_numbers.h>
 #include <undine/fluid/pushed_volume.h>
@@ -13,6 +14,14 @@
 
 namespace undine
 {
+  /// More fluid flows into a region without outlet than out of it.
+  class NoOutletError : public InputError
+  {
+  public:
+    using InputError::InputError;
+  };
+
+
   /// The regions of the fluid on whose boundary the pressure is given nowhere and nothing gives
   /// way: there it is known up to a constant, and what flows in must flow out.
   template <int dim>
@@ -44,6 +53,11 @@ namespace undine
     balanced_fluxes(const Velocity<dim> &velocity,
                     const PushedVolume  &pushed,
                     const double         time) const;
+
+    /// Shift the pressures of each closed region so that its pinned one is zero. Corrections of
+    /// balanced residuals leave that so: pinning then changes nothing. Collective.
+    void
+    ground(Vector &pressure) const;
 
     /// Make the entries of each closed region sum to zero, by changes in proportion to volume.
     void

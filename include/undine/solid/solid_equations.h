@@ -126,6 +126,8 @@ namespace undine
     Vector
     full_residual(const Vector &velocity);
     Vector
+    weighted(const Vector &reactions) const;
+    Vector
     free_increment(const Vector &velocity) const;
     Vector
     stage_displacement(const Vector &end_displacement, double position) const;

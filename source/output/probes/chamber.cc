@@ -34,18 +34,12 @@ namespace undine
 
     Columns
     columns(const Models<dim> &models, const State<dim> &state) const override
-    try
-      {
-        const auto chamber = measure_chamber(models, state, point);
-        const auto unit    = "m^" + std::to_string(dim);
-        return {{name + " volume", unit, chamber.volume},
-                {name + " inflow", unit + "/s", chamber.inflow}};
-      }
-    catch (const SolveError &error)
-      {
-        throw SolveError("The point of the probe '" + name + "' " + error.what() +
-                         ". Try: a place farther away from the bodies.");
-      }
+    {
+      const auto chamber = measure_chamber(models, state, point);
+      const auto unit    = "m^" + std::to_string(dim);
+      return {{name + " volume", unit, chamber.volume},
+              {name + " inflow", unit + "/s", chamber.inflow}};
+    }
 
   private:
     std::string        name;
