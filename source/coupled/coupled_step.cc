@@ -165,9 +165,6 @@ namespace undine
     const auto &velocity = x.block(0);
     surface->move(velocity);
     const auto pressure = pressures.field(x.block(1));
-    surfaces.by_fluid   = parts.geometry.pressure_forces(pressure);
-    surfaces.pushed     = surface->nodal_forces(pressure);
-    surfaces.velocities = surface->node_velocities();
     equations.add_forces(surface->forces(pressure));
     report.reactions          = equations.reactions(velocity);
     report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
@@ -203,9 +200,13 @@ namespace undine
   SurfaceExchange<dim>
   CoupledStep<dim>::exchange() const
   {
-    auto result      = surfaces;
-    result.on_bodies = result.pushed;
-    result.way       = parts.models.surface->with_bodies(
+    const auto pressure = pressures.field(x.block(1));
+    auto       result   = surfaces;
+    result.by_fluid     = parts.geometry.pressure_forces(pressure);
+    result.pushed       = surface->nodal_forces(pressure);
+    result.velocities   = surface->node_velocities();
+    result.on_bodies    = result.pushed;
+    result.way          = parts.models.surface->with_bodies(
       equations.increment(x.block(0)),
       typename SurfaceExchange<dim>::Vectors(result.by_fluid.size()));
     return result;

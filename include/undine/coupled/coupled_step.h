@@ -78,7 +78,7 @@ namespace undine
     const NewtonOptions                    &newton;
     const double                            end_time;
     const SolidState                        old_solid;
-    SurfaceExchange<dim>                    surfaces;
+    SurfaceExchange<dim>                    surfaces; ///< only what acts at rest
     SolidEquations<dim>                     equations;
     const PressureNumbers<dim>              numbers;
     const std::unique_ptr<SurfaceFlux<dim>> surface;

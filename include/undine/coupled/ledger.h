@@ -104,6 +104,8 @@ namespace undine
       n_terms
     };
 
+    static_assert(int(by_boundary_values) == int(boundary_values), "phases are the first terms");
+
     struct Amount
     {
       double                 energy = 0;
