@@ -7,6 +7,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace undine
@@ -118,8 +119,9 @@ namespace undine
     try
       {
         // Finer only where the way is so long that the rule does not resolve it.
-        const double resolved  = 1e-12 * elastic_energy(model, end);
-        double       along_way = 0;
+        const double resolved =
+          std::max(1e-12 * elastic_energy(model, end), own_rounding * way.l2_norm());
+        double along_way = 0;
         for (unsigned int parts = 1; parts <= 16; parts *= 4)
           {
             const dealii::QIterated<1> rule(dealii::QGauss<1>(6), parts);
