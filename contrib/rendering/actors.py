@@ -46,6 +46,17 @@ def surface_actor(data, field, transfer, is_flat):
     return actor
 
 
+def plain_actor(filter_, colour):
+    """What a filter gives, in one colour."""
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(filter_.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*colour)
+    return actor
+
+
 def edge_actor(data, flat):
     """The outline of bodies: in 2D their rim, in 3D their sharp edges."""
     skin = vtk.vtkGeometryFilter()
@@ -57,12 +68,7 @@ def edge_actor(data, flat):
     edges.NonManifoldEdgesOff()
     edges.ManifoldEdgesOff()
     edges.ColoringOff()
-    mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputConnection(edges.GetOutputPort())
-    mapper.ScalarVisibilityOff()
-    actor = vtk.vtkActor()
-    actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(*INK)
+    actor = plain_actor(edges, INK)
     actor.GetProperty().SetLineWidth(1.5)
     actor.GetProperty().LightingOff()
     return actor
@@ -84,12 +90,7 @@ def obstacle_actor(data, bounds, is_flat):
             whole, faces = faces, vtk.vtkClipPolyData()
             faces.SetInputConnection(whole.GetOutputPort())
             faces.SetClipFunction(side)
-    mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputConnection(faces.GetOutputPort())
-    mapper.ScalarVisibilityOff()
-    actor = vtk.vtkActor()
-    actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(*GREY)
+    actor = plain_actor(faces, GREY)
     actor.GetProperty().SetLighting(not is_flat)
     actor.GetProperty().SetAmbient(0.4)
     actor.GetProperty().SetDiffuse(0.65)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/relative.h>
 #include <undine/coupled/coupled_equations.h>
 #include <undine/solid/prescribed_motion.h>
 
@@ -7,17 +8,6 @@
 
 namespace undine
 {
-  namespace
-  {
-    /// 0 / 0 = 0: where there are no terms, there is no residual.
-    double
-    relative(const double value, const double scale)
-    {
-      return value == 0 ? 0. : value / scale;
-    }
-  } // namespace
-
-
   template <int dim>
   CoupledEquations<dim>::CoupledEquations(const SolidModel<dim>        &model,
                                           SolidEquations<dim>          &solid,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/relative.h>
 #include <undine/coupled/ledger.h>
 #include <undine/fluid/fluid_quantities.h>
 
@@ -6,17 +7,6 @@
 
 namespace undine
 {
-  namespace
-  {
-    /// value / scale, 0 / 0 = 0.
-    double
-    relative(const double value, const double scale)
-    {
-      return value == 0 ? 0. : value / scale;
-    }
-  } // namespace
-
-
   template <int dim>
   const char *const Ledger<dim>::names[n_terms] = {"transport",
                                                    "forces",

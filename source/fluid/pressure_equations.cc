@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/relative.h>
 #include <undine/fluid/boundary_condition.h>
 #include <undine/fluid/fluid_quantities.h>
 #include <undine/fluid/pressure_equations.h>
@@ -69,7 +70,7 @@ namespace undine
   {
     const double change = update_entering_speeds(openings, velocity, model, dt);
     const double speed  = largest_components(model, velocity).norm();
-    return change == 0 ? 0. : change / speed;
+    return relative(change, speed);
   }
 
 
@@ -118,7 +119,7 @@ namespace undine
     const double largest = largest_divergence(model, fluxes);
     const double speed =
       largest_components(model, velocity).norm() + largest_divergence(model, pushed);
-    return largest == 0 ? 0. : largest / speed;
+    return relative(largest, speed);
   }
 
 

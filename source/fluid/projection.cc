@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/relative.h>
 #include <undine/fluid/boundary_condition.h>
 #include <undine/fluid/entering_flow.h>
 #include <undine/fluid/pressure_gradient.h>
@@ -136,7 +137,7 @@ namespace undine
         add(fluxes, 1., pushed);
         const double divergence = largest_divergence(model, fluxes);
         const double speed      = largest_components(model, velocity).norm() + body_speed;
-        report.divergence       = divergence == 0 ? 0. : divergence / speed;
+        report.divergence       = relative(divergence, speed);
         // Below 1e-4 of the speeds that cancelled there is nothing but rounding.
         const double allowed = tolerance * std::max(speed, 1e-4 * first_speed);
         if (divergence <= allowed)

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
-#include <undine/solid/sparse.h>
-#include <undine/solid/tangent_multigrid.h>
 #include <undine/solid/tangent_preconditioner.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_cg.h>
 
 #include <cmath>
@@ -40,30 +37,9 @@ namespace undine
       }
     if (!std::isfinite(A.frobenius_norm()))
       throw SolveError("the matrix of the bodies is not a number. Try a smaller step.");
-    make_multigrid(A, displacement);
+    multigrid = make_multigrid(A, model, displacement);
     if (!multigrid)
       give_way(A);
-  }
-
-
-  template <int dim>
-  void
-  TangentPreconditioner<dim>::make_multigrid(const Matrix &A, const Vector &displacement)
-  {
-    bool failed = false;
-    multigrid   = std::make_unique<Multigrid>();
-    multigrid->matrix.reinit(A);
-    add_matrix(multigrid->matrix, 1, A);
-    try
-      {
-        initialize_multigrid(multigrid->hierarchy, multigrid->matrix, model, displacement);
-      }
-    catch (const std::exception &)
-      {
-        failed = true;
-      }
-    if (dealii::Utilities::MPI::max(int(failed), model.communicator()) > 0)
-      multigrid.reset();
   }
 
 

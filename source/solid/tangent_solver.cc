@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/solid/loads.h>
-#include <undine/solid/sparse.h>
-#include <undine/solid/tangent_multigrid.h>
 #include <undine/solid/tangent_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace undine
 {
@@ -42,8 +39,9 @@ namespace undine
         Vector x = model.vector();
         if (multigrid && iterate(x, A, b, negligible))
           return x;
-        renew_multigrid(A, displacement);
-        x = 0;
+        multigrid        = make_multigrid(A, model, displacement);
+        first_iterations = 0;
+        x                = 0;
         if (multigrid && iterate(x, A, b, negligible))
           return x;
         multigrid.reset();
@@ -53,30 +51,6 @@ namespace undine
       }
     factorisation.factorise(A);
     return factorisation.solve(b);
-  }
-
-
-  /// Leaves no hierarchy if none can be made.
-  template <int dim>
-  void
-  TangentSolver<dim>::renew_multigrid(const Matrix &A, const Vector &displacement)
-  {
-    bool failed = false;
-    try
-      {
-        multigrid = std::make_unique<Multigrid>();
-        multigrid->matrix.reinit(A);
-        add_matrix(multigrid->matrix, 1, A);
-        failed = !std::isfinite(A.frobenius_norm());
-        if (!failed)
-          initialize_multigrid(multigrid->hierarchy, multigrid->matrix, model, displacement);
-      }
-    catch (const std::exception &)
-      {
-        failed = true;
-      }
-    if (dealii::Utilities::MPI::max(int(failed), model.communicator()) > 0)
-      multigrid.reset();
   }
 
 
@@ -105,10 +79,9 @@ namespace undine
     all_iterations += control.last_step();
     if (dealii::Utilities::MPI::max(int(failed), model.communicator()) > 0)
       return false;
-    unsigned int &first = multigrid->first_iterations;
-    if (first == 0)
-      first = std::max(control.last_step(), 1u);
-    else if (control.last_step() > first + first / 2 + 2)
+    if (first_iterations == 0)
+      first_iterations = std::max(control.last_step(), 1u);
+    else if (control.last_step() > first_iterations + first_iterations / 2 + 2)
       multigrid.reset();
     return true;
   }

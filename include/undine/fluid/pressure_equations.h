@@ -32,7 +32,8 @@ namespace undine
                       const double                dt);
 
     /// Begin with v* in `velocity`. `carrying` = v^n is a first guess of how fast fluid enters
-    /// through outflows; the step ends at `time`. `pushed`: by surfaces that do not yield.
+    /// through outflows; the step ends at `time`. `pushed`: by all surfaces, of which those that
+    /// do not yield must keep the volume of closed regions.
     /// Collective. Throws InputError if a closed region has a net inflow.
     void
     start(Velocity<dim>       &velocity,

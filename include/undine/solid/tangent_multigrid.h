@@ -5,6 +5,9 @@
 #include <undine/solid/solid_model.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <memory>
 
 namespace undine
 {
@@ -14,14 +17,20 @@ namespace undine
   bool
   solves_directly(const SolidModel<dim> &model);
 
-  /// Smoothed aggregation (ML) that knows the rigid-body motions of bodies displaced by
-  /// `displacement` [m]. A has to live as long as the result. Throws what ML throws.
+  /// Smoothed aggregation (ML) that knows the rigid-body motions, and the matrix it was made for.
+  struct TangentMultigrid
+  {
+    dealii::TrilinosWrappers::SparseMatrix    matrix;
+    dealii::TrilinosWrappers::PreconditionAMG hierarchy;
+  };
+
+  /// For a copy of A, bodies being displaced by `displacement` [m]. nullptr, on all ranks, if A is
+  /// not a number or no hierarchy can be made. Collective.
   template <int dim>
-  void
-  initialize_multigrid(dealii::TrilinosWrappers::PreconditionAMG    &multigrid,
-                       const dealii::TrilinosWrappers::SparseMatrix &A,
-                       const SolidModel<dim>                        &model,
-                       const typename SolidModel<dim>::Vector       &displacement);
+  std::unique_ptr<TangentMultigrid>
+  make_multigrid(const dealii::TrilinosWrappers::SparseMatrix &A,
+                 const SolidModel<dim>                        &model,
+                 const typename SolidModel<dim>::Vector       &displacement);
 } // namespace undine
 
 #endif

@@ -4,8 +4,7 @@
 
 #include <undine/solid/factorisation.h>
 #include <undine/solid/solid_model.h>
-
-#include <deal.II/lac/trilinos_precondition.h>
+#include <undine/solid/tangent_multigrid.h>
 
 #include <memory>
 #include <string>
@@ -40,16 +39,6 @@ namespace undine
     note() const;
 
   private:
-    struct Multigrid
-    {
-      Matrix                                    matrix;
-      dealii::TrilinosWrappers::PreconditionAMG hierarchy;
-    };
-
-    /// Leaves no hierarchy if none can be made.
-    void
-    make_multigrid(const Matrix &A, const Vector &displacement);
-
     /// Replace the multigrid of a matrix by factors of it.
     void
     give_way(const Matrix &A);
@@ -58,11 +47,11 @@ namespace undine
     bool
     iterate(Vector &x, const Vector &b) const;
 
-    const SolidModel<dim>     &model;
-    const bool                 direct;
-    Factorisation              factorisation;
-    std::unique_ptr<Multigrid> multigrid; ///< nullptr: there are factors
-    std::string                last_note;
+    const SolidModel<dim>            &model;
+    const bool                        direct;
+    Factorisation                     factorisation;
+    std::unique_ptr<TangentMultigrid> multigrid; ///< nullptr: there are factors
+    std::string                       last_note;
   };
 } // namespace undine
 

@@ -4,8 +4,7 @@
 
 #include <undine/solid/factorisation.h>
 #include <undine/solid/solid_model.h>
-
-#include <deal.II/lac/trilinos_precondition.h>
+#include <undine/solid/tangent_multigrid.h>
 
 #include <memory>
 #include <string>
@@ -48,31 +47,21 @@ namespace undine
     note() const;
 
   private:
-    /// A preconditioner, and the matrix that it was made for.
-    struct Multigrid
-    {
-      Matrix                                    matrix;
-      dealii::TrilinosWrappers::PreconditionAMG hierarchy;
-      unsigned int first_iterations = 0; ///< when it was new; 0: is new
-    };
-
     bool
     is_direct() const;
-    void
-    renew_multigrid(const Matrix &A, const Vector &displacement);
-
     /// Improve x. False, on all ranks, if the iteration does not converge.
     bool
     iterate(Vector &x, const Matrix &A, const Vector &b, double negligible);
 
-    const SolidModel<dim>     &model;
-    const bool                 direct;
-    const bool                 symmetric;
-    Factorisation              factorisation;
-    std::unique_ptr<Multigrid> multigrid;
-    bool                       gave_up        = false; ///< the iteration did not converge once
-    unsigned int               all_iterations = 0;
-    std::string                all_notes;
+    const SolidModel<dim>            &model;
+    const bool                        direct;
+    const bool                        symmetric;
+    Factorisation                     factorisation;
+    std::unique_ptr<TangentMultigrid> multigrid;
+    unsigned int first_iterations = 0;     ///< with that hierarchy when it was new; 0: it is new
+    bool         gave_up          = false; ///< the iteration did not converge once
+    unsigned int all_iterations   = 0;
+    std::string  all_notes;
   };
 } // namespace undine
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/chamber.h>
+#include <undine/fluid/place_in_domain.h>
 #include <undine/output/probe.h>
 
 namespace undine
@@ -26,10 +27,7 @@ namespace undine
       name = probe_name;
       if (!models.fluid)
         throw options.error("Kind", "the scene has no fluid", "Try: remove the probe.");
-      const auto &grid = models.fluid->grid();
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        if (!(point[axis] > grid.lower()[axis] && point[axis] < grid.upper()[axis]))
-          throw options.error("Point", "lies outside the domain", "Try: a place inside.");
+      check_in_domain(options, "Point", point, models.fluid->grid());
     }
 
     Columns

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/place_in_domain.h>
 #include <undine/output/fluid_sampler.h>
 #include <undine/output/probe.h>
 
@@ -21,13 +22,7 @@ namespace undine
       name = probe_name;
       if (!models.fluid)
         throw options.error("Kind", "the scene has no fluid", "Try: remove the probe.");
-      const auto &grid = models.fluid->grid();
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        if (!(point[axis] >= grid.lower()[axis] && point[axis] <= grid.upper()[axis]))
-          throw options.error("Point",
-                              "the point (" + write_value(point) + ") is outside the domain",
-                              "Allowed: from (" + write_value(grid.lower()) + ") to (" +
-                                write_value(grid.upper()) + ") [m]");
+      check_in_domain(options, "Point", point, models.fluid->grid());
     }
 
     Columns
