@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_assemble_pressure_h
+#define undine_particles_assemble_pressure_h
+
+#include <undine/particles/atomics.h>
+#include <undine/particles/neighbourhood.h>
+#include <undine/particles/pressure_matrix.h>
+#include <undine/particles/virtual_faces.h>
+
+namespace undine::particles
+{
+  /// rho_f lambda n0 / (2 dim): what div(grad P / rho) is multiplied with in the pressure equation
+  /// [kg/m^(dim-2)].
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE Real
+  pressure_scale(const Constants<dim, Real> &constants)
+  {
+    return constants.densities[0] * constants.spread * constants.number_density / (2 * dim);
+  }
+
+  /// The pair's coefficient in the pressure equation, k_ij [1].
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE Real
+  pressure_coefficient(const Constants<dim, Real> &constants,
+                       const Tag                   tag,
+                       const Pair<dim, Real>      &pair)
+  {
+    return pair.weight * constants.densities[0] / constants.mean_density(tag, pair.tag);
+  }
+
+
+  /// Fills the matrix of the pressure equation, its diagonal and that of the equation for the
+  /// potentials of the virtual faces,
+  ///     sum_j k_ij (L_i - L_j) = -sum_j a_ij of L = 0,
+  /// with its right-hand side. Neighbours whose pressure is zero count in the diagonal; so does the
+  /// missing part of the neighbourhood at a free surface, as air.
+  template <int dim, class Real, class Entry>
+  struct AssemblePressure
+  {
+    Constants<dim, Real>        constants;
+    Neighbours<dim, Real>       neighbours;
+    Neighbourhood<dim, Real>    neighbourhood;
+    VirtualFaces<dim, Real>     faces;
+    PressureMatrix<Real, Entry> matrix;
+    Real                       *diagonal;
+    Real                       *faces_diagonal; ///< nullptr: faces are left open
+    Vector<dim, Real>          *gaps;           ///< right-hand side of the potentials
+    StepControl                *control;
+
+    UNDINE_HOST_DEVICE void
+    operator()(const int i) const
+    {
+      matrix.counts[i] = 0;
+      diagonal[i]      = 1;
+      if (faces_diagonal != nullptr)
+        {
+          faces_diagonal[i] = 1;
+          gaps[i]           = Vector<dim, Real>::zero();
+        }
+      if (neighbourhood.is_unknown[i])
+        fill_row(i);
+    }
+
+  private:
+    UNDINE_HOST_DEVICE void
+    fill_row(const int i) const
+    {
+      const Tag  tag     = neighbours.places[i].tag;
+      const auto M       = neighbourhood.corrections[i];
+      const bool closes  = faces_diagonal != nullptr;
+      auto       gap     = Vector<dim, Real>::zero();
+      int        count   = 0;
+      Real       sum     = 0;
+      bool       reached = true;
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        if (pair.tag.kind() == Kind::dummy)
+          return;
+        const Entry entry =
+          Entry::of(j - i, pressure_coefficient(constants, tag, pair), matrix.scale);
+        sum += entry.coefficient(matrix.scale);
+        if (closes)
+          gap -= faces.open(M, j, pair);
+        if (!neighbourhood.is_unknown[j])
+          return;
+        reached                                              = reached && Entry::can_reach(j - i);
+        matrix.entries[list_slot(i, count, matrix.capacity)] = entry;
+        ++count;
+      });
+      if (!reached)
+        atomic_or(&control->failures, static_cast<unsigned int>(Failure::matrix_indices));
+      sum += air(i, tag);
+      matrix.counts[i] = count;
+      diagonal[i]      = maximum(sum + compressibility(tag), Real(1e-6));
+      if (closes)
+        {
+          faces_diagonal[i] = maximum(sum, Real(1e-6));
+          if (neighbourhood.is_covered[i] && tag.is_free())
+            gaps[i] = gap;
+        }
+    }
+
+    UNDINE_HOST_DEVICE Real
+    air(const int i, const Tag tag) const
+    {
+      if (neighbourhood.is_covered[i] || tag.kind() == Kind::solid)
+        return 0;
+      return constants.air *
+             maximum(Real(0), constants.number_density - neighbourhood.densities[i]);
+    }
+
+    UNDINE_HOST_DEVICE Real
+    compressibility(const Tag tag) const
+    {
+      const Real dt = static_cast<Real>(control->dt);
+      return pressure_scale(constants) * constants.compressibilities[tag.material()] / (dt * dt);
+    }
+  };
+
+
+  /// The right-hand side of the pressure equation, rho_f lambda n0 / (2 dim) s with
+  ///     s = -div v* / dt + gamma (n* - n0) / (n0 dt^2)  [1/s^2]
+  /// or one of the other sources. Runs after the potentials are known.
+  template <int dim, class Real>
+  struct MeasureSource
+  {
+    Constants<dim, Real>     constants;
+    Neighbours<dim, Real>    neighbours;
+    Neighbourhood<dim, Real> neighbourhood;
+    VirtualFaces<dim, Real>  faces;
+    const Motion<dim, Real> *motions;
+    Real                    *right_hand_side;
+    Real                    *guess; ///< of the pressures
+    const StepControl       *control;
+
+    UNDINE_HOST_DEVICE void
+    operator()(const int i) const
+    {
+      right_hand_side[i] = 0;
+      guess[i]           = 0;
+      if (!neighbourhood.is_unknown[i])
+        return;
+      guess[i]      = motions[i].pressure;
+      const Tag tag = neighbours.places[i].tag;
+      if (tag.kind() == Kind::solid)
+        return; // elasticity keeps the bodies' volumes
+      const Real dt    = static_cast<Real>(control->dt);
+      const Real n0    = constants.number_density;
+      const Real error = (neighbourhood.densities[i] - n0) / (n0 * dt * dt);
+      Real       s     = share(dt) * error;
+      if (constants.source == Source::divergence)
+        s -= divergence(i, tag) / dt;
+      right_hand_side[i] = pressure_scale(constants) * s;
+    }
+
+  private:
+    /// gamma
+    UNDINE_HOST_DEVICE Real
+    share(const Real dt) const
+    {
+      if (constants.source == Source::density)
+        return 1;
+      if (constants.source == Source::divergence && constants.relaxation_time > 0)
+        return minimum(Real(1), dt / constants.relaxation_time);
+      return constants.density_share;
+    }
+
+    /// By the same faces as the forces of pressures, where faces close.
+    UNDINE_HOST_DEVICE Real
+    divergence(const int i, const Tag tag) const
+    {
+      const auto v = motions[i].v;
+      const bool closed =
+        faces.potentials != nullptr && neighbourhood.is_covered[i] && tag.is_free();
+      const auto M   = neighbourhood.corrections[i];
+      const auto L   = closed ? faces.potentials[i] : Vector<dim, Real>::zero();
+      Real       sum = 0;
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        const auto difference = motions[j].v - v;
+        if (closed && pair.tag.kind() != Kind::dummy)
+          sum +=
+            difference * faces.closed(M, L, j, pressure_coefficient(constants, tag, pair), pair);
+        else
+          sum += faces.factor * pair.weight / pair.square * (difference * pair.r);
+      });
+      return sum;
+    }
+  };
+} // namespace undine::particles
+
+#endif

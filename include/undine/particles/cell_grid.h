@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_cell_grid_h
+#define undine_particles_cell_grid_h
+
+#include <undine/particles/vector.h>
+
+namespace undine::particles
+{
+  /// The box that holds all particles, in cells no smaller than the reach of the weight: neighbours
+  /// of a particle are in its cell or in those around it. Cells along the shortest axis follow each
+  /// other in memory and the longest axis is the slowest, which keeps neighbours close to each
+  /// other in sorted order.
+  template <int dim, class Real>
+  struct CellGrid
+  {
+    Vector<dim, Real> lower;        ///< corner [m]
+    Vector<dim, Real> size;         ///< extents [m]
+    Vector<dim, Real> inverse_cell; ///< [1/m]
+    int               cells[dim];   ///< along each axis
+    bool              periodic[dim];
+    int               order[dim]; ///< axes, fastest first
+
+    UNDINE_HOST_DEVICE int
+    n_cells() const
+    {
+      int product = 1;
+      for (int axis = 0; axis < dim; ++axis)
+        product *= cells[axis];
+      return product;
+    }
+
+    /// The shortest vector to x from y across periodic boundaries [m].
+    UNDINE_HOST_DEVICE Vector<dim, Real>
+                       difference(const Vector<dim, Real> &x, const Vector<dim, Real> &y) const
+    {
+      Vector<dim, Real> result = x - y;
+      for (int axis = 0; axis < dim; ++axis)
+        if (periodic[axis])
+          {
+            if (2 * result[axis] > size[axis])
+              result[axis] -= size[axis];
+            else if (2 * result[axis] < -size[axis])
+              result[axis] += size[axis];
+          }
+      return result;
+    }
+
+    /// Back into the box across periodic boundaries.
+    UNDINE_HOST_DEVICE Vector<dim, Real>
+                       wrapped(Vector<dim, Real> x) const
+    {
+      for (int axis = 0; axis < dim; ++axis)
+        if (periodic[axis])
+          {
+            if (x[axis] < lower[axis])
+              x[axis] += size[axis];
+            else if (!(x[axis] < lower[axis] + size[axis]))
+              x[axis] -= size[axis];
+          }
+      return x;
+    }
+
+    UNDINE_HOST_DEVICE bool
+    contains(const Vector<dim, Real> &x) const
+    {
+      bool inside = true;
+      for (int axis = 0; axis < dim; ++axis)
+        inside = inside && x[axis] >= lower[axis] && x[axis] <= lower[axis] + size[axis];
+      return inside;
+    }
+
+    /// Along one axis; what is outside counts to the outermost cells.
+    UNDINE_HOST_DEVICE int
+    coordinate(const Vector<dim, Real> &x, const int axis) const
+    {
+      const int cell = static_cast<int>((x[axis] - lower[axis]) * inverse_cell[axis]);
+      return minimum(maximum(cell, 0), cells[axis] - 1);
+    }
+
+    UNDINE_HOST_DEVICE int
+    index(const int (&coordinates)[dim]) const
+    {
+      int result = 0;
+      for (int k = dim - 1; k >= 0; --k)
+        result = result * cells[order[k]] + coordinates[order[k]];
+      return result;
+    }
+
+    UNDINE_HOST_DEVICE int
+    cell_of(const Vector<dim, Real> &x) const
+    {
+      int coordinates[dim];
+      for (int axis = 0; axis < dim; ++axis)
+        coordinates[axis] = coordinate(x, axis);
+      return index(coordinates);
+    }
+
+    /// Call f(begin, end) for runs of consecutive cells which together are the cell of x and all
+    /// around it, each once, in a fixed order.
+    template <class Function>
+    UNDINE_HOST_DEVICE void
+    for_each_run_around(const Vector<dim, Real> &x, const Function &f) const
+    {
+      int rows = 1;
+      for (int k = 1; k < dim; ++k)
+        rows *= 3;
+      const int along = order[0];
+      const int here  = coordinate(x, along);
+      for (int row = 0; row < rows; ++row)
+        {
+          int  coordinates[dim];
+          bool exists = true;
+          for (int k = 1, rest = row; k < dim; ++k, rest /= 3)
+            {
+              const int axis = order[k];
+              int       cell = coordinate(x, axis) + rest % 3 - 1;
+              if (periodic[axis])
+                cell =
+                  cell < 0 ? cell + cells[axis] : (cell >= cells[axis] ? cell - cells[axis] : cell);
+              exists            = exists && cell >= 0 && cell < cells[axis];
+              coordinates[axis] = cell;
+            }
+          if (!exists)
+            continue;
+          coordinates[along] = 0;
+          const int first    = index(coordinates);
+          f(first + maximum(here - 1, 0), first + minimum(here + 1, cells[along] - 1) + 1);
+          if (periodic[along] && here == 0)
+            f(first + cells[along] - 1, first + cells[along]);
+          if (periodic[along] && here == cells[along] - 1)
+            f(first, first + 1);
+        }
+    }
+  };
+
+  /// The box from `lower` to `upper` [m] in cells of at least `reach` [m]. Throws InputError if it
+  /// is empty or has less than three cells along a periodic axis.
+  template <int dim, class Real>
+  CellGrid<dim, Real>
+  make_cell_grid(const Vector<dim, double> &lower,
+                 const Vector<dim, double> &upper,
+                 const bool (&periodic)[dim],
+                 double reach);
+} // namespace undine::particles
+
+#endif

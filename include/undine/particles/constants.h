@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_constants_h
+#define undine_particles_constants_h
+
+#include <undine/particles/cell_grid.h>
+#include <undine/particles/particle.h>
+
+namespace undine::particles
+{
+  /// What drives the pressure: the right-hand side of the pressure equation.
+  enum class Source
+  {
+    divergence, ///< of the intermediate velocity, and a share of the density's error
+    density,    ///< the whole error of the intermediate density (the source's equation 5)
+    relaxed     ///< a share of it
+  };
+
+  /// How pressures become forces, see PressureForces.
+  enum class PairForce
+  {
+    balanced,  ///< equal and opposite, and exact for constant pressures: virtual faces that close
+    corrected, ///< exact for linear pressures; momentum is conserved up to the disorder
+    minimum,   ///< every pair repels: P_j - min P [Koshizuka, Oka 1996]
+    conserving ///< P_i + P_j: equal and opposite, but stiff under high pressure
+  };
+
+  /// The numbers of a scene that passes need, constant during a run; in the unit system of the
+  /// scene.
+  template <int dim, class Real>
+  struct Constants
+  {
+    static constexpr int max_materials = 16;
+
+    CellGrid<dim, Real> grid;
+    Real                spacing;        ///< l0 [m]
+    Real                reach;          ///< r_e [m]
+    Real                volume;         ///< of a particle, l0^dim [m^dim]
+    Real                number_density; ///< n0 [1]
+    Real                spread;         ///< lambda [m^2]
+
+    Vector<dim, Real> gravity;                  ///< [m/s^2]
+    Real              viscosity;                ///< kinematic, of the fluid [m^2/s]
+    Real              densities[max_materials]; ///< [kg/m^3]; material 0 is the fluid
+    /// 1 / K of the materials' volumes in the pressure equation [1/Pa]; 0: incompressible.
+    Real compressibilities[max_materials];
+
+    Source source;
+    Real   density_share;   ///< gamma of Source::relaxed, and of divergence without the next [1]
+    Real   relaxation_time; ///< tau: gamma = dt / tau [s]; 0: density_share
+
+    Real surface_density;       ///< n* < this * n0: at the free surface
+    Real one_sided_density;     ///< n* < this * n0 and
+    Real surface_one_sidedness; ///< |sum w r/|r|| > this * n0: also at the free surface
+    Real air;                   ///< how strongly missing neighbours pull pressures to zero [1]
+
+    Real collision_distance; ///< [m]
+    Real restitution;        ///< [1]
+
+    PairForce pair_force;
+    Real      shifting;       ///< strength [1]
+    Real      shifting_limit; ///< [m] per sub-step
+
+    /// Density at the middle between two particles, at which pressure gradients accelerate. Walls
+    /// count as fluid.
+    UNDINE_HOST_DEVICE Real
+    mean_density(const Tag a, const Tag b) const
+    {
+      return (densities[a.material()] + densities[b.material()]) / 2;
+    }
+  };
+} // namespace undine::particles
+
+#endif

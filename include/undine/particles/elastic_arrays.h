@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_elastic_arrays_h
+#define undine_particles_elastic_arrays_h
+
+#include <undine/particles/buffer.h>
+#include <undine/particles/elastic_bodies.h>
+#include <undine/particles/reference_lattice.h>
+
+namespace undine::particles
+{
+  /// The memory of ElasticBodies and of what their steps need.
+  template <class Executor, int dim, class Real>
+  struct ElasticArrays
+  {
+    ElasticArrays(const Executor &executor, const ReferenceLattice<dim, Real> &lattice)
+      : n(static_cast<int>(lattice.positions.size()))
+      , capacity(lattice.capacity)
+      , reference(executor, lattice.positions)
+      , bodies(executor, lattice.bodies)
+      , materials(executor, lattice.materials)
+      , held(executor, lattice.held)
+      , inside(executor, lattice.inside)
+      , counts(executor, lattice.counts)
+      , indices(executor, lattice.indices)
+      , inverse_moments(executor, lattice.inverse_moments)
+      , x(executor, lattice.positions)
+      , v(executor, n)
+      , x_next(executor, n)
+      , v_next(executor, n)
+      , x_start(executor, n)
+      , v_start(executor, n)
+      , accelerations(executor, n)
+      , deformations(executor, n)
+      , rotations(executor, std::vector<Matrix<dim, Real>>(n, Matrix<dim, Real>::diagonal(1)))
+      , stresses(executor, n)
+      , where(executor, n)
+    {
+    }
+
+    ElasticBodies<dim, Real>
+    view() const
+    {
+      return {n,
+              reference.data(),
+              bodies.data(),
+              materials.data(),
+              held.data(),
+              capacity,
+              counts.data(),
+              indices.data(),
+              inverse_moments.data(),
+              x.data(),
+              v.data(),
+              deformations.data(),
+              rotations.data(),
+              stresses.data()};
+    }
+
+    int                                     n, capacity;
+    Buffer<Executor, Vector<dim, Real>>     reference;
+    Buffer<Executor, int>                   bodies;
+    Buffer<Executor, ElasticMaterial<Real>> materials;
+    Buffer<Executor, unsigned char>         held;
+    Buffer<Executor, unsigned char>         inside; ///< surrounded by their own body
+    Buffer<Executor, int>                   counts, indices;
+    Buffer<Executor, Matrix<dim, Real>>     inverse_moments;
+    Buffer<Executor, Vector<dim, Real>>     x, v, x_next, v_next, x_start, v_start;
+    Buffer<Executor, Vector<dim, Real>>     accelerations; ///< by pressures [m/s^2]
+    Buffer<Executor, Matrix<dim, Real>>     deformations, rotations, stresses;
+    Buffer<Executor, int>                   where; ///< sorted place of each identity
+  };
+} // namespace undine::particles
+
+#endif

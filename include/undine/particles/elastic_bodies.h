@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_elastic_bodies_h
+#define undine_particles_elastic_bodies_h
+
+#include <undine/particles/cell_grid.h>
+#include <undine/particles/matrix.h>
+#include <undine/particles/neighbours.h>
+
+namespace undine::particles
+{
+  /// Of one elastic body.
+  template <class Real>
+  struct ElasticMaterial
+  {
+    Real lambda, mu; ///< Lame's parameters [Pa]
+    Real density;    ///< [kg/m^3]
+    Real hourglass;  ///< alpha: stiffness against motions that deformation gradients do not see [1]
+    Real damping;    ///< zeta: share of critical damping of neighbours' relative motion [1]
+    Real contact;    ///< stiffness of contact with walls and other bodies [N/m, in the plane per m]
+  };
+
+  /// The particles of all elastic bodies, by identity. The reference configuration and its
+  /// neighbourhoods never change: forces are total Lagrangian.
+  template <int dim, class Real>
+  struct ElasticBodies
+  {
+    int n;
+
+    const Vector<dim, Real>     *reference; ///< X [m]
+    const int                   *bodies;    ///< number of the body
+    const ElasticMaterial<Real> *materials; ///< of the bodies
+    const unsigned char         *held;      ///< does not move
+    int                          capacity;  ///< of the list of neighbours in the reference
+    const int                   *counts;
+    const int                   *indices;
+    const Matrix<dim, Real>     *inverse_moments; ///< A^{-1}, A = sum w X_ij X_ij^T [1/m^2]
+
+    Vector<dim, Real> *x, *v;
+    Matrix<dim, Real> *deformations; ///< F
+    Matrix<dim, Real> *rotations;    ///< R, last valid one
+    Matrix<dim, Real> *stresses;     ///< P A^{-1} [Pa/m^2], P of first Piola and Kirchhoff
+  };
+
+  /// Corotated linear elasticity of particles, derived from one energy, so that momentum and
+  /// angular momentum are exact:
+  ///     W = sum_i V (mu |F_i - R_i|^2 + lambda/2 tr(R_i^T F_i - I)^2)
+  ///       + sum_ij alpha mu V w_ij |x_ij - F_i X_ij|^2 / a_i,
+  ///     F_i = (sum_j w x_ij X_ij^T) A_i^{-1},  R_i = rotation of F_i,  a_i = tr(A_i) / dim.
+  /// In the inside of a lattice alpha = 1 is the particle method's usual sum over rotated bonds
+  /// (the source's equation 6 without its local rotation).
+  template <int dim, class Real>
+  struct Elasticity
+  {
+    CellGrid<dim, Real>      grid;
+    Real                     reach;
+    Real                     volume; ///< of a particle [m^dim]
+    ElasticBodies<dim, Real> bodies;
+
+    /// f(j, X_ij, x_ij, w_ij) for all neighbours in the reference.
+    template <class Function>
+    UNDINE_HOST_DEVICE void
+    for_each_bond(const int i, const Function &f) const
+    {
+      const Vector<dim, Real> X = bodies.reference[i], x = bodies.x[i];
+      for (int k = 0; k < bodies.counts[i]; ++k)
+        {
+          const int               j    = bodies.indices[list_slot(i, k, bodies.capacity)];
+          const Vector<dim, Real> X_ij = bodies.reference[j] - X;
+          f(j,
+            X_ij,
+            grid.difference(bodies.x[j], x),
+            reach * inverse_square_root(norm_square(X_ij)) - 1);
+        }
+    }
+
+    UNDINE_HOST_DEVICE const ElasticMaterial<Real>                          &
+    material(const int i) const
+    {
+      return bodies.materials[bodies.bodies[i]];
+    }
+
+    /// 1 / a_i [1/m^2]
+    UNDINE_HOST_DEVICE Real
+    inverse_mean_moment(const int i) const
+    {
+      // A is nearly a multiple of the identity, of which this is the harmonic mean.
+      Real trace = 0;
+      for (int axis = 0; axis < dim; ++axis)
+        trace += bodies.inverse_moments[i][axis][axis];
+      return trace / dim;
+    }
+
+    /// F, R and P A^{-1} at the present places.
+    UNDINE_HOST_DEVICE void
+    deform(const int i) const
+    {
+      auto moment = Matrix<dim, Real>::diagonal(0);
+      for_each_bond(
+        i,
+        [&](const int, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
+          moment.add_outer_product(w, x_ij, X_ij);
+        });
+      const auto        F          = moment * bodies.inverse_moments[i];
+      const auto        R          = rotation_of(F, bodies.rotations[i]);
+      const auto       &properties = material(i);
+      const Real        strain     = double_contraction(R, F) - dim; // tr(R^T F - I)
+      Matrix<dim, Real> stress;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          stress[a][b] =
+            2 * properties.mu * (F[a][b] - R[a][b]) + properties.lambda * strain * R[a][b];
+      bodies.deformations[i] = F;
+      bodies.rotations[i]    = R;
+      bodies.stresses[i]     = stress * bodies.inverse_moments[i];
+    }
+
+    /// The acceleration by elasticity and damping [m/s^2], after deform() of all.
+    UNDINE_HOST_DEVICE Vector<dim, Real>
+                       acceleration(const int i) const
+    {
+      const auto &properties = material(i);
+      const auto  F_i = bodies.deformations[i], stress_i = bodies.stresses[i];
+      const Real  stiffness = 2 * properties.hourglass * properties.mu;
+      const Real  a_i       = inverse_mean_moment(i);
+      // Speed of pressure waves over the spacing: the scale of damping.
+      const Real rate =
+        sqrt((properties.lambda + 2 * properties.mu) * properties.density) * properties.damping / 8;
+      auto force = Vector<dim, Real>::zero();
+      for_each_bond(
+        i,
+        [&](
+          const int j, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
+          const Real a_j = inverse_mean_moment(j);
+          force += w * (stress_i * X_ij + bodies.stresses[j] * X_ij);
+          force += (w * stiffness) *
+                   (a_i * (x_ij - F_i * X_ij) + a_j * (x_ij - bodies.deformations[j] * X_ij));
+          if (rate > 0)
+            {
+              const Real square = norm_square(x_ij);
+              force += (w * rate * ((bodies.v[j] - bodies.v[i]) * x_ij) / (square * reach)) * x_ij;
+            }
+        });
+      return (1 / properties.density) * force;
+    }
+
+    /// V times the density of elastic energy [J, in the plane per m], after deform() of all.
+    UNDINE_HOST_DEVICE Real
+    energy(const int i) const
+    {
+      const auto &properties = material(i);
+      const auto  F = bodies.deformations[i], R = bodies.rotations[i];
+      Real        square = 0;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          square += (F[a][b] - R[a][b]) * (F[a][b] - R[a][b]);
+      const Real strain = double_contraction(R, F) - dim;
+      Real       bonds  = 0;
+      for_each_bond(
+        i,
+        [&](const int, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
+          bonds += w * norm_square(x_ij - F * X_ij);
+        });
+      return volume * (properties.mu * square + properties.lambda / 2 * strain * strain +
+                       properties.hourglass * properties.mu * inverse_mean_moment(i) * bonds);
+    }
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_engine_h
+#define undine_particles_engine_h
+
+#include <undine/base/core/registry.h>
+#include <undine/particles/particle_state.h>
+#include <undine/particles/setup.h>
+#include <undine/particles/step_control.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace undine::particles
+{
+  /// Sums over all particles.
+  template <int dim>
+  struct Balance
+  {
+    double              kinetic_fluid = 0, kinetic_solid = 0;    ///< [J]
+    double              potential = 0;                           ///< of gravity [J]
+    double              elastic   = 0;                           ///< [J]
+    Vector<dim, double> momentum  = Vector<dim, double>::zero(); ///< of fluid and bodies [kg m/s]
+    std::vector<double> body_volumes;                            ///< over that at rest [1]
+    std::vector<Vector<dim, double>> body_centres;               ///< [m]
+    std::vector<Vector<dim, double>> body_velocities;            ///< [m/s]
+  };
+
+  /// Moves the particles of a scene; one for the host, one for the device.
+  template <int dim>
+  class Engine
+  {
+  public:
+    virtual ~Engine() = default;
+
+    /// Take up a state. Throws InputError if it makes no sense: particles outside the box or on top
+    /// of each other, more bodies than materials.
+    virtual void
+    load(const Setup<dim> &setup, const ParticleState<dim> &state) = 0;
+
+    /// A frame of `length` [s] in sub-steps. Throws SolveError with the reason if it cannot be
+    /// completed.
+    virtual StepControl
+    advance(double length) = 0;
+
+    /// Copy the particles.
+    virtual void
+    fetch(ParticleState<dim> &state) const = 0;
+
+    virtual Balance<dim>
+    balance() const = 0;
+
+    /// Where and in what precision it computes.
+    virtual std::string
+    describe() const = 0;
+
+    /// Seconds by phase since load().
+    virtual std::vector<std::pair<std::string, double>>
+    seconds() const = 0;
+  };
+
+  enum class Precision
+  {
+    single_precision,
+    double_precision
+  };
+
+  /// Makes engines of one kind of machine.
+  template <int dim>
+  class EngineFactory
+  {
+  public:
+    virtual ~EngineFactory() = default;
+
+    /// Throws InputError, with the reason, if this machine cannot.
+    virtual std::unique_ptr<Engine<dim>>
+    make(Precision precision) const = 0;
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_explicit_forces_h
+#define undine_particles_explicit_forces_h
+
+#include <undine/particles/constants.h>
+#include <undine/particles/neighbours.h>
+#include <undine/particles/step_control.h>
+
+namespace undine::particles
+{
+  /// Intermediate velocity and place of the fluid from friction, gravity and collisions (the
+  /// source's equations 1-4, with the step that 1 and 3 lack), and the kick that friction and
+  /// collisions give to elastic bodies. Friction between two particles is the weighted difference
+  /// of their velocities with the fluid's viscosity, collisions are inelastic impacts of particles
+  /// that come closer than `collision_distance`: both are equal and opposite.
+  template <int dim, class Real>
+  struct ExplicitForces
+  {
+    Constants<dim, Real>     constants;
+    Neighbours<dim, Real>    neighbours;
+    const Motion<dim, Real> *motions;
+    const int               *identities;
+    Place<dim, Real>        *new_places;
+    Motion<dim, Real>       *new_motions;
+    Vector<dim, Real>       *solid_velocities; ///< by identity [m/s]
+    const StepControl       *control;
+
+    UNDINE_HOST_DEVICE void
+    operator()(const int i) const
+    {
+      Place<dim, Real>  place  = neighbours.places[i];
+      Motion<dim, Real> motion = motions[i];
+      if (!control->done())
+        {
+          const Real dt = static_cast<Real>(control->dt);
+          if (place.tag.kind() == Kind::fluid)
+            {
+              motion.v += velocity_change(i, place.tag, motion.v, dt) + dt * constants.gravity;
+              place.x = constants.grid.wrapped(place.x + dt * motion.v);
+            }
+          else if (place.tag.kind() == Kind::solid)
+            solid_velocities[identities[i]] =
+              motion.v + velocity_change(i, place.tag, motion.v, dt);
+        }
+      new_places[i]  = place;
+      new_motions[i] = motion;
+    }
+
+  private:
+    UNDINE_HOST_DEVICE Vector<dim, Real>
+    velocity_change(const int i, const Tag tag, const Vector<dim, Real> &v, const Real dt) const
+    {
+      const Real density  = constants.densities[tag.material()];
+      const Real friction = dt * constants.viscosity * 2 * dim /
+                            (constants.spread * constants.number_density) * constants.densities[0] /
+                            density;
+      const Real collision_square = constants.collision_distance * constants.collision_distance;
+      auto       change           = Vector<dim, Real>::zero();
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        if (tag.kind() == Kind::solid &&
+            (pair.tag.kind() == Kind::solid || pair.tag.kind() == Kind::dummy))
+          return; // elasticity and contact act between these
+        const Vector<dim, Real> approach = motions[j].v - v;
+        change += (friction * pair.weight) * approach;
+        const Real speed = approach * pair.r;
+        if (pair.square < collision_square && speed < 0)
+          {
+            const Real other = constants.densities[pair.tag.material()];
+            const Real share = pair.tag.is_free() ? other / (density + other) : Real(1);
+            change += ((1 + constants.restitution) * share * speed / pair.square) * pair.r;
+          }
+      });
+      return change;
+    }
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_host_device_h
+#define undine_particles_host_device_h
+
+/// Marks functions that run on the host and, where nvcc compiles them, on the device.
+#ifdef __CUDACC__
+#  define UNDINE_HOST_DEVICE __host__ __device__ __forceinline__
+#else
+#  define UNDINE_HOST_DEVICE inline
+#endif
+
+#endif

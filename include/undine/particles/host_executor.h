@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_host_executor_h
+#define undine_particles_host_executor_h
+
+#include <undine/particles/sums.h>
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace undine::particles
+{
+  /// The threads that work on one pass together. A pass that needs several rounds with all of its
+  /// workers waiting for each other in between is written as a function of a team; DeviceTeam in
+  /// cuda/ has the same interface for the threads of one launch.
+  class HostTeam
+  {
+  public:
+    static constexpr int block     = 1024; ///< numbers summed one after the other
+    static constexpr int most_sums = 8;    ///< taken together
+
+    /// Room for the partial sums of one pass.
+    struct Workspace
+    {
+      std::vector<Sums<most_sums>> partial[2];
+    };
+
+    HostTeam(const int rank, const int size, Workspace &workspace)
+      : rank(rank)
+      , size(size)
+      , workspace(&workspace)
+    {
+    }
+
+    /// f(i) for the i of 0 ... n-1 that are this worker's; always the same ones for the same n.
+    template <class Function>
+    void
+    for_each(const int n, const Function &f) const
+    {
+      const int share = (n + size - 1) / size;
+      const int end   = std::min(n, (rank + 1) * share);
+      for (int i = rank * share; i < end; ++i)
+        f(i);
+    }
+
+    /// The sums that f(i, sums) adds to over all i of 0 ... n-1, for all workers, who wait for each
+    /// other. Does not depend on the number of workers.
+    template <int count, class Function>
+    Sums<count>
+    sum(const int n, const Function &f)
+    {
+      static_assert(count <= most_sums, "no room for so many sums");
+      auto     &partial = workspace->partial[parity];
+      const int blocks  = (n + block - 1) / block;
+      for (int b = rank; b < blocks; b += size)
+        {
+          Sums<count> sums;
+          for (int i = b * block; i < std::min(n, (b + 1) * block); ++i)
+            f(i, sums);
+          std::copy(sums.values, sums.values + count, partial[b].values);
+        }
+      sync();
+      Sums<count> total;
+      for (int b = 0; b < blocks; ++b)
+        for (int k = 0; k < count; ++k)
+          total[k] += partial[b][k];
+      // Nobody writes to this half again before everybody has passed the next sync().
+      parity = 1 - parity;
+      return total;
+    }
+
+    /// Wait for all workers; what they wrote before is visible after.
+    void
+    sync() const
+    {
+#pragma omp barrier
+    }
+
+    bool
+    is_first() const
+    {
+      return rank == 0;
+    }
+
+  private:
+    int        rank, size;
+    Workspace *workspace;
+    int        parity = 0;
+  };
+
+
+  /// Runs passes on the threads of the host. DeviceExecutor in cuda/ has the same interface.
+  class HostExecutor
+  {
+  public:
+    using Team = HostTeam;
+
+    /// `threads` = 0: all cores.
+    explicit HostExecutor(const int threads)
+      : threads(threads > 0 ? threads : omp_get_num_procs())
+    {
+    }
+
+    std::string
+    describe() const
+    {
+      return std::to_string(threads) + (threads == 1 ? " thread" : " threads") + " of the host";
+    }
+
+    /// Memory for n objects, all bytes zero.
+    template <class T>
+    T *
+    allocate(const std::size_t n) const
+    {
+      auto memory = ::operator new(n * sizeof(T), std::align_val_t(64));
+      std::memset(memory, 0, n * sizeof(T));
+      return static_cast<T *>(memory);
+    }
+
+    template <class T>
+    void
+    release(T *memory) const
+    {
+      ::operator delete(memory, std::align_val_t(64));
+    }
+
+    template <class T>
+    void
+    upload(T *to, const T *from, const std::size_t n) const
+    {
+      if (n > 0)
+        std::memcpy(to, from, n * sizeof(T));
+    }
+
+    template <class T>
+    void
+    download(T *to, const T *from, const std::size_t n) const
+    {
+      upload(to, from, n);
+    }
+
+    template <class T>
+    void
+    clear(T *memory, const std::size_t n) const
+    {
+      std::memset(memory, 0, n * sizeof(T));
+    }
+
+    /// f(i) for all i of 0 ... n-1, in any order.
+    template <class Function>
+    void
+    for_each(const int n, const Function &f) const
+    {
+#pragma omp          parallel for num_threads(threads) schedule(dynamic, 256)
+      for (int i = 0; i < n; ++i)
+        f(i);
+    }
+
+    /// f(team) by all workers at once; loops in it go up to `n`.
+    template <class Function>
+    void
+    run(const int n, const Function &f)
+    {
+               for (auto &partial : workspace.partial)
+        partial.resize(n / HostTeam::block + 1);
+#pragma omp parallel num_threads(threads)
+      {
+                 HostTeam team(omp_get_thread_num(), omp_get_num_threads(), workspace);
+                 f(team);
+      }
+             }
+
+             /// out[i] = in[0] + ... + in[i-1] for i = 0 ... n-1.
+             void
+             exclusive_scan(const int n, const int *in, int *out) const
+             {
+               int sum = 0;
+               for (int i = 0; i < n; ++i)
+        {
+                   const int value = in[i];
+                   out[i]          = sum;
+                   sum += value;
+        }
+    }
+
+             /// All passes are done.
+             void
+             wait() const
+             {
+             }
+
+           private:
+             int                 threads;
+             HostTeam::Workspace workspace;
+           };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_make_constants_h
+#define undine_particles_make_constants_h
+
+#include <undine/particles/constants.h>
+#include <undine/particles/setup.h>
+#include <undine/particles/step_control.h>
+
+namespace undine::particles
+{
+  /// What passes need to know of a scene. Throws InputError if it has too many bodies or its box
+  /// does not hold a cell.
+  template <int dim, class Real>
+  Constants<dim, Real>
+  make_constants(const Setup<dim> &setup);
+
+  /// Bounds on the sub-steps of a frame [s]. `elastic` is the explicit step of the bodies.
+  template <int dim>
+  StepBounds
+  make_bounds(const Setup<dim> &setup, double elastic);
+} // namespace undine::particles
+
+#endif

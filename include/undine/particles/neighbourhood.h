@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_neighbourhood_h
+#define undine_particles_neighbourhood_h
+
+#include <undine/particles/constants.h>
+#include <undine/particles/matrix.h>
+#include <undine/particles/neighbours.h>
+#include <undine/particles/step_control.h>
+
+namespace undine::particles
+{
+  /// What the surroundings of the particles are like.
+  template <int dim, class Real>
+  struct Neighbourhood
+  {
+    Real                       *densities;   ///< number density n* [1]
+    int                        *is_unknown;  ///< 1: has a row in the pressure equation
+    unsigned char              *is_covered;  ///< 0: at the free surface
+    SymmetricMatrix<dim, Real> *corrections; ///< M, which makes gradients exact for linear fields
+  };
+
+  /// Measures them, over all kinds of neighbours; but M of fluid and bodies without dummies, which
+  /// have no pressure. At the free surface are particles with few neighbours, and those with
+  /// somewhat few which are all on one side.
+  template <int dim, class Real>
+  struct MeasureNeighbourhood
+  {
+    Constants<dim, Real>     constants;
+    Neighbours<dim, Real>    neighbours;
+    const int               *identities;
+    const unsigned char     *inside_body; ///< by identity: never at a free surface
+    Neighbourhood<dim, Real> result;
+    const StepControl       *control;
+
+    UNDINE_HOST_DEVICE void
+    operator()(const int i) const
+    {
+      const Tag tag         = neighbours.places[i].tag;
+      result.is_unknown[i]  = 0;
+      result.is_covered[i]  = 0;
+      result.densities[i]   = 0;
+      result.corrections[i] = SymmetricMatrix<dim, Real>::diagonal(1);
+      if (tag.kind() == Kind::dummy || control->done())
+        return;
+      auto side   = Vector<dim, Real>::zero();
+      auto moment = SymmetricMatrix<dim, Real>::diagonal(0);
+      Real n      = 0;
+      neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) {
+        n += pair.weight;
+        side += (pair.weight * pair.inverse_distance) * pair.r;
+        if (pair.tag.kind() != Kind::dummy || tag.kind() == Kind::wall)
+          moment.add_square(pair.weight / pair.square, pair.r);
+      });
+      const bool covered   = is_covered(tag, identities[i], n, side);
+      result.densities[i]  = n;
+      result.is_covered[i] = covered ? 1 : 0;
+      result.is_unknown[i] = has_pressure(tag, n, covered) ? 1 : 0;
+      if (covered)
+        result.corrections[i] = correction(moment);
+    }
+
+  private:
+    UNDINE_HOST_DEVICE bool
+    is_covered(const Tag tag, const int identity, const Real n, const Vector<dim, Real> &side) const
+    {
+      if (tag.kind() == Kind::solid && inside_body[identity])
+        return true;
+      const Real n0 = constants.number_density;
+      if (!(n >= constants.surface_density * n0))
+        return false;
+      const Real one_sided = constants.surface_one_sidedness * n0;
+      return n >= constants.one_sided_density * n0 || norm_square(side) <= one_sided * one_sided;
+    }
+
+    /// With air, pressures at the free surface are unknown too; only drops that fly alone have
+    /// none.
+    UNDINE_HOST_DEVICE bool
+    has_pressure(const Tag tag, const Real n, const bool covered) const
+    {
+      if (covered || constants.air <= 0 || tag.kind() == Kind::solid)
+        return covered;
+      const Real least = tag.kind() == Kind::wall ? Real(0.2) : Real(0.1);
+      return n > least * constants.number_density;
+    }
+
+    /// The inverse of (dim / n0) sum w r r^T / r^2; the identity where neighbours do not span
+    /// space.
+    UNDINE_HOST_DEVICE SymmetricMatrix<dim, Real>
+                       correction(const SymmetricMatrix<dim, Real> &moment) const
+    {
+      auto scaled = moment.full();
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          scaled[i][j] *= dim / constants.number_density;
+      if (!(determinant(scaled) > Real(0.1)))
+        return SymmetricMatrix<dim, Real>::diagonal(1);
+      return SymmetricMatrix<dim, Real>::of(inverse_transpose(scaled));
+    }
+  };
+} // namespace undine::particles
+
+#endif

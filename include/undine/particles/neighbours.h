@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_neighbours_h
+#define undine_particles_neighbours_h
+
+#include <undine/particles/cell_grid.h>
+#include <undine/particles/particle.h>
+
+namespace undine::particles
+{
+  /// Where the k-th entry of row i of a list with `capacity` entries a row lies: rows in groups of
+  /// 32, which the device reads together, entries of a group next to each other.
+  UNDINE_HOST_DEVICE std::size_t
+                     list_slot(const int i, const int k, const int capacity)
+  {
+    return (static_cast<std::size_t>(i >> 5) * capacity + k) * 32 + (i & 31);
+  }
+
+  /// One neighbour j of a particle i.
+  template <int dim, class Real>
+  struct Pair
+  {
+    Vector<dim, Real> r;                ///< x_j - x_i [m]
+    Real              square;           ///< |r|^2 [m^2]
+    Real              inverse_distance; ///< 1 / |r| [1/m]
+    Real              weight;           ///< w = r_e / |r| - 1 [1]
+    Tag               tag;              ///< of j
+  };
+
+  /// The list of neighbours within the reach, as it was when the list was made.
+  template <int dim, class Real>
+  struct Neighbours
+  {
+    CellGrid<dim, Real>     grid;
+    Real                    reach; ///< r_e [m]
+    int                     capacity;
+    const Place<dim, Real> *places;
+    const int              *counts;
+    const int              *indices;
+
+    /// Call f(j, pair) for all neighbours of i at present places.
+    template <class Function>
+    UNDINE_HOST_DEVICE void
+    for_each(const int i, const Function &f) const
+    {
+      const Vector<dim, Real> x     = places[i].x;
+      const int               count = counts[i];
+      for (int k = 0; k < count; ++k)
+        {
+          const int              j     = indices[list_slot(i, k, capacity)];
+          const Place<dim, Real> other = places[j];
+          Pair<dim, Real>        pair;
+          pair.r                = grid.difference(other.x, x);
+          pair.square           = norm_square(pair.r) + Real(1e-12) * reach * reach;
+          pair.inverse_distance = inverse_square_root(pair.square);
+          pair.weight           = reach * pair.inverse_distance - 1;
+          pair.tag              = other.tag;
+          if (pair.weight > 0)
+            f(j, pair);
+        }
+    }
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_particle_h
+#define undine_particles_particle_h
+
+#include <undine/particles/vector.h>
+
+#include <cstdint>
+
+namespace undine::particles
+{
+  /// What a particle stands for.
+  enum class Kind : std::int32_t
+  {
+    fluid = 0,
+    solid = 1, ///< of an elastic body
+    wall  = 2, ///< first layer of a wall: has a pressure
+    dummy = 3  ///< deeper layers, which only fill the neighbourhood of wall and fluid
+  };
+
+  /// Kind and material of a particle in one number.
+  struct Tag
+  {
+    std::int32_t code;
+
+    UNDINE_HOST_DEVICE static Tag
+    of(const Kind kind, const int material)
+    {
+      return {static_cast<std::int32_t>(kind) + 4 * material};
+    }
+
+    UNDINE_HOST_DEVICE Kind
+    kind() const
+    {
+      return static_cast<Kind>(code & 3);
+    }
+
+    /// Which entry of Constants::densities is its.
+    UNDINE_HOST_DEVICE int
+    material() const
+    {
+      return code >> 2;
+    }
+
+    /// Does it move as forces tell it?
+    UNDINE_HOST_DEVICE bool
+    is_free() const
+    {
+      return (code & 2) == 0;
+    }
+  };
+
+  /// Where a particle is [m] and what it stands for. Read as one word of 16 bytes on the device.
+  template <int dim, class Real>
+  struct alignas(4 * sizeof(Real)) Place
+  {
+    Vector<dim, Real> x;
+    Tag               tag;
+  };
+
+  /// How a particle moves [m/s] and its pressure [Pa].
+  template <int dim, class Real>
+  struct alignas(4 * sizeof(Real)) Motion
+  {
+    Vector<dim, Real> v;
+    Real              pressure;
+  };
+
+  /// The particles, sorted by cells. Identities are unique; those of elastic bodies are
+  /// 0 ... n_solid - 1, in the order of Elasticity.
+  template <int dim, class Real>
+  struct Particles
+  {
+    int                n;
+    Place<dim, Real>  *places;
+    Motion<dim, Real> *motions;
+    int               *identities;
+    Vector<dim, Real> *potentials; ///< of the virtual faces, kept as a guess for the next sub-step
+  };
+} // namespace undine::particles
+
+#endif

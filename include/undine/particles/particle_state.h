@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_particle_state_h
+#define undine_particles_particle_state_h
+
+#include <undine/particles/particle.h>
+
+#include <vector>
+
+namespace undine::particles
+{
+  /// All particles as plain data, in the order of the last sort; a saved copy restarts a run.
+  template <int dim>
+  struct ParticleState
+  {
+    std::vector<Vector<dim, double>> positions;  ///< [m]
+    std::vector<Vector<dim, double>> velocities; ///< [m/s]
+    std::vector<double>              pressures;  ///< [Pa]
+    std::vector<Tag>                 tags;
+    /// Unique; 0 ... n_solid - 1 belong to elastic bodies. Material k + 1 is body k, 0 the fluid
+    /// and the walls.
+    std::vector<int> identities;
+
+    /// Vectors that the method keeps to start its solvers from; may be empty.
+    std::vector<double> guesses;
+  };
+} // namespace undine::particles
+
+#endif

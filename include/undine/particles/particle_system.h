@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_particle_system_h
+#define undine_particles_particle_system_h
+
+#include <undine/particles/cell_sort.h>
+#include <undine/particles/conjugate_gradients.h>
+#include <undine/particles/elastic_arrays.h>
+#include <undine/particles/elastic_step.h>
+#include <undine/particles/explicit_forces.h>
+#include <undine/particles/make_constants.h>
+#include <undine/particles/neighbour_list.h>
+#include <undine/particles/particle_arrays.h>
+#include <undine/particles/pressure_forces.h>
+
+namespace undine::particles
+{
+  /// The particles of a scene where an executor works, and the order of the passes that move them.
+  template <class Executor, int dim, class Real, class Entry>
+  class ParticleSystem
+  {
+  public:
+    ParticleSystem(Executor                          &executor,
+                   const Setup<dim>                  &setup,
+                   const ReferenceLattice<dim, Real> &lattice,
+                   const int                          n)
+      : executor(executor)
+      , numerics(setup.numerics)
+      , constants(make_constants<dim, Real>(setup))
+      , bounds(make_bounds(setup, lattice.explicit_step(setup.numerics.elastic_share)))
+      , n(n)
+      , now(executor, n)
+      , next(executor, n)
+      , bodies(executor, lattice)
+      , control(executor, 1)
+      , cells(executor, constants.grid, n)
+      , list(executor, constants.grid, constants.reach, n)
+      , densities(executor, n)
+      , is_unknown(executor, n)
+      , is_covered(executor, n)
+      , corrections(executor, n)
+      , counts(executor, n)
+      , entries(executor,
+                list_slot((n + 31) / 32 * 32, 0, NeighbourList<Executor, dim, Real>::capacity))
+      , diagonal(executor, n)
+      , right_hand_side(executor, n)
+      , pressures(executor, n)
+      , faces_diagonal(executor, n)
+      , gaps(executor, n)
+      , numbers(executor, 5 * n)
+      , vectors(executor, 5 * n)
+    {
+    }
+
+    /// The particles as they are; fill, then call prepare().
+    ParticleArrays<Executor, dim, Real> &
+    arrays()
+    {
+      return now;
+    }
+
+    ElasticArrays<Executor, dim, Real> &
+    elastic()
+    {
+      return bodies;
+    }
+
+    /// Sort and find neighbours for the first time.
+    void
+    prepare()
+    {
+      sort();
+      list.find(now.view(), cells.cell_starts(), control.data());
+    }
+
+    StepControl
+    read_control() const
+    {
+      return control.values()[0];
+    }
+
+    void
+    write_control(const StepControl &value)
+    {
+      control.set({value});
+    }
+
+    /// One sub-step of the length that it chooses itself; nothing after the end of the frame.
+    void
+    sub_step()
+    {
+      executor.for_each(1, ChooseStep{control.data(), bounds});
+      move_without_pressure();
+      sort();
+      list.find(now.view(), cells.cell_starts(), control.data());
+      solve_pressure();
+      move_by_pressure();
+    }
+
+  private:
+    void
+    move_without_pressure()
+    {
+      executor.for_each(n,
+                        ExplicitForces<dim, Real>{constants,
+                                                  list.view(now.view()),
+                                                  now.motions.data(),
+                                                  now.identities.data(),
+                                                  next.places.data(),
+                                                  next.motions.data(),
+                                                  bodies.v_start.data(),
+                                                  control.data()});
+      std::swap(now.places, next.places);
+      std::swap(now.motions, next.motions);
+      move_bodies(nullptr);
+    }
+
+    void
+    sort()
+    {
+      cells.sort(now.view(), next.view(), bodies.where.data(), bodies.n);
+      std::swap(now, next);
+    }
+
+    void
+    solve_pressure()
+    {
+      executor.for_each(n,
+                        MeasureNeighbourhood<dim, Real>{constants,
+                                                        list.view(now.view()),
+                                                        now.identities.data(),
+                                                        bodies.inside.data(),
+                                                        neighbourhood(),
+                                                        control.data()});
+      const bool closed = constants.pair_force == PairForce::balanced;
+      executor.for_each(n,
+                        AssemblePressure<dim, Real, Entry>{constants,
+                                                           list.view(now.view()),
+                                                           neighbourhood(),
+                                                           faces(),
+                                                           matrix(),
+                                                           diagonal.data(),
+                                                           closed ? faces_diagonal.data() : nullptr,
+                                                           gaps.data(),
+                                                           control.data()});
+      if (closed)
+        solve(faces_diagonal,
+              gaps,
+              now.potentials,
+              vectors,
+              numerics.faces_tolerance,
+              &StepControl::faces);
+      executor.for_each(n,
+                        MeasureSource<dim, Real>{constants,
+                                                 list.view(now.view()),
+                                                 neighbourhood(),
+                                                 faces(),
+                                                 now.motions.data(),
+                                                 right_hand_side.data(),
+                                                 pressures.data(),
+                                                 control.data()});
+      solve(
+        diagonal, right_hand_side, pressures, numbers, numerics.tolerance, &StepControl::pressure);
+      executor.for_each(n,
+                        TakePressures<dim, Real>{
+                          is_unknown.data(), pressures.data(), now.motions.data(), control.data()});
+    }
+
+    void
+    move_by_pressure()
+    {
+      executor.for_each(n,
+                        PressureForces<dim, Real>{constants,
+                                                  list.view(now.view()),
+                                                  neighbourhood(),
+                                                  faces(),
+                                                  now.motions.data(),
+                                                  now.identities.data(),
+                                                  next.places.data(),
+                                                  next.motions.data(),
+                                                  bodies.accelerations.data(),
+                                                  control.data()});
+      std::swap(now.places, next.places);
+      std::swap(now.motions, next.motions);
+      move_bodies(bodies.accelerations.data());
+    }
+
+    void
+    move_bodies(const Vector<dim, Real> *pressure_accelerations)
+    {
+      if (bodies.n == 0)
+        return;
+      const auto view = bodies.view();
+      executor.run(bodies.n,
+                   ElasticStep<dim, Real>{{constants.grid, constants.reach, constants.volume, view},
+                                          {constants.spacing,
+                                           view,
+                                           list.view(now.view()),
+                                           now.identities.data(),
+                                           bodies.where.data(),
+                                           constants.volume},
+                                          constants.gravity,
+                                          bodies.x_start.data(),
+                                          bodies.v_start.data(),
+                                          bodies.x_next.data(),
+                                          bodies.v_next.data(),
+                                          pressure_accelerations,
+                                          now.places.data(),
+                                          now.motions.data(),
+                                          control.data()});
+    }
+
+    template <class Value>
+    void
+    solve(const Buffer<Executor, Real>  &system_diagonal,
+          const Buffer<Executor, Value> &b,
+          Buffer<Executor, Value>       &x,
+          Buffer<Executor, Value>       &work,
+          const double                   tolerance,
+          SolverRecord StepControl::*record)
+    {
+      Value *const w = work.data();
+      executor.run(n,
+                   ConjugateGradients<Real, Entry, Value>{
+                     {matrix(), system_diagonal.data(), b.data(), x.data()},
+                     {w, w + n, w + 2 * n, w + 3 * n, w + 4 * n},
+                     {tolerance, numerics.max_iterations},
+                     control.data(),
+                     record});
+    }
+
+    Neighbourhood<dim, Real>
+    neighbourhood() const
+    {
+      return {densities.data(), is_unknown.data(), is_covered.data(), corrections.data()};
+    }
+
+    VirtualFaces<dim, Real>
+    faces() const
+    {
+      return {dim / constants.number_density,
+              corrections.data(),
+              constants.pair_force == PairForce::balanced ? now.potentials.data() : nullptr};
+    }
+
+    PressureMatrix<Real, Entry>
+    matrix() const
+    {
+      // The largest weight that a collision leaves, at the smallest mean density.
+      Real lightest = constants.densities[0];
+      for (const Real density : constants.densities)
+        if (density > 0)
+          lightest = minimum(lightest, density);
+      const Real closest = constants.collision_distance / 2;
+      const Real largest = (constants.reach / closest - 1) * constants.densities[0] / lightest;
+      return {
+        n, NeighbourList<Executor, dim, Real>::capacity, largest, counts.data(), entries.data()};
+    }
+
+    Executor            &executor;
+    Numerics             numerics;
+    Constants<dim, Real> constants;
+    StepBounds           bounds;
+    int                  n;
+
+    ParticleArrays<Executor, dim, Real>          now, next;
+    ElasticArrays<Executor, dim, Real>           bodies;
+    Buffer<Executor, StepControl>                control;
+    CellSort<Executor, dim, Real>                cells;
+    NeighbourList<Executor, dim, Real>           list;
+    Buffer<Executor, Real>                       densities;
+    Buffer<Executor, int>                        is_unknown;
+    Buffer<Executor, unsigned char>              is_covered;
+    Buffer<Executor, SymmetricMatrix<dim, Real>> corrections;
+    Buffer<Executor, int>                        counts;
+    Buffer<Executor, Entry>                      entries;
+    Buffer<Executor, Real>              diagonal, right_hand_side, pressures, faces_diagonal;
+    Buffer<Executor, Vector<dim, Real>> gaps;
+    Buffer<Executor, Real>              numbers; ///< of the pressure solver
+    Buffer<Executor, Vector<dim, Real>> vectors; ///< of the faces' solver
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_reference_lattice_h
+#define undine_particles_reference_lattice_h
+
+#include <undine/particles/elastic_bodies.h>
+#include <undine/particles/setup.h>
+
+#include <vector>
+
+namespace undine::particles
+{
+  /// What never changes of the elastic bodies, by identity; computed on the host once.
+  template <int dim, class Real>
+  struct ReferenceLattice
+  {
+    explicit ReferenceLattice(const Setup<dim> &setup);
+
+    std::vector<Vector<dim, Real>>     positions;
+    std::vector<int>                   bodies;
+    std::vector<ElasticMaterial<Real>> materials;
+    std::vector<unsigned char>         held;
+    std::vector<unsigned char>     inside; ///< has nearly as many neighbours as in a full lattice
+    int                            capacity;
+    std::vector<int>               counts, indices;
+    std::vector<Matrix<dim, Real>> inverse_moments;
+
+    /// Largest stable explicit step of the fastest body, times `share` [s]; 0 without bodies.
+    double
+    explicit_step(double share) const;
+
+  private:
+    void
+    find_neighbours(double reach, const std::vector<Vector<dim, double>> &reference);
+
+    double spacing;
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_vector_h
+#define undine_particles_vector_h
+
+#include <undine/particles/host_device.h>
+
+#include <cmath>
+
+namespace undine::particles
+{
+  /// 1 / sqrt(x), by the device's instruction where there is one.
+  UNDINE_HOST_DEVICE float
+  inverse_square_root(const float x)
+  {
+#ifdef __CUDA_ARCH__
+    return rsqrtf(x);
+#else
+    return 1 / std::sqrt(x);
+#endif
+  }
+
+  UNDINE_HOST_DEVICE double
+  inverse_square_root(const double x)
+  {
+    return 1 / sqrt(x);
+  }
+
+  template <class Real>
+  UNDINE_HOST_DEVICE Real
+  minimum(const Real a, const Real b)
+  {
+    return b < a ? b : a;
+  }
+
+  template <class Real>
+  UNDINE_HOST_DEVICE Real
+  maximum(const Real a, const Real b)
+  {
+    return a < b ? b : a;
+  }
+
+
+  /// A vector in space; trivially copyable, so that it can live on a device.
+  template <int dim, class Real>
+  struct Vector
+  {
+    Real entries[dim];
+
+    UNDINE_HOST_DEVICE Real &
+    operator[](const int axis)
+    {
+      return entries[axis];
+    }
+
+    UNDINE_HOST_DEVICE const Real &
+    operator[](const int axis) const
+    {
+      return entries[axis];
+    }
+
+    UNDINE_HOST_DEVICE Vector &
+    operator+=(const Vector &other)
+    {
+      for (int axis = 0; axis < dim; ++axis)
+        entries[axis] += other[axis];
+      return *this;
+    }
+
+    UNDINE_HOST_DEVICE Vector &
+    operator-=(const Vector &other)
+    {
+      for (int axis = 0; axis < dim; ++axis)
+        entries[axis] -= other[axis];
+      return *this;
+    }
+
+    UNDINE_HOST_DEVICE Vector &
+    operator*=(const Real factor)
+    {
+      for (int axis = 0; axis < dim; ++axis)
+        entries[axis] *= factor;
+      return *this;
+    }
+
+    UNDINE_HOST_DEVICE static Vector
+    zero()
+    {
+      Vector result;
+      for (int axis = 0; axis < dim; ++axis)
+        result[axis] = 0;
+      return result;
+    }
+  };
+
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE Vector<dim, Real>
+                     operator+(Vector<dim, Real> a, const Vector<dim, Real> &b)
+  {
+    return a += b;
+  }
+
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE Vector<dim, Real>
+                     operator-(Vector<dim, Real> a, const Vector<dim, Real> &b)
+  {
+    return a -= b;
+  }
+
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE Vector<dim, Real>
+                     operator*(const Real factor, Vector<dim, Real> a)
+  {
+    return a *= factor;
+  }
+
+  /// The scalar product.
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE Real
+  operator*(const Vector<dim, Real> &a, const Vector<dim, Real> &b)
+  {
+    Real sum = 0;
+    for (int axis = 0; axis < dim; ++axis)
+      sum += a[axis] * b[axis];
+    return sum;
+  }
+
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE Real
+  norm_square(const Vector<dim, Real> &a)
+  {
+    return a * a;
+  }
+} // namespace undine::particles
+
+#endif

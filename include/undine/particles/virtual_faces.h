@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_virtual_faces_h
+#define undine_particles_virtual_faces_h
+
+#include <undine/particles/constants.h>
+#include <undine/particles/matrix.h>
+#include <undine/particles/neighbours.h>
+#include <undine/particles/step_control.h>
+
+namespace undine::particles
+{
+  /// The virtual face between two particles i and j, as its area vector (out of i) over half the
+  /// volume of a particle [1/m]:
+  ///     a_ij = (dim / n0) (w / r^2) (M_i + M_j) / 2 r_ij + k_ij (L_i - L_j),   a_ij = -a_ji.
+  /// The potentials L [1/m] are such that the faces of each covered particle close, sum_j a_ij = 0,
+  /// as those of cells do [Trask, Bochev, Perego 2020]. The divergence of velocities and the forces
+  /// of pressures use the same faces, so that they exchange the same work; forces are equal and
+  /// opposite whatever L is, and with closed faces a constant pressure exerts none.
+  template <int dim, class Real>
+  struct VirtualFaces
+  {
+    Real                              factor;      ///< dim / n0
+    const SymmetricMatrix<dim, Real> *corrections; ///< M
+    const Vector<dim, Real>          *potentials;  ///< L; nullptr: all zero
+
+    /// The part without potentials.
+    UNDINE_HOST_DEVICE Vector<dim, Real>
+    open(const SymmetricMatrix<dim, Real> &M_i, const int j, const Pair<dim, Real> &pair) const
+    {
+      return (factor * pair.weight / (2 * pair.square)) * (M_i * pair.r + corrections[j] * pair.r);
+    }
+
+    /// `k` is the pair's coefficient in the pressure equation.
+    UNDINE_HOST_DEVICE Vector<dim, Real>
+                       closed(const SymmetricMatrix<dim, Real> &M_i,
+                              const Vector<dim, Real>          &L_i,
+                              const int                         j,
+                              const Real                        k,
+                              const Pair<dim, Real>            &pair) const
+    {
+      return open(M_i, j, pair) + k * (L_i - potentials[j]);
+    }
+  };
+} // namespace undine::particles
+
+#endif

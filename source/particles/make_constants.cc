@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/particles/lattice.h>
+#include <undine/particles/make_constants.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace undine::particles
+{
+  namespace
+  {
+    template <int dim, class Real>
+    void
+    set_materials(Constants<dim, Real> &constants, const Setup<dim> &setup)
+    {
+      const std::size_t most = Constants<dim, Real>::max_materials - 1;
+      if (setup.bodies.size() > most)
+        throw InputError("the scene has " + std::to_string(setup.bodies.size()) +
+                         " elastic bodies; at most " + std::to_string(most) + " are possible.");
+      constants.densities[0] = static_cast<Real>(setup.fluid_density);
+      constants.compressibilities[0] =
+        setup.fluid_bulk_modulus > 0 ? static_cast<Real>(1 / setup.fluid_bulk_modulus) : Real(0);
+      for (std::size_t b = 0; b < setup.bodies.size(); ++b)
+        {
+          const auto  &body = setup.bodies[b];
+          const double nu   = body.poissons_ratio;
+          const double bulk = // lambda + 2 mu / dim
+            body.youngs_modulus * (nu / ((1 + nu) * (1 - 2 * nu)) + 1 / (dim * (1 + nu)));
+          constants.densities[b + 1]         = static_cast<Real>(body.density);
+          constants.compressibilities[b + 1] = static_cast<Real>(1 / bulk);
+        }
+    }
+  } // namespace
+
+
+  template <int dim, class Real>
+  Constants<dim, Real>
+  make_constants(const Setup<dim> &setup)
+  {
+    const auto          &numerics = setup.numerics;
+    const double         l0       = setup.spacing;
+    const auto           lattice  = full_lattice(dim, numerics.reach);
+    Constants<dim, Real> constants{};
+    constants.grid =
+      make_cell_grid<dim, Real>(setup.lower, setup.upper, setup.periodic, numerics.reach * l0);
+    constants.spacing        = static_cast<Real>(l0);
+    constants.reach          = static_cast<Real>(numerics.reach * l0);
+    constants.volume         = static_cast<Real>(std::pow(l0, dim));
+    constants.number_density = static_cast<Real>(lattice.number_density);
+    constants.spread         = static_cast<Real>(lattice.spread * l0 * l0);
+    for (int axis = 0; axis < dim; ++axis)
+      constants.gravity[axis] = static_cast<Real>(setup.gravity[axis]);
+    constants.viscosity = static_cast<Real>(setup.fluid_viscosity);
+    set_materials(constants, setup);
+    constants.source        = numerics.source;
+    constants.density_share = static_cast<Real>(numerics.density_share);
+    const double gravity    = std::sqrt(norm_square(setup.gravity));
+    constants.relaxation_time =
+      gravity > 0 ? static_cast<Real>(numerics.relaxation_time * std::sqrt(l0 / gravity)) : Real(0);
+    constants.surface_density       = static_cast<Real>(numerics.surface_density);
+    constants.one_sided_density     = static_cast<Real>(numerics.one_sided_density);
+    constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);
+    constants.air                   = static_cast<Real>(numerics.air);
+    constants.collision_distance    = static_cast<Real>(numerics.collision_distance * l0);
+    constants.restitution           = static_cast<Real>(numerics.restitution);
+    constants.pair_force            = numerics.pair_force;
+    constants.shifting              = static_cast<Real>(numerics.shifting);
+    constants.shifting_limit        = static_cast<Real>(numerics.shifting_limit * l0);
+    return constants;
+  }
+
+
+  template <int dim>
+  StepBounds
+  make_bounds(const Setup<dim> &setup, const double elastic)
+  {
+    const auto  &numerics = setup.numerics;
+    const double l0       = setup.spacing;
+    const double gravity  = std::sqrt(norm_square(setup.gravity));
+    const double spread   = full_lattice(dim, numerics.reach).spread * l0 * l0;
+    StepBounds   bounds;
+    bounds.asked = numerics.largest_sub_step > 0 ? numerics.largest_sub_step
+                                                 : std::numeric_limits<double>::max();
+    if (gravity * setup.depth > 0)
+      bounds.waves = numerics.wave_share * l0 / std::sqrt(gravity * setup.depth);
+    if (setup.fluid_viscosity > 0)
+      bounds.viscosity = spread / (4 * dim * setup.fluid_viscosity); // half of what is stable
+    bounds.speed_share = numerics.speed_share * l0;
+    bounds.elastic     = elastic;
+    return bounds;
+  }
+
+
+  template Constants<2, float>
+  make_constants(const Setup<2> &);
+  template Constants<2, double>
+  make_constants(const Setup<2> &);
+  template Constants<3, float>
+  make_constants(const Setup<3> &);
+  template Constants<3, double>
+  make_constants(const Setup<3> &);
+  template StepBounds
+  make_bounds(const Setup<2> &, double);
+  template StepBounds
+  make_bounds(const Setup<3> &, double);
+} // namespace undine::particles
