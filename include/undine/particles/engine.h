@@ -55,7 +55,11 @@ namespace undine::particles
     virtual std::string
     describe() const = 0;
 
-    /// Seconds by phase since load().
+    /// Measure seconds() from now on, which costs a little.
+    virtual void
+    time_phases() = 0;
+
+    /// Seconds by phase since time_phases().
     virtual std::vector<std::pair<std::string, double>>
     seconds() const = 0;
   };

@@ -2,6 +2,7 @@
 #ifndef undine_particles_host_executor_h
 #define undine_particles_host_executor_h
 
+#include <undine/particles/phases.h>
 #include <undine/particles/sums.h>
 
 #include <omp.h>
@@ -77,7 +78,7 @@ namespace undine::particles
     void
     sync() const
     {
-#pragma omp barrier
+      _Pragma("omp barrier")
     }
 
     bool
@@ -101,8 +102,14 @@ namespace undine::particles
 
     /// `threads` = 0: all cores.
     explicit HostExecutor(const int threads)
-      : threads(threads > 0 ? threads : omp_get_num_procs())
     {
+      set_threads(threads);
+    }
+
+    void
+    set_threads(const int number)
+    {
+      threads = number > 0 ? number : omp_get_num_procs();
     }
 
     std::string
@@ -150,14 +157,21 @@ namespace undine::particles
       std::memset(memory, 0, n * sizeof(T));
     }
 
+    /// Within the host.
+    template <class T>
+    void
+    duplicate(T *to, const T *from, const std::size_t n) const
+    {
+      upload(to, from, n);
+    }
+
     /// f(i) for all i of 0 ... n-1, in any order.
     template <class Function>
     void
     for_each(const int n, const Function &f) const
     {
-#pragma omp          parallel for num_threads(threads) schedule(dynamic, 256)
-      for (int i = 0; i < n; ++i)
-        f(i);
+      _Pragma("omp parallel for num_threads(threads) schedule(dynamic, 256)") //
+        for (int i = 0; i < n; ++i) f(i);
     }
 
     /// f(team) by all workers at once; loops in it go up to `n`.
@@ -165,38 +179,70 @@ namespace undine::particles
     void
     run(const int n, const Function &f)
     {
-               for (auto &partial : workspace.partial)
-        partial.resize(n / HostTeam::block + 1);
-#pragma omp parallel num_threads(threads)
+      for (auto &partial : workspace.partial)
+        if (partial.size() <= static_cast<std::size_t>(n / HostTeam::block))
+          partial.resize(n / HostTeam::block + 1);
+      _Pragma("omp parallel num_threads(threads)")
       {
-                 HostTeam team(omp_get_thread_num(), omp_get_num_threads(), workspace);
-                 f(team);
+        HostTeam team(omp_get_thread_num(), omp_get_num_threads(), workspace);
+        f(team);
       }
-             }
+    }
 
-             /// out[i] = in[0] + ... + in[i-1] for i = 0 ... n-1.
-             void
-             exclusive_scan(const int n, const int *in, int *out) const
-             {
-               int sum = 0;
-               for (int i = 0; i < n; ++i)
+    /// out[i] = in[0] + ... + in[i-1] for i = 0 ... n-1.
+    void
+    exclusive_scan(const int n, const int *in, int *out) const
+    {
+      int sum = 0;
+      for (int i = 0; i < n; ++i)
         {
-                   const int value = in[i];
-                   out[i]          = sum;
-                   sum += value;
+          const int value = in[i];
+          out[i]          = sum;
+          sum += value;
         }
     }
 
-             /// All passes are done.
-             void
-             wait() const
-             {
-             }
+    /// All passes are done.
+    void
+    wait() const
+    {
+    }
 
-           private:
-             int                 threads;
-             HostTeam::Workspace workspace;
-           };
+    /// Time phases from now on.
+    void
+    time_phases()
+    {
+      phase = Phase::other;
+      since = omp_get_wtime();
+    }
+
+    /// The phase before this one ends here.
+    void
+    enter(const Phase next)
+    {
+      if (phase == Phase::count)
+        return;
+      const double now = omp_get_wtime();
+      sums[static_cast<int>(phase)] += now - since;
+      since = now;
+      phase = next;
+    }
+
+    /// Of a phase since time_phases() [s].
+    double
+    seconds(const Phase which) const
+    {
+      return sums[static_cast<int>(which)];
+    }
+
+  private:
+    int                 threads;
+    HostTeam::Workspace workspace;
+
+    Phase  phase                                = Phase::count; ///< count: not timed
+    double since                                = 0;            ///< [s]
+    double sums[static_cast<int>(Phase::count)] = {};
+  };
 } // namespace undine::particles
 
 #endif

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_cuda_device_engine_h
+#define undine_cuda_device_engine_h
+
+#include <undine/particles/engine.h>
+
+namespace undine::particles
+{
+  /// An engine on the first device. Throws InputError if there is none.
+  template <int dim, class Real>
+  std::unique_ptr<Engine<dim>>
+  make_device_engine();
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_cuda_device_executor_cuh
+#define undine_cuda_device_executor_cuh
+
+#include "device_error.cuh"
+#include "device_stopwatch.cuh"
+#include "device_team.cuh"
+
+#include <cub/device/device_scan.cuh>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+namespace undine::particles
+{
+  namespace kernels
+  {
+    constexpr int for_each_threads = 128;
+    constexpr int team_threads     = 512; ///< at most
+
+    template <class Function>
+    __global__ void
+    __launch_bounds__(for_each_threads) for_each(const int n, const Function f)
+    {
+      const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+      if (i < n)
+        f(i);
+    }
+
+    template <class Function>
+    __global__ void
+    __launch_bounds__(team_threads, 2)
+      run(const __grid_constant__ Function f, const DeviceTeam::Workspace workspace)
+    {
+      __shared__ Sums<DeviceTeam::most_sums> of_warps[DeviceTeam::most_warps];
+      DeviceTeam                             team(workspace, of_warps);
+      f(team);
+    }
+  } // namespace kernels
+
+
+  /// Runs passes on a CUDA device, see HostExecutor. Passes are enqueued; download() and wait()
+  /// wait for them.
+  class DeviceExecutor
+  {
+  public:
+    using Team = DeviceTeam;
+
+    /// Throws InputError if there is no device.
+    DeviceExecutor()
+    {
+      int  n      = 0;
+      auto status = cudaGetDeviceCount(&n);
+      if (status == cudaSuccess && n == 0)
+        status = cudaErrorNoDevice;
+      if (status == cudaSuccess)
+        status = cudaGetDeviceProperties(&properties, 0);
+      if (status != cudaSuccess)
+        throw InputError(std::string("the executor 'device' needs an NVIDIA graphics processor "
+                                     "with its driver, and there is none here (") +
+                         cudaGetErrorString(status) + "). Choose the executor 'host'.");
+      check_device(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "to start");
+      workspace.counter = allocate<unsigned int>(1);
+      for (auto &partial : workspace.partial)
+        partial = allocate<Sums<Team::most_sums>>(Team::most_blocks);
+    }
+
+    DeviceExecutor(const DeviceExecutor &) = delete;
+
+    ~DeviceExecutor()
+    {
+      stopwatch.reset();
+      release(workspace.counter);
+      for (auto *partial : workspace.partial)
+        release(partial);
+      cudaFree(scan_memory);
+      cudaStreamDestroy(stream);
+    }
+
+    /// Of the host: none are used.
+    void
+    set_threads(const int)
+    {
+    }
+
+    std::string
+    describe() const
+    {
+      return std::string(properties.name) + " with " +
+             std::to_string(properties.multiProcessorCount) + " multiprocessors";
+    }
+
+    template <class T>
+    T *
+    allocate(const std::size_t n) const
+    {
+      T *memory = nullptr;
+      if (n == 0)
+        return memory;
+      if (cudaMalloc(&memory, n * sizeof(T)) == cudaErrorMemoryAllocation)
+        {
+          cudaGetLastError(); // forgets the error
+          std::size_t free = 0, total = 0;
+          cudaMemGetInfo(&free, &total);
+          throw InputError("the device has no room for another " + megabytes(n * sizeof(T)) + ": " +
+                           megabytes(free) + " of " + megabytes(total) +
+                           " are free. Use fewer particles, or the executor 'host'.");
+        }
+      check_device(cudaGetLastError(), "to give memory");
+      clear(memory, n);
+      return memory;
+    }
+
+    template <class T>
+    void
+    release(T *memory) const
+    {
+      cudaFree(memory);
+    }
+
+    template <class T>
+    void
+    upload(T *to, const T *from, const std::size_t n) const
+    {
+      copy(to, from, n, cudaMemcpyHostToDevice);
+      wait();
+    }
+
+    template <class T>
+    void
+    download(T *to, const T *from, const std::size_t n) const
+    {
+      copy(to, from, n, cudaMemcpyDeviceToHost);
+      wait();
+    }
+
+    /// Within the device.
+    template <class T>
+    void
+    duplicate(T *to, const T *from, const std::size_t n) const
+    {
+      copy(to, from, n, cudaMemcpyDeviceToDevice);
+    }
+
+    template <class T>
+    void
+    clear(T *memory, const std::size_t n) const
+    {
+      if (n > 0)
+        check_device(cudaMemsetAsync(memory, 0, n * sizeof(T), stream), "to clear memory");
+    }
+
+    template <class Function>
+    void
+    for_each(const int n, const Function &f) const
+    {
+      if (n <= 0)
+        return;
+      constexpr int threads = kernels::for_each_threads;
+      kernels::for_each<<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
+      check_device(cudaGetLastError(), "to start a pass");
+    }
+
+    template <class Function>
+    void
+    run(const int n, const Function &f)
+    {
+      const auto kernel  = kernels::run<Function>;
+      const int  threads = team_threads(n);
+      int        blocks  = 0;
+      check_device(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
+                   "to plan a pass");
+      blocks               = std::min({blocks * properties.multiProcessorCount,
+                                       (n + threads - 1) / threads,
+                                       int(Team::most_blocks)});
+      Function copy        = f;
+      void    *arguments[] = {&copy, &workspace};
+      check_device(cudaLaunchCooperativeKernel(
+                     kernel, dim3(std::max(1, blocks)), dim3(threads), arguments, 0, stream),
+                   "to start a pass");
+    }
+
+    void
+    exclusive_scan(const int n, const int *in, int *out)
+    {
+      std::size_t bytes = 0;
+      check_device(cub::DeviceScan::ExclusiveSum(nullptr, bytes, in, out, n, stream), "to scan");
+      if (bytes > scan_bytes)
+        {
+          cudaFree(scan_memory);
+          scan_memory = allocate<char>(bytes);
+          scan_bytes  = bytes;
+        }
+      check_device(cub::DeviceScan::ExclusiveSum(scan_memory, bytes, in, out, n, stream),
+                   "to scan");
+    }
+
+    void
+    wait() const
+    {
+      check_device(cudaStreamSynchronize(stream), "during a pass");
+    }
+
+    /// Time phases from now on.
+    void
+    time_phases()
+    {
+      if (stopwatch == nullptr)
+        stopwatch = std::make_unique<DeviceStopwatch>(stream);
+    }
+
+    void
+    enter(const Phase phase)
+    {
+      if (stopwatch != nullptr)
+        stopwatch->enter(phase);
+    }
+
+    /// Of a phase since time_phases() [s].
+    double
+    seconds(const Phase phase) const
+    {
+      return stopwatch == nullptr ? 0. : stopwatch->seconds()[static_cast<int>(phase)];
+    }
+
+  private:
+    static std::string
+    megabytes(const std::size_t bytes)
+    {
+      return std::to_string(bytes >> 20) + " MB";
+    }
+
+    template <class T>
+    void
+    copy(T *to, const T *from, const std::size_t n, const cudaMemcpyKind kind) const
+    {
+      if (n > 0)
+        check_device(cudaMemcpyAsync(to, from, n * sizeof(T), kind, stream), "to copy");
+    }
+
+    /// Small passes spread over all multiprocessors in small blocks.
+    int
+    team_threads(const int n) const
+    {
+      const int each = (n + properties.multiProcessorCount - 1) / properties.multiProcessorCount;
+      return std::clamp((each + 31) / 32 * 32, 64, kernels::team_threads);
+    }
+
+    cudaDeviceProp                   properties;
+    cudaStream_t                     stream;
+    Team::Workspace                  workspace   = {};
+    char                            *scan_memory = nullptr;
+    std::size_t                      scan_bytes  = 0;
+    std::unique_ptr<DeviceStopwatch> stopwatch;
+  };
+} // namespace undine::particles
+
+#endif

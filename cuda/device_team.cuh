@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_cuda_device_team_cuh
+#define undine_cuda_device_team_cuh
+
+#include <undine/particles/sums.h>
+
+#include <cuda_runtime.h>
+
+namespace undine::particles
+{
+  /// Lets all blocks of a launch wait for each other; they must all be resident. The counter starts
+  /// at zero and is left ready for the next launch: a round adds 2^31 to it, so that the highest
+  /// bit changes when the last block arrives.
+  class GridBarrier
+  {
+  public:
+    __device__ explicit GridBarrier(unsigned int *counter)
+      : counter(counter)
+    {
+      if (gridDim.x > 1 && threadIdx.x == 0)
+        phase = read() & flip;
+    }
+
+    /// What any thread wrote before is visible to all after.
+    __device__ void
+    wait()
+    {
+      __syncthreads();
+      if (gridDim.x == 1)
+        return;
+      if (threadIdx.x == 0)
+        {
+          const unsigned int share = blockIdx.x == 0 ? flip - (gridDim.x - 1) : 1;
+          asm volatile("red.release.gpu.global.add.u32 [%0], %1;" ::"l"(counter), "r"(share)
+                       : "memory");
+          while ((read() & flip) == phase)
+            ;
+          phase ^= flip;
+        }
+      __syncthreads();
+    }
+
+  private:
+    __device__ unsigned int
+    read() const
+    {
+      unsigned int value;
+      asm volatile("ld.acquire.gpu.global.u32 %0, [%1];" : "=r"(value) : "l"(counter) : "memory");
+      return value;
+    }
+
+    static constexpr unsigned int flip = 1u << 31;
+
+    unsigned int *counter;
+    unsigned int  phase = 0;
+  };
+
+
+  /// The threads of one launch, see HostTeam. Every block has a contiguous share of the indices.
+  class DeviceTeam
+  {
+  public:
+    static constexpr int most_sums   = 8;
+    static constexpr int most_blocks = 1024;
+    static constexpr int most_warps  = 32; ///< of a block
+
+    /// Global memory of a pass.
+    struct Workspace
+    {
+      unsigned int    *counter;    ///< of the barrier
+      Sums<most_sums> *partial[2]; ///< one a block
+    };
+
+    __device__
+    DeviceTeam(const Workspace &workspace, Sums<most_sums> *of_warps)
+      : barrier(workspace.counter)
+      , workspace(workspace)
+      , of_warps(of_warps)
+    {
+    }
+
+    template <class Function>
+    __device__ __forceinline__ void
+    for_each(const int n, const Function &f) const
+    {
+      const int share =
+        ((n + static_cast<int>(gridDim.x) - 1) / static_cast<int>(gridDim.x) + 31) / 32 * 32;
+      const int begin = static_cast<int>(blockIdx.x) * share;
+      const int end   = min(n, begin + share);
+      for (int i = begin + static_cast<int>(threadIdx.x); i < end;
+           i += static_cast<int>(blockDim.x))
+        f(i);
+    }
+
+    /// The order of additions depends on the size of the launch only.
+    template <int count, class Function>
+    __device__ __forceinline__ Sums<count>
+                               sum(const int n, const Function &f)
+    {
+      static_assert(count <= most_sums, "no room for so many sums");
+      Sums<count> mine;
+      for_each(n, [&](const int i) { f(i, mine); });
+      reduce_block(mine, workspace.partial[parity] + blockIdx.x);
+      sync();
+      Sums<count> total;
+      for (int b = threadIdx.x & 31; b < static_cast<int>(gridDim.x); b += 32)
+        for (int k = 0; k < count; ++k)
+          total[k] += __ldcg(&workspace.partial[parity][b].values[k]);
+      reduce_warp(total);
+      parity = 1 - parity;
+      return total;
+    }
+
+    __device__ void
+    sync()
+    {
+      barrier.wait();
+    }
+
+    __device__ bool
+    is_first() const
+    {
+      return blockIdx.x == 0 && threadIdx.x == 0;
+    }
+
+  private:
+    /// All lanes get the sums over the warp.
+    template <int count>
+    __device__ __forceinline__ static void
+    reduce_warp(Sums<count> &sums)
+    {
+      for (int distance = 16; distance > 0; distance /= 2)
+        for (int k = 0; k < count; ++k)
+          sums[k] += __shfl_xor_sync(0xffffffffu, sums[k], distance);
+    }
+
+    template <int count>
+    __device__ __forceinline__ void
+    reduce_block(Sums<count> &mine, Sums<most_sums> *result)
+    {
+      const int warp = threadIdx.x / 32, lane = threadIdx.x & 31;
+      reduce_warp(mine);
+      if (lane == 0)
+        for (int k = 0; k < count; ++k)
+          of_warps[warp][k] = mine[k];
+      __syncthreads();
+      if (warp > 0)
+        return;
+      Sums<count> total;
+      if (lane < static_cast<int>(blockDim.x) / 32)
+        for (int k = 0; k < count; ++k)
+          total[k] = of_warps[lane][k];
+      reduce_warp(total);
+      if (lane == 0)
+        for (int k = 0; k < count; ++k)
+          result->values[k] = total[k];
+    }
+
+    GridBarrier      barrier;
+    Workspace        workspace;
+    Sums<most_sums> *of_warps; ///< shared memory of the block
+    int              parity = 0;
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_particle_engine_h
+#define undine_particles_particle_engine_h
+
+#include <undine/particles/check_state.h>
+#include <undine/particles/engine.h>
+#include <undine/particles/failures.h>
+#include <undine/particles/particle_system.h>
+#include <undine/particles/phases.h>
+#include <undine/particles/state_transfer.h>
+
+#include <algorithm>
+#include <type_traits>
+
+namespace undine::particles
+{
+  /// The engine over an executor. Matrix entries are `Entry`; if neighbours turn out to be too far
+  /// apart in memory for them, they are WideEntry from then on.
+  template <class Executor, int dim, class Real, class Entry>
+  class ParticleEngine : public Engine<dim>
+  {
+  public:
+    explicit ParticleEngine(std::unique_ptr<Executor> executor)
+      : executor(std::move(executor))
+    {
+    }
+
+    void
+    load(const Setup<dim> &new_setup, const ParticleState<dim> &state) override
+    {
+      check_state(new_setup, state);
+      setup = new_setup;
+      executor->set_threads(setup.numerics.threads);
+      n = static_cast<int>(state.positions.size());
+      snapshot.reset();
+      system.reset();
+      wide.reset();
+      system   = std::make_unique<System<Entry>>(*executor, setup, lattice(), n);
+      snapshot = std::make_unique<Snapshot<Executor, dim, Real>>(*executor, n, system->elastic().n);
+      take_state(system->arrays(), system->elastic(), state);
+    }
+
+    StepControl
+    advance(const double length) override
+    {
+      if (system != nullptr)
+        {
+          snapshot->save(system->arrays(), system->elastic());
+          const StepControl control = attempt(*system, length);
+          if (!failed_for_indices(control))
+            return succeeded(*system, control);
+          system.reset();
+          wide = std::make_unique<System<Wide>>(*executor, setup, lattice(), n);
+          snapshot->restore(wide->arrays(), wide->elastic());
+        }
+      snapshot->save(wide->arrays(), wide->elastic());
+      return succeeded(*wide, attempt(*wide, length));
+    }
+
+    void
+    fetch(ParticleState<dim> &state) const override
+    {
+      with_system([&](auto &present) { give_state(state, present.arrays()); });
+    }
+
+    Balance<dim>
+    balance() const override
+    {
+      Balance<dim> result;
+      with_system([&](auto &present) { result = present.balance(); });
+      return result;
+    }
+
+    std::string
+    describe() const override
+    {
+      return executor->describe() + (sizeof(Real) == 4 ? ", single" : ", double") + " precision";
+    }
+
+    void
+    time_phases() override
+    {
+      executor->time_phases();
+    }
+
+    std::vector<std::pair<std::string, double>>
+    seconds() const override
+    {
+      std::vector<std::pair<std::string, double>> result;
+      for (int k = 0; k < static_cast<int>(Phase::count); ++k)
+        result.emplace_back(name_of(static_cast<Phase>(k)),
+                            executor->seconds(static_cast<Phase>(k)));
+      return result;
+    }
+
+  private:
+    using Wide = WideEntry<Real>;
+
+    template <class AnyEntry>
+    using System = ParticleSystem<Executor, dim, Real, AnyEntry>;
+
+    template <class Function>
+    void
+    with_system(const Function &f) const
+    {
+      if (system != nullptr)
+        f(*system);
+      else if (wide != nullptr)
+        f(*wide);
+    }
+
+    ReferenceLattice<dim, Real>
+    lattice() const
+    {
+      return ReferenceLattice<dim, Real>(setup);
+    }
+
+    static bool
+    failed_for_indices(const StepControl &control)
+    {
+      return (control.failures & static_cast<unsigned int>(Failure::matrix_indices)) != 0;
+    }
+
+    /// Sub-steps are enqueued in batches of as many as the last one lets expect.
+    template <class AnySystem>
+    StepControl
+    attempt(AnySystem &present, const double length)
+    {
+      present.begin_frame(length);
+      StepControl control;
+      int         batch = expected;
+      do
+        {
+          for (int k = 0; k < batch; ++k)
+            present.sub_step();
+          executor->enter(Phase::other);
+          control = present.read_control();
+          batch   = control.dt > 0
+                      ? static_cast<int>(std::ceil((length - control.elapsed) / control.dt - 1e-6))
+                      : 0;
+          batch   = std::min(batch, most_in_a_batch);
+        }
+      while (batch > 0 && control.failures == 0);
+      ChooseStep{&control, {}}(0); // looks at the last speed, too
+      expected = std::clamp(static_cast<int>(control.sub_steps), 1, most_in_a_batch);
+      return control;
+    }
+
+    template <class AnySystem>
+    StepControl
+    succeeded(AnySystem &present, const StepControl &control)
+    {
+      if (control.failures == 0)
+        return control;
+      snapshot->restore(present.arrays(), present.elastic());
+      throw SolveError(reason_of_failure(control));
+    }
+
+    static constexpr int most_in_a_batch = 64;
+
+    std::unique_ptr<Executor>                      executor;
+    Setup<dim>                                     setup;
+    int                                            n        = 0;
+    int                                            expected = 1; ///< sub-steps of the next frame
+    std::unique_ptr<System<Entry>>                 system;
+    std::unique_ptr<System<Wide>>                  wide; ///< instead of `system`
+    std::unique_ptr<Snapshot<Executor, dim, Real>> snapshot;
+  };
+
+
+  /// An engine in a precision; single precision packs its matrices.
+  template <class Executor, int dim, class Real>
+  std::unique_ptr<Engine<dim>>
+  make_particle_engine(std::unique_ptr<Executor> executor)
+  {
+    using Entry = std::conditional_t<sizeof(Real) == 4, PackedEntry, WideEntry<Real>>;
+    return std::make_unique<ParticleEngine<Executor, dim, Real, Entry>>(std::move(executor));
+  }
+} // namespace undine::particles
+
+#endif
