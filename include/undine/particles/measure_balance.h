@@ -2,8 +2,11 @@
 #ifndef undine_particles_measure_balance_h
 #define undine_particles_measure_balance_h
 
+#include <undine/particles/buffer.h>
 #include <undine/particles/constants.h>
 #include <undine/particles/elastic_bodies.h>
+#include <undine/particles/engine.h>
+#include <undine/particles/make_constants.h>
 #include <undine/particles/step_control.h>
 #include <undine/particles/sums.h>
 
@@ -64,38 +67,99 @@ namespace undine::particles
   };
 
 
-  /// Elastic energy density, volume over that at rest, place and velocity, all summed over the
-  /// particles of one body. Leaves deformations at the present places behind.
+  /// Volume over that at rest as of the last elastic step, place and velocity, all summed over the
+  /// particles of one body.
   template <int dim, class Real>
   struct MeasureBody
   {
-    static constexpr int count = 2 + 2 * dim;
+    static constexpr int count = 1 + 2 * dim;
 
-    Elasticity<dim, Real> elasticity;
-    int                   body;
-    Sums<count>          *result;
+    ElasticBodies<dim, Real> bodies;
+    int                      body;
+    Sums<count>             *result;
 
     template <class Team>
     UNDINE_HOST_DEVICE void
     operator()(Team &team) const
     {
-      const auto &bodies = elasticity.bodies;
-      team.for_each(bodies.n, [&](const int i) { elasticity.deform(i); });
-      team.sync();
       const auto sums = team.template sum<count>(bodies.n, [&](const int i, Sums<count> &sums) {
         if (bodies.bodies[i] != body)
           return;
-        sums[0] += elasticity.energy(i);
-        sums[1] += determinant(bodies.deformations[i]);
+        sums[0] += determinant(bodies.deformations[i]);
         for (int axis = 0; axis < dim; ++axis)
           {
-            sums[2 + axis] += bodies.x[i][axis];
-            sums[2 + dim + axis] += bodies.v[i][axis];
+            sums[1 + axis] += bodies.x[i][axis];
+            sums[1 + dim + axis] += bodies.v[i][axis];
           }
       });
       if (team.is_first())
         *result = sums;
     }
+  };
+
+
+  /// All of it, for the particles of a scene.
+  template <class Executor, int dim, class Real>
+  class BalanceSheet
+  {
+  public:
+    BalanceSheet(Executor &executor, const Setup<dim> &setup)
+      : executor(executor)
+      , constants(make_constants<dim, Real>(setup))
+      , body_sizes(setup.bodies.size())
+    {
+      for (const int body : setup.body_of)
+        ++body_sizes[body];
+    }
+
+    Balance<dim>
+    operator()(const Particles<dim, Real> &particles, const ElasticBodies<dim, Real> &bodies)
+    {
+      Balance<dim> result;
+      const auto   sums =
+        measured(MeasureBalance<dim, Real>{constants, particles, nullptr}, particles.n);
+      result.kinetic_fluid = sums[0];
+      result.kinetic_solid = sums[1];
+      result.potential     = sums[2];
+      for (int axis = 0; axis < dim; ++axis)
+        result.momentum[axis] = sums[3 + axis];
+      for (std::size_t b = 0; b < body_sizes.size(); ++b)
+        add_body(result, b, bodies);
+      return result;
+    }
+
+  private:
+    void
+    add_body(Balance<dim> &result, const std::size_t b, const ElasticBodies<dim, Real> &bodies)
+    {
+      const auto sums =
+        measured(MeasureBody<dim, Real>{bodies, static_cast<int>(b), nullptr}, bodies.n);
+      const double        share = 1. / body_sizes[b];
+      Vector<dim, double> centre, velocity;
+      for (int axis = 0; axis < dim; ++axis)
+        {
+          centre[axis]   = share * sums[1 + axis];
+          velocity[axis] = share * sums[1 + dim + axis];
+        }
+      result.body_volumes.push_back(share * sums[0]);
+      result.body_centres.push_back(centre);
+      result.body_velocities.push_back(velocity);
+    }
+
+    /// By a pass over n.
+    template <class Measure>
+    Sums<Measure::count>
+    measured(Measure measure, const int n)
+    {
+      Buffer<Executor, Sums<Measure::count>> sums(executor, 1);
+      measure.result = sums.data();
+      executor.run(n, measure);
+      return sums.values()[0];
+    }
+
+    Executor            &executor;
+    Constants<dim, Real> constants;
+    std::vector<int>     body_sizes; ///< in particles
   };
 } // namespace undine::particles
 

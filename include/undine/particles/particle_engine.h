@@ -5,6 +5,7 @@
 #include <undine/particles/check_state.h>
 #include <undine/particles/engine.h>
 #include <undine/particles/failures.h>
+#include <undine/particles/measure_balance.h>
 #include <undine/particles/particle_system.h>
 #include <undine/particles/phases.h>
 #include <undine/particles/state_transfer.h>
@@ -67,7 +68,10 @@ namespace undine::particles
     balance() const override
     {
       Balance<dim> result;
-      with_system([&](auto &present) { result = present.balance(); });
+      with_system([&](auto &present) {
+        result = BalanceSheet<Executor, dim, Real>(*executor, setup)(present.arrays().view(),
+                                                                     present.elastic().view());
+      });
       return result;
     }
 
@@ -121,14 +125,29 @@ namespace undine::particles
       return (control.failures & static_cast<unsigned int>(Failure::matrix_indices)) != 0;
     }
 
+    /// What it does depends on the particles only, so that a saved state continues as the run that
+    /// saved it.
+    template <class AnySystem>
+    StepControl
+    begin(AnySystem &present, const double length)
+    {
+      Buffer<Executor, StepControl> control(*executor, 1);
+      executor->for_each(n, MeasureSpeed<dim, Real>{present.arrays().view(), control.data()});
+      StepControl fresh;
+      fresh.frame         = length;
+      fresh.largest_speed = control.values()[0].largest_speed;
+      present.write_control(fresh);
+      present.prepare();
+      return fresh;
+    }
+
     /// Sub-steps are enqueued in batches of as many as the last one lets expect.
     template <class AnySystem>
     StepControl
     attempt(AnySystem &present, const double length)
     {
-      present.begin_frame(length);
-      StepControl control;
-      int         batch = expected;
+      StepControl control = begin(present, length);
+      int         batch   = expected;
       do
         {
           for (int k = 0; k < batch; ++k)

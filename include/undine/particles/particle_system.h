@@ -6,13 +6,10 @@
 #include <undine/particles/conjugate_gradients.h>
 #include <undine/particles/elastic_arrays.h>
 #include <undine/particles/elastic_step.h>
-#include <undine/particles/engine.h>
 #include <undine/particles/explicit_forces.h>
 #include <undine/particles/make_constants.h>
-#include <undine/particles/measure_balance.h>
 #include <undine/particles/neighbour_list.h>
 #include <undine/particles/particle_arrays.h>
-#include <undine/particles/phases.h>
 #include <undine/particles/pressure_forces.h>
 
 namespace undine::particles
@@ -31,7 +28,6 @@ namespace undine::particles
       , constants(make_constants<dim, Real>(setup))
       , bounds(make_bounds(setup, lattice.explicit_step(setup.numerics.elastic_share)))
       , n(n)
-      , body_sizes(count_particles(lattice))
       , now(executor, n)
       , next(executor, n)
       , bodies(executor, lattice)
@@ -55,7 +51,7 @@ namespace undine::particles
     {
     }
 
-    /// The particles as they are.
+    /// The particles as they are; fill, then call prepare().
     ParticleArrays<Executor, dim, Real> &
     arrays()
     {
@@ -68,17 +64,12 @@ namespace undine::particles
       return bodies;
     }
 
-    /// Start a frame of `length` [s]. What it does depends on the particles only, so that a saved
-    /// state continues as the run that saved it.
+    /// Sort and find neighbours for the first time.
     void
-    begin_frame(const double length)
+    prepare()
     {
-      StepControl fresh;
-      fresh.frame = length;
-      control.set({fresh});
-      executor.for_each(n, MeasureSpeed<dim, Real>{now.view(), control.data()});
       sort();
-      find_neighbours();
+      list.find(now.view(), cells.cell_starts(), control.data());
     }
 
     StepControl
@@ -87,44 +78,20 @@ namespace undine::particles
       return control.values()[0];
     }
 
-    Balance<dim>
-    balance()
+    void
+    write_control(const StepControl &value)
     {
-      Balance<dim> result;
-      const auto   sums    = measured(MeasureBalance<dim, Real>{constants, now.view(), nullptr}, n);
-      result.kinetic_fluid = sums[0];
-      result.kinetic_solid = sums[1];
-      result.potential     = sums[2];
-      for (int axis = 0; axis < dim; ++axis)
-        result.momentum[axis] = sums[3 + axis];
-      for (std::size_t b = 0; b < body_sizes.size(); ++b)
-        {
-          const auto of_body =
-            measured(MeasureBody<dim, Real>{elasticity(), static_cast<int>(b), nullptr}, bodies.n);
-          const double        share = 1. / body_sizes[b];
-          Vector<dim, double> centre, velocity;
-          for (int axis = 0; axis < dim; ++axis)
-            {
-              centre[axis]   = share * of_body[2 + axis];
-              velocity[axis] = share * of_body[2 + dim + axis];
-            }
-          result.elastic += of_body[0];
-          result.body_volumes.push_back(share * of_body[1]);
-          result.body_centres.push_back(centre);
-          result.body_velocities.push_back(velocity);
-        }
-      return result;
+      control.set({value});
     }
 
     /// One sub-step of the length that it chooses itself; nothing after the end of the frame.
     void
     sub_step()
     {
-      executor.enter(Phase::forces);
       executor.for_each(1, ChooseStep{control.data(), bounds});
       move_without_pressure();
       sort();
-      find_neighbours();
+      list.find(now.view(), cells.cell_starts(), control.data());
       solve_pressure();
       move_by_pressure();
     }
@@ -150,22 +117,13 @@ namespace undine::particles
     void
     sort()
     {
-      executor.enter(Phase::sort);
       cells.sort(now.view(), next.view(), bodies.where.data(), bodies.n);
       std::swap(now, next);
     }
 
     void
-    find_neighbours()
-    {
-      executor.enter(Phase::neighbours);
-      list.find(now.view(), cells.cell_starts(), control.data());
-    }
-
-    void
     solve_pressure()
     {
-      executor.enter(Phase::assembly);
       executor.for_each(n,
                         MeasureNeighbourhood<dim, Real>{constants,
                                                         list.view(now.view()),
@@ -184,7 +142,6 @@ namespace undine::particles
                                                            closed ? faces_diagonal.data() : nullptr,
                                                            gaps.data(),
                                                            control.data()});
-      executor.enter(Phase::faces);
       if (closed)
         solve(faces_diagonal,
               gaps,
@@ -192,7 +149,6 @@ namespace undine::particles
               vectors,
               numerics.faces_tolerance,
               &StepControl::faces);
-      executor.enter(Phase::assembly);
       executor.for_each(n,
                         MeasureSource<dim, Real>{constants,
                                                  list.view(now.view()),
@@ -202,7 +158,6 @@ namespace undine::particles
                                                  right_hand_side.data(),
                                                  pressures.data(),
                                                  control.data()});
-      executor.enter(Phase::pressure);
       solve(
         diagonal, right_hand_side, pressures, numbers, numerics.tolerance, &StepControl::pressure);
       executor.for_each(n,
@@ -213,7 +168,6 @@ namespace undine::particles
     void
     move_by_pressure()
     {
-      executor.enter(Phase::correction);
       executor.for_each(n,
                         PressureForces<dim, Real>{constants,
                                                   list.view(now.view()),
@@ -235,10 +189,9 @@ namespace undine::particles
     {
       if (bodies.n == 0)
         return;
-      executor.enter(Phase::bodies);
       const auto view = bodies.view();
       executor.run(bodies.n,
-                   ElasticStep<dim, Real>{elasticity(),
+                   ElasticStep<dim, Real>{{constants.grid, constants.reach, constants.volume, view},
                                           {constants.spacing,
                                            view,
                                            list.view(now.view()),
@@ -254,32 +207,6 @@ namespace undine::particles
                                           now.places.data(),
                                           now.motions.data(),
                                           control.data()});
-    }
-
-    /// Sums over all particles, by a pass over `count`.
-    template <class Measure>
-    Sums<Measure::count>
-    measured(Measure measure, const int count)
-    {
-      Buffer<Executor, Sums<Measure::count>> sums(executor, 1);
-      measure.result = sums.data();
-      executor.run(count, measure);
-      return sums.values()[0];
-    }
-
-    static std::vector<int>
-    count_particles(const ReferenceLattice<dim, Real> &lattice)
-    {
-      std::vector<int> result(lattice.materials.size());
-      for (const int body : lattice.bodies)
-        ++result[body];
-      return result;
-    }
-
-    Elasticity<dim, Real>
-    elasticity() const
-    {
-      return {constants.grid, constants.reach, constants.volume, bodies.view()};
     }
 
     template <class Value>
@@ -334,7 +261,6 @@ namespace undine::particles
     Constants<dim, Real> constants;
     StepBounds           bounds;
     int                  n;
-    std::vector<int>     body_sizes; ///< in particles
 
     ParticleArrays<Executor, dim, Real>          now, next;
     ElasticArrays<Executor, dim, Real>           bodies;

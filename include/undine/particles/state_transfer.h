@@ -50,6 +50,8 @@ namespace undine::particles
     arrays.potentials.set(potentials);
     bodies.x.set(x);
     bodies.v.set(v);
+    bodies.deformations.set(
+      std::vector<Matrix<dim, Real>>(bodies.n, Matrix<dim, Real>::diagonal(1)));
   }
 
 
