@@ -5,10 +5,12 @@
 #include "device_error.cuh"
 #include "device_stopwatch.cuh"
 #include "device_team.cuh"
+#include "resident_gradients.cuh"
 
 #include <cub/device/device_scan.cuh>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 
@@ -71,6 +73,8 @@ namespace undine::particles
     ~DeviceExecutor()
     {
       stopwatch.reset();
+      for (auto &exchange : exchanges)
+        exchange.release(*this);
       release(workspace.counter);
       for (auto *partial : workspace.partial)
         release(partial);
@@ -166,6 +170,13 @@ namespace undine::particles
     void
     run(const int n, const Function &f)
     {
+      run_team(n, f);
+    }
+
+    template <class Function>
+    void
+    run_team(const int n, const Function &f)
+    {
       const auto kernel  = kernels::run<Function>;
       const int  threads = team_threads(n);
       int        blocks  = 0;
@@ -179,6 +190,35 @@ namespace undine::particles
       check_device(cudaLaunchCooperativeKernel(
                      kernel, dim3(std::max(1, blocks)), dim3(threads), arguments, 0, stream),
                    "to start a pass");
+    }
+
+    /// Solves systems that fit in the shared memories of the multiprocessors there.
+    template <class Value>
+    void
+    run(const int n, const ConjugateGradients<float, PackedEntry, Value> &f)
+    {
+      constexpr int count  = Components<Value>::count;
+      const auto    kernel = kernels::solve_resident<Value>;
+      int           room   = static_cast<int>(properties.sharedMemPerBlockOptin) - 4096;
+      if (n > most_resident_rows || room < least_resident_room ||
+          f.bounds.max_iterations > static_cast<int>(BlockExchange::most_rounds) ||
+          properties.multiProcessorCount > BlockExchange::most_blocks)
+        {
+          run_team(n, f);
+          return;
+        }
+      auto exchange = exchanges[count].workspace(*this, count * n, f.bounds.max_iterations + 16);
+      check_device(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, room),
+                   "to plan a pass");
+      auto  copy        = f;
+      void *arguments[] = {&copy, &exchange, &workspace, &room};
+      check_device(cudaLaunchCooperativeKernel(kernel,
+                                               dim3(properties.multiProcessorCount),
+                                               dim3(kernels::resident_threads),
+                                               arguments,
+                                               room,
+                                               stream),
+                   "to start the solver");
     }
 
     void
@@ -239,6 +279,49 @@ namespace undine::particles
         check_device(cudaMemcpyAsync(to, from, n * sizeof(T), kind, stream), "to copy");
     }
 
+    /// Room for what the blocks of a solver exchange. Its rounds must not repeat: long before,
+    /// everything is cleared.
+    class Exchange
+    {
+    public:
+      BlockExchange::Workspace
+      workspace(const DeviceExecutor &executor, const std::size_t n_values, const int rounds)
+      {
+        if (n_values > n)
+          {
+            release(executor);
+            n             = n_values;
+            memory.values = executor.allocate<FlaggedWord>(2 * n);
+            memory.sums   = executor.allocate<FlaggedWord>(n_sums);
+            next          = 0;
+          }
+        else if (next > 1u << 31)
+          {
+            executor.clear(memory.values, 2 * n);
+            executor.clear(memory.sums, n_sums);
+            next = 0;
+          }
+        memory.n_values    = static_cast<int>(n);
+        memory.first_round = next;
+        next += rounds;
+        return memory;
+      }
+
+      void
+      release(const DeviceExecutor &executor)
+      {
+        executor.release(memory.values);
+        executor.release(memory.sums);
+      }
+
+    private:
+      static constexpr std::size_t n_sums = 2 * BlockExchange::most_blocks * BlockExchange::stride;
+
+      BlockExchange::Workspace memory = {};
+      std::size_t              n      = 0; ///< values
+      unsigned int             next   = 0; ///< round
+    };
+
     /// Small passes spread over all multiprocessors in small blocks.
     int
     team_threads(const int n) const
@@ -247,6 +330,10 @@ namespace undine::particles
       return std::clamp((each + 31) / 32 * 32, 64, kernels::team_threads);
     }
 
+    static constexpr int most_resident_rows  = 400000;
+    static constexpr int least_resident_room = 96 * 1024; ///< shared memory of a block
+
+    std::array<Exchange, 4>          exchanges; ///< by numbers in an unknown
     cudaDeviceProp                   properties;
     cudaStream_t                     stream;
     Team::Workspace                  workspace   = {};

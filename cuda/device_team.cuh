@@ -102,11 +102,23 @@ namespace undine::particles
       for_each(n, [&](const int i) { f(i, mine); });
       reduce_block(mine, workspace.partial[parity] + blockIdx.x);
       sync();
+      // One warp reads: all together would crowd the memory.
+      if (threadIdx.x < 32)
+        {
+          Sums<count> all;
+          for (int b = threadIdx.x; b < static_cast<int>(gridDim.x); b += 32)
+            for (int k = 0; k < count; ++k)
+              all[k] += __ldcg(&workspace.partial[parity][b].values[k]);
+          reduce_warp(all);
+          if (threadIdx.x == 0)
+            for (int k = 0; k < count; ++k)
+              of_warps[0][k] = all[k];
+        }
+      __syncthreads();
       Sums<count> total;
-      for (int b = threadIdx.x & 31; b < static_cast<int>(gridDim.x); b += 32)
-        for (int k = 0; k < count; ++k)
-          total[k] += __ldcg(&workspace.partial[parity][b].values[k]);
-      reduce_warp(total);
+      for (int k = 0; k < count; ++k)
+        total[k] = of_warps[0][k];
+      __syncthreads();
       parity = 1 - parity;
       return total;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace undine::particles
@@ -38,11 +39,14 @@ namespace undine::particles
         grid.cells[axis]        = static_cast<int>(cells);
         grid.inverse_cell[axis] = static_cast<Real>(cells / size);
         grid.periodic[axis]     = periodic[axis];
-        grid.order[axis]        = axis;
       }
-    std::stable_sort(grid.order, grid.order + dim, [&](const int a, const int b) {
-      return grid.cells[a] < grid.cells[b];
-    });
+    int order[dim]; // fastest axis first
+    std::iota(order, order + dim, 0);
+    std::stable_sort(
+      order, order + dim, [&](const int a, const int b) { return grid.cells[a] < grid.cells[b]; });
+    grid.along = order[0];
+    for (int k = 0, stride = 1; k < dim; stride *= grid.cells[order[k]], ++k)
+      grid.strides[order[k]] = stride;
     return grid;
   }
 

@@ -18,7 +18,8 @@ namespace undine::particles
     Vector<dim, Real> inverse_cell; ///< [1/m]
     int               cells[dim];   ///< along each axis
     bool              periodic[dim];
-    int               order[dim]; ///< axes, fastest first
+    int               strides[dim]; ///< of cell numbers along each axis
+    int               along;        ///< the axis along which they follow each other
 
     UNDINE_HOST_DEVICE int
     n_cells() const
@@ -81,8 +82,8 @@ namespace undine::particles
     index(const int (&coordinates)[dim]) const
     {
       int result = 0;
-      for (int k = dim - 1; k >= 0; --k)
-        result = result * cells[order[k]] + coordinates[order[k]];
+      for (int axis = 0; axis < dim; ++axis)
+        result += coordinates[axis] * strides[axis];
       return result;
     }
 
@@ -101,33 +102,41 @@ namespace undine::particles
     UNDINE_HOST_DEVICE void
     for_each_run_around(const Vector<dim, Real> &x, const Function &f) const
     {
-      int rows = 1;
-      for (int k = 1; k < dim; ++k)
-        rows *= 3;
-      const int along = order[0];
-      const int here  = coordinate(x, along);
+      int rows = 1, here = 0, length = 0;
+      for (int axis = 0; axis < dim; ++axis)
+        if (axis == along)
+          {
+            here   = coordinate(x, axis);
+            length = cells[axis];
+          }
+        else
+          rows *= 3;
       for (int row = 0; row < rows; ++row)
         {
-          int  coordinates[dim];
-          bool exists = true;
-          for (int k = 1, rest = row; k < dim; ++k, rest /= 3)
+          int  first  = 0;
+          bool exists = true, wraps = false;
+          int  rest = row;
+          for (int axis = 0; axis < dim; ++axis)
             {
-              const int axis = order[k];
-              int       cell = coordinate(x, axis) + rest % 3 - 1;
+              if (axis == along)
+                {
+                  wraps = periodic[axis];
+                  continue;
+                }
+              int cell = coordinate(x, axis) + rest % 3 - 1;
+              rest /= 3;
               if (periodic[axis])
                 cell =
                   cell < 0 ? cell + cells[axis] : (cell >= cells[axis] ? cell - cells[axis] : cell);
-              exists            = exists && cell >= 0 && cell < cells[axis];
-              coordinates[axis] = cell;
+              exists = exists && cell >= 0 && cell < cells[axis];
+              first += cell * strides[axis];
             }
           if (!exists)
             continue;
-          coordinates[along] = 0;
-          const int first    = index(coordinates);
-          f(first + maximum(here - 1, 0), first + minimum(here + 1, cells[along] - 1) + 1);
-          if (periodic[along] && here == 0)
-            f(first + cells[along] - 1, first + cells[along]);
-          if (periodic[along] && here == cells[along] - 1)
+          f(first + maximum(here - 1, 0), first + minimum(here + 1, length - 1) + 1);
+          if (wraps && here == 0)
+            f(first + length - 1, first + length);
+          if (wraps && here == length - 1)
             f(first, first + 1);
         }
     }

@@ -118,6 +118,19 @@ namespace undine::particles
         report(iteration, total(size) > 0 ? sqrt(square / total(size)) : 0.);
     }
 
+    /// Adds a solve to the record; by one worker.
+    UNDINE_HOST_DEVICE void
+    report(const int iterations, const double residual) const
+    {
+      SolverRecord &result = control->*record;
+      result.iterations += iterations;
+      result.most_iterations =
+        maximum(result.most_iterations, static_cast<unsigned int>(iterations));
+      result.worst_residual = maximum(result.worst_residual, residual);
+      if (!(residual <= bounds.tolerance))
+        ++result.not_converged;
+    }
+
   private:
     using Part = Components<Value>;
 
@@ -179,18 +192,6 @@ namespace undine::particles
       vectors.r[i]       = r;
       vectors.u[i]       = (1 / system.diagonal[i]) * r;
       system.solution[i] = x;
-    }
-
-    UNDINE_HOST_DEVICE void
-    report(const int iterations, const double residual) const
-    {
-      SolverRecord &result = control->*record;
-      result.iterations += iterations;
-      result.most_iterations =
-        maximum(result.most_iterations, static_cast<unsigned int>(iterations));
-      result.worst_residual = maximum(result.worst_residual, residual);
-      if (!(residual <= bounds.tolerance))
-        ++result.not_converged;
     }
   };
 } // namespace undine::particles

@@ -88,9 +88,11 @@ namespace undine::particles
     void
     sub_step()
     {
+      executor.enter(Phase::forces);
       executor.for_each(1, ChooseStep{control.data(), bounds});
       move_without_pressure();
       sort();
+      executor.enter(Phase::neighbours);
       list.find(now.view(), cells.cell_starts(), control.data());
       solve_pressure();
       move_by_pressure();
@@ -117,6 +119,7 @@ namespace undine::particles
     void
     sort()
     {
+      executor.enter(Phase::sort);
       cells.sort(now.view(), next.view(), bodies.where.data(), bodies.n);
       std::swap(now, next);
     }
@@ -124,6 +127,7 @@ namespace undine::particles
     void
     solve_pressure()
     {
+      executor.enter(Phase::assembly);
       executor.for_each(n,
                         MeasureNeighbourhood<dim, Real>{constants,
                                                         list.view(now.view()),
@@ -142,6 +146,7 @@ namespace undine::particles
                                                            closed ? faces_diagonal.data() : nullptr,
                                                            gaps.data(),
                                                            control.data()});
+      executor.enter(Phase::faces);
       if (closed)
         solve(faces_diagonal,
               gaps,
@@ -149,6 +154,7 @@ namespace undine::particles
               vectors,
               numerics.faces_tolerance,
               &StepControl::faces);
+      executor.enter(Phase::assembly);
       executor.for_each(n,
                         MeasureSource<dim, Real>{constants,
                                                  list.view(now.view()),
@@ -158,6 +164,7 @@ namespace undine::particles
                                                  right_hand_side.data(),
                                                  pressures.data(),
                                                  control.data()});
+      executor.enter(Phase::pressure);
       solve(
         diagonal, right_hand_side, pressures, numbers, numerics.tolerance, &StepControl::pressure);
       executor.for_each(n,
@@ -168,6 +175,7 @@ namespace undine::particles
     void
     move_by_pressure()
     {
+      executor.enter(Phase::correction);
       executor.for_each(n,
                         PressureForces<dim, Real>{constants,
                                                   list.view(now.view()),
@@ -189,6 +197,7 @@ namespace undine::particles
     {
       if (bodies.n == 0)
         return;
+      executor.enter(Phase::bodies);
       const auto view = bodies.view();
       executor.run(bodies.n,
                    ElasticStep<dim, Real>{{constants.grid, constants.reach, constants.volume, view},

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_cuda_resident_gradients_cuh
+#define undine_cuda_resident_gradients_cuh
+
+#include "device_team.cuh"
+#include "resident_rows.cuh"
+
+#include <undine/particles/conjugate_gradients.h>
+
+namespace undine::particles
+{
+  /// ConjugateGradients for systems that fit into the shared memory of all multiprocessors
+  /// together. Each block keeps its rows and, besides its own unknowns, those that its rows refer
+  /// to: it repeats what their owners do with them, so that only the product with the matrix has to
+  /// be handed over. Together with the sums that is the only wait for other blocks in an iteration:
+  /// the first warp exchanges sums while the others fetch products.
+  ///
+  /// With u = D^{-1} r and t = D^{-1} s in the names of ConjugateGradients.
+  template <class Value>
+  class ResidentGradients
+  {
+  public:
+    using General = ConjugateGradients<float, PackedEntry, Value>;
+
+    static constexpr int count      = Components<Value>::count;
+    static constexpr int most_local = 8; ///< local unknowns of a thread
+    static constexpr int per_local  = 2 * sizeof(Value) + 4;
+    static constexpr int per_own    = 3 * sizeof(Value) + 4;
+
+    /// What the warps of a block tell each other.
+    struct Shared
+    {
+      float of_warps[2 * count][32];
+      float alpha[count], beta[count];
+      bool  goes_on;
+    };
+
+    __device__
+    ResidentGradients(const General      &general,
+                      const ResidentRows &rows,
+                      char               *memory,
+                      BlockExchange      &exchange,
+                      Shared             &shared)
+      : general(general)
+      , rows(rows)
+      , exchange(exchange)
+      , shared(shared)
+    {
+      inverse  = reinterpret_cast<float *>(memory);
+      u        = reinterpret_cast<Value *>(inverse + rows.n_local);
+      t        = u + rows.n_local;
+      p        = t + rows.n_local;
+      x        = p + rows.n_own;
+      w        = x + rows.n_own;
+      diagonal = reinterpret_cast<float *>(w + rows.n_own);
+    }
+
+    __device__ void
+    operator()()
+    {
+      solve_empty_rows();
+      load();
+      begin();
+      for (int iteration = 0;; ++iteration)
+        {
+          exchange.begin_round();
+          multiply();
+          __syncthreads();
+          Value held[most_local];
+          if (is_first_warp())
+            choose_step(iteration);
+          else
+            fetch(held);
+          __syncthreads();
+          if (!shared.goes_on)
+            break;
+          if (!is_first_warp())
+            update(held);
+          __syncthreads();
+        }
+      for (int own = threadIdx.x; own < rows.n_own; own += blockDim.x)
+        general.system.solution[row_of(rows.first_own + own)] = x[own];
+    }
+
+  private:
+    using Products = Sums<2 * count>;
+    using Part     = Components<Value>;
+
+    __device__ static bool
+    is_first_warp()
+    {
+      return threadIdx.x < 32;
+    }
+
+    __device__ static double
+    total(const Products &products)
+    {
+      double sum = 0;
+      for (int k = 0; k < count; ++k)
+        sum += products.values[k];
+      return sum;
+    }
+
+    /// Rows without neighbours belong to no block.
+    __device__ void
+    solve_empty_rows() const
+    {
+      const auto &system = general.system;
+      for (int row = blockIdx.x * blockDim.x + threadIdx.x; row < system.matrix.n;
+           row += gridDim.x * blockDim.x)
+        if (system.matrix.counts[row] == 0)
+          system.solution[row] = (1 / system.diagonal[row]) * system.right_hand_side[row];
+    }
+
+    __device__ int
+    row_of(const int local) const
+    {
+      return rows.global[local];
+    }
+
+    __device__ bool
+    is_own(const int local) const
+    {
+      return local >= rows.first_own && local < rows.first_own + rows.n_own;
+    }
+
+    /// The guess as u.
+    __device__ void
+    load()
+    {
+      const auto &system = general.system;
+      for (int local = threadIdx.x; local < rows.n_local; local += blockDim.x)
+        {
+          const int   row = row_of(local);
+          const float d   = system.diagonal[row];
+          const Value v   = system.solution[row];
+          u[local]        = v;
+          inverse[local]  = 1 / d;
+          t[local]        = Value();
+          if (is_own(local))
+            {
+              const int own = local - rows.first_own;
+              x[own]        = v;
+              p[own]        = Value();
+              w[own]        = system.right_hand_side[row];
+              diagonal[own] = d;
+            }
+        }
+      __syncthreads();
+    }
+
+    /// u of the residual of the guess, and the size of the right-hand side.
+    __device__ void
+    begin()
+    {
+      exchange.begin_round();
+      float sums[2 * count] = {};
+      for_each_product([&](const int own, const Value &product) {
+        const int local = rows.first_own + own;
+        Value     b     = w[own];
+        for (int k = 0; k < count; ++k)
+          sums[0] += Part::of(b, k) * Part::of(b, k) * inverse[local];
+        b -= diagonal[own] * x[own] - product;
+        w[own] = b;
+        put(row_of(local), b);
+      });
+      reduce_warp(sums);
+      __syncthreads();
+      Value residual[most_local];
+      if (is_first_warp())
+        size = exchange_sums()[0];
+      else
+        {
+          fetch(residual);
+          for_each_local([&](const int k, const int local) {
+            u[local] = inverse[local] * (is_own(local) ? w[local - rows.first_own] : residual[k]);
+          });
+        }
+      __syncthreads();
+    }
+
+    /// f(own row, sum_j k_ij u_j), by one thread a row.
+    template <class Function>
+    __device__ __forceinline__ void
+    for_each_product(const Function &f) const
+    {
+      const int warps = blockDim.x / 32, lane = threadIdx.x & 31;
+      const int at_once = ResidentRows::rows_at_once(rows.lanes);
+      for (int slice = threadIdx.x / 32; slice * at_once < rows.n_own; slice += warps)
+        {
+          const Value product = rows.times(slice, u);
+          const int   own     = slice * at_once + lane / rows.lanes;
+          if (own < rows.n_own && lane % rows.lanes == 0)
+            f(own, product);
+        }
+    }
+
+    /// f(k, local) for this thread's share of the local unknowns; not for the first warp.
+    template <class Function>
+    __device__ __forceinline__ void
+    for_each_local(const Function &f) const
+    {
+#pragma unroll
+      for (int k = 0; k < most_local; ++k)
+        {
+          const int local = threadIdx.x - 32 + k * (blockDim.x - 32);
+          if (local < rows.n_local)
+            f(k, local);
+        }
+    }
+
+    /// w = A u, and its products.
+    __device__ void
+    multiply()
+    {
+      float sums[2 * count] = {};
+      for_each_product([&](const int own, const Value &product) {
+        const int local = rows.first_own + own;
+        Value     mine  = u[local];
+        Value     r     = diagonal[own] * mine;
+        Value     Au    = r - product;
+        w[own]          = Au;
+        put(row_of(local), Au);
+        for (int k = 0; k < count; ++k)
+          {
+            sums[k] += Part::of(mine, k) * Part::of(r, k);
+            sums[count + k] += Part::of(mine, k) * Part::of(Au, k);
+          }
+      });
+      reduce_warp(sums);
+    }
+
+    __device__ __forceinline__ void
+    put(const int row, Value value) const
+    {
+      for (int k = 0; k < count; ++k)
+        exchange.put_value(row * count + k, Part::of(value, k));
+    }
+
+    __device__ __forceinline__ void
+    reduce_warp(float (&sums)[2 * count]) const
+    {
+#pragma unroll
+      for (int distance = 16; distance > 0; distance /= 2)
+#pragma unroll
+        for (int k = 0; k < 2 * count; ++k)
+          sums[k] += __shfl_xor_sync(0xffffffffu, sums[k], distance);
+      if ((threadIdx.x & 31) == 0)
+#pragma unroll
+        for (int k = 0; k < 2 * count; ++k)
+          shared.of_warps[k][threadIdx.x / 32] = sums[k];
+    }
+
+    /// Of all blocks; by the first warp, after all warps of the block have given theirs.
+    __device__ __forceinline__ Products
+    exchange_sums() const
+    {
+      const int lane = threadIdx.x;
+      Products  all;
+#pragma unroll
+      for (int k = 0; k < 2 * count; ++k)
+        {
+          all.values[k] = lane < static_cast<int>(blockDim.x) / 32 ? shared.of_warps[k][lane] : 0.f;
+#pragma unroll
+          for (int distance = 16; distance > 0; distance /= 2)
+            all.values[k] += __shfl_xor_sync(0xffffffffu, all.values[k], distance);
+        }
+      exchange.put_sums(all);
+      return exchange.template get_sums<2 * count>();
+    }
+
+    /// With 1 / alpha the curvature is (w, u) - beta^2 last curvature.
+    __device__ void
+    choose_step(const int iteration)
+    {
+      const Products now     = exchange_sums();
+      const double   square  = total(now);
+      const double   goal    = general.bounds.tolerance * general.bounds.tolerance * size;
+      const bool     goes_on = square > goal && iteration < general.bounds.max_iterations;
+#pragma unroll
+      for (int k = 0; k < count; ++k)
+        {
+          const double beta = now.values[k] * inverse_last[k];
+          curvature[k]      = now.values[count + k] - beta * beta * curvature[k];
+          if (threadIdx.x == 0)
+            {
+              shared.beta[k]  = static_cast<float>(beta);
+              shared.alpha[k] = curvature[k] != 0 ? static_cast<float>(now.values[k]) /
+                                                      static_cast<float>(curvature[k])
+                                                  : 0.f;
+            }
+        }
+      if (threadIdx.x == 0)
+        shared.goes_on = goes_on;
+      if (!goes_on && blockIdx.x == 0 && threadIdx.x == 0)
+        general.report(iteration, size > 0 ? sqrt(square / size) : 0.);
+      __threadfence_block();
+#pragma unroll
+      for (int k = 0; k < count; ++k)
+        inverse_last[k] = now.values[k] != 0 ? 1 / now.values[k] : 0.;
+    }
+
+    /// What other blocks hand out for this thread's share of the local unknowns.
+    __device__ __forceinline__ void
+    fetch(Value (&held)[most_local]) const
+    {
+      for_each_local([&](const int k, const int local) {
+        if (!is_own(local))
+          for (int c = 0; c < count; ++c)
+            Part::of(held[k], c) = exchange.get_value(row_of(local) * count + c);
+      });
+    }
+
+    __device__ __forceinline__ void
+    update(Value (&held)[most_local])
+    {
+      for_each_local([&](const int k, const int local) {
+        const int own = local - rows.first_own;
+        Value     Au, u_l = u[local], t_l = t[local];
+        if (is_own(local))
+          {
+            Value p_l = p[own], x_l = x[own];
+            for (int c = 0; c < count; ++c)
+              {
+                Part::of(p_l, c) = Part::of(u_l, c) + shared.beta[c] * Part::of(p_l, c);
+                Part::of(x_l, c) += shared.alpha[c] * Part::of(p_l, c);
+              }
+            p[own] = p_l;
+            x[own] = x_l;
+            Au     = w[own];
+          }
+        else
+          Au = held[k];
+        for (int c = 0; c < count; ++c)
+          {
+            Part::of(t_l, c) = inverse[local] * Part::of(Au, c) + shared.beta[c] * Part::of(t_l, c);
+            Part::of(u_l, c) -= shared.alpha[c] * Part::of(t_l, c);
+          }
+        t[local] = t_l;
+        u[local] = u_l;
+      });
+    }
+
+    const General      &general;
+    const ResidentRows &rows;
+    BlockExchange      &exchange;
+    Shared             &shared;
+
+    // Of the first warp.
+    double size                = 0;  ///< of the right-hand side
+    double inverse_last[count] = {}; ///< 1 / (r, u) of the last iteration
+    double curvature[count]    = {};
+
+    // In shared memory: of local unknowns; of own ones.
+    float *inverse;
+    Value *u, *t;
+    Value *p, *x, *w;
+    float *diagonal;
+  };
+
+
+  namespace kernels
+  {
+    constexpr int resident_threads = 512;
+
+    /// Falls back to the general solver where the system does not fit.
+    template <class Value>
+    __global__ void
+    __launch_bounds__(resident_threads, 1)
+      solve_resident(const __grid_constant__ ConjugateGradients<float, PackedEntry, Value> general,
+                     const BlockExchange::Workspace exchanged,
+                     const DeviceTeam::Workspace    team_workspace,
+                     const int                      room)
+    {
+      using Solver = ResidentGradients<Value>;
+      extern __shared__ __align__(16) char memory[];
+      __shared__ typename Solver::Shared   shared;
+      if (general.control->done())
+        return;
+      BlockExchange exchange(exchanged);
+      ResidentSetup setup(general.system.matrix, exchange, memory, room);
+      if (setup.fill(Solver::per_local, Solver::per_own, Solver::most_local * (blockDim.x - 32)))
+        Solver(general, setup.rows, setup.vectors, exchange, shared)();
+      else
+        {
+          DeviceTeam team(team_workspace, reinterpret_cast<Sums<DeviceTeam::most_sums> *>(memory));
+          general(team);
+        }
+    }
+  } // namespace kernels
+} // namespace undine::particles
+
+#endif
