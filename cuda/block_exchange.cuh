@@ -47,14 +47,27 @@ namespace undine::particles
       put(values() + k, flagged(value, round));
     }
 
-    __device__ __forceinline__ float
-    get_value(const int k) const
+    /// Wait for values number from[k]. Afterwards a warp needs a __syncwarp() to go on together.
+    template <int count>
+    __device__ __forceinline__ void
+    get_values(float *const (&to)[count], const int (&from)[count]) const
     {
-      FlaggedWord word;
+      FlaggedWord word[count];
+      bool        complete;
       do
-        word = look_at(values() + k);
-      while (!is_of(word, round));
-      return number_in(word);
+        {
+          complete = true;
+#pragma unroll
+          for (int k = 0; k < count; ++k)
+            word[k] = look_at(values() + from[k]);
+#pragma unroll
+          for (int k = 0; k < count; ++k)
+            complete = complete && is_of(word[k], round);
+        }
+      while (!complete);
+#pragma unroll
+      for (int k = 0; k < count; ++k)
+        *to[k] = number_in(word[k]);
     }
 
     /// Hand out this block's share of sums; by the threads of one warp.
@@ -91,7 +104,8 @@ namespace undine::particles
       return total;
     }
 
-    /// A block's share of the first sum.
+    /// A block's share of the first sum. As after get_values(), a warp needs a __syncwarp() before
+    /// it goes on together.
     __device__ double
     share_of(const int block) const
     {

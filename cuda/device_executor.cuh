@@ -73,6 +73,7 @@ namespace undine::particles
     ~DeviceExecutor()
     {
       stopwatch.reset();
+      release(entries_outside);
       for (auto &exchange : exchanges)
         exchange.release(*this);
       release(workspace.counter);
@@ -210,8 +211,12 @@ namespace undine::particles
       auto exchange = exchanges[count].workspace(*this, count * n, f.bounds.max_iterations + 16);
       check_device(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, room),
                    "to plan a pass");
+      if (entries_outside == nullptr)
+        entries_outside =
+          allocate<unsigned int>(std::size_t(room_outside) * properties.multiProcessorCount);
       auto  copy        = f;
-      void *arguments[] = {&copy, &exchange, &workspace, &room};
+      int   outside     = room_outside;
+      void *arguments[] = {&copy, &exchange, &workspace, &room, &entries_outside, &outside};
       check_device(cudaLaunchCooperativeKernel(kernel,
                                                dim3(properties.multiProcessorCount),
                                                dim3(kernels::resident_threads),
@@ -331,8 +336,10 @@ namespace undine::particles
     }
 
     static constexpr int most_resident_rows  = 400000;
+    static constexpr int room_outside        = 1 << 16;   ///< entries of a block in global memory
     static constexpr int least_resident_room = 96 * 1024; ///< shared memory of a block
 
+    unsigned int                    *entries_outside = nullptr;
     std::array<Exchange, 4>          exchanges; ///< by numbers in an unknown
     cudaDeviceProp                   properties;
     cudaStream_t                     stream;

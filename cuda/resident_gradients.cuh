@@ -22,10 +22,9 @@ namespace undine::particles
   public:
     using General = ConjugateGradients<float, PackedEntry, Value>;
 
-    static constexpr int count      = Components<Value>::count;
-    static constexpr int most_local = 8; ///< local unknowns of a thread
-    static constexpr int per_local  = 2 * sizeof(Value) + 4;
-    static constexpr int per_own    = 3 * sizeof(Value) + 4;
+    static constexpr int count     = Components<Value>::count;
+    static constexpr int per_local = 3 * sizeof(Value) + 4;
+    static constexpr int per_own   = 2 * sizeof(Value) + 4;
 
     /// What the warps of a block tell each other.
     struct Shared
@@ -49,10 +48,10 @@ namespace undine::particles
       inverse  = reinterpret_cast<float *>(memory);
       u        = reinterpret_cast<Value *>(inverse + rows.n_local);
       t        = u + rows.n_local;
-      p        = t + rows.n_local;
+      w        = t + rows.n_local;
+      p        = w + rows.n_local;
       x        = p + rows.n_own;
-      w        = x + rows.n_own;
-      diagonal = reinterpret_cast<float *>(w + rows.n_own);
+      diagonal = reinterpret_cast<float *>(x + rows.n_own);
     }
 
     __device__ void
@@ -66,16 +65,14 @@ namespace undine::particles
           exchange.begin_round();
           multiply();
           __syncthreads();
-          Value held[most_local];
           if (is_first_warp())
             choose_step(iteration);
           else
-            fetch(held);
+            fetch();
           __syncthreads();
           if (!shared.goes_on)
             break;
-          if (!is_first_warp())
-            update(held);
+          update();
           __syncthreads();
         }
       for (int own = threadIdx.x; own < rows.n_own; own += blockDim.x)
@@ -142,7 +139,7 @@ namespace undine::particles
               const int own = local - rows.first_own;
               x[own]        = v;
               p[own]        = Value();
-              w[own]        = system.right_hand_side[row];
+              w[local]      = system.right_hand_side[row];
               diagonal[own] = d;
             }
         }
@@ -157,25 +154,22 @@ namespace undine::particles
       float sums[2 * count] = {};
       for_each_product([&](const int own, const Value &product) {
         const int local = rows.first_own + own;
-        Value     b     = w[own];
+        Value     b     = w[local];
         for (int k = 0; k < count; ++k)
           sums[0] += Part::of(b, k) * Part::of(b, k) * inverse[local];
         b -= diagonal[own] * x[own] - product;
-        w[own] = b;
+        w[local] = b;
         put(row_of(local), b);
       });
       reduce_warp(sums);
       __syncthreads();
-      Value residual[most_local];
       if (is_first_warp())
         size = exchange_sums()[0];
       else
-        {
-          fetch(residual);
-          for_each_local([&](const int k, const int local) {
-            u[local] = inverse[local] * (is_own(local) ? w[local - rows.first_own] : residual[k]);
-          });
-        }
+        fetch();
+      __syncthreads();
+      for (int local = threadIdx.x; local < rows.n_local; local += blockDim.x)
+        u[local] = inverse[local] * w[local];
       __syncthreads();
     }
 
@@ -195,20 +189,6 @@ namespace undine::particles
         }
     }
 
-    /// f(k, local) for this thread's share of the local unknowns; not for the first warp.
-    template <class Function>
-    __device__ __forceinline__ void
-    for_each_local(const Function &f) const
-    {
-#pragma unroll
-      for (int k = 0; k < most_local; ++k)
-        {
-          const int local = threadIdx.x - 32 + k * (blockDim.x - 32);
-          if (local < rows.n_local)
-            f(k, local);
-        }
-    }
-
     /// w = A u, and its products.
     __device__ void
     multiply()
@@ -219,7 +199,7 @@ namespace undine::particles
         Value     mine  = u[local];
         Value     r     = diagonal[own] * mine;
         Value     Au    = r - product;
-        w[own]          = Au;
+        w[local]        = Au;
         put(row_of(local), Au);
         for (int k = 0; k < count; ++k)
           {
@@ -300,45 +280,63 @@ namespace undine::particles
         inverse_last[k] = now.values[k] != 0 ? 1 / now.values[k] : 0.;
     }
 
-    /// What other blocks hand out for this thread's share of the local unknowns.
-    __device__ __forceinline__ void
-    fetch(Value (&held)[most_local]) const
+    /// The products of other blocks' rows, by all but the first warp; some on the way together.
+    __device__ void
+    fetch() const
     {
-      for_each_local([&](const int k, const int local) {
-        if (!is_own(local))
-          for (int c = 0; c < count; ++c)
-            Part::of(held[k], c) = exchange.get_value(row_of(local) * count + c);
-      });
+      constexpr int at_once = 4;
+      const int     others  = (rows.n_local - rows.n_own) * count;
+      const int     threads = blockDim.x - 32;
+      for (int first = threadIdx.x - 32; first < others; first += at_once * threads)
+        {
+          int    from[at_once];
+          float *to[at_once];
+#pragma unroll
+          for (int k = 0; k < at_once; ++k)
+            {
+              const int place = min(first + k * threads, others - 1);
+              const int other = place / count, c = place % count;
+              const int local = other < rows.first_own ? other : other + rows.n_own;
+              from[k]         = row_of(local) * count + c;
+              to[k]           = &Part::of(w[local], c);
+            }
+          exchange.template get_values<at_once>(to, from);
+        }
+      __syncwarp();
     }
 
-    __device__ __forceinline__ void
-    update(Value (&held)[most_local])
+    __device__ void
+    update()
     {
-      for_each_local([&](const int k, const int local) {
-        const int own = local - rows.first_own;
-        Value     Au, u_l = u[local], t_l = t[local];
-        if (is_own(local))
-          {
-            Value p_l = p[own], x_l = x[own];
-            for (int c = 0; c < count; ++c)
-              {
-                Part::of(p_l, c) = Part::of(u_l, c) + shared.beta[c] * Part::of(p_l, c);
-                Part::of(x_l, c) += shared.alpha[c] * Part::of(p_l, c);
-              }
-            p[own] = p_l;
-            x[own] = x_l;
-            Au     = w[own];
-          }
-        else
-          Au = held[k];
-        for (int c = 0; c < count; ++c)
-          {
-            Part::of(t_l, c) = inverse[local] * Part::of(Au, c) + shared.beta[c] * Part::of(t_l, c);
-            Part::of(u_l, c) -= shared.alpha[c] * Part::of(t_l, c);
-          }
-        t[local] = t_l;
-        u[local] = u_l;
-      });
+      float alpha[count], beta[count];
+      for (int c = 0; c < count; ++c)
+        {
+          alpha[c] = shared.alpha[c];
+          beta[c]  = shared.beta[c];
+        }
+      for (int own = threadIdx.x; own < rows.n_own; own += blockDim.x)
+        {
+          Value p_l = p[own], x_l = x[own], u_l = u[rows.first_own + own];
+          for (int c = 0; c < count; ++c)
+            {
+              Part::of(p_l, c) = Part::of(u_l, c) + beta[c] * Part::of(p_l, c);
+              Part::of(x_l, c) += alpha[c] * Part::of(p_l, c);
+            }
+          p[own] = p_l;
+          x[own] = x_l;
+        }
+      __syncthreads();
+      for (int local = threadIdx.x; local < rows.n_local; local += blockDim.x)
+        {
+          Value w_l = w[local], u_l = u[local], t_l = t[local];
+          for (int c = 0; c < count; ++c)
+            {
+              Part::of(t_l, c) = inverse[local] * Part::of(w_l, c) + beta[c] * Part::of(t_l, c);
+              Part::of(u_l, c) -= alpha[c] * Part::of(t_l, c);
+            }
+          t[local] = t_l;
+          u[local] = u_l;
+        }
     }
 
     const General      &general;
@@ -353,8 +351,8 @@ namespace undine::particles
 
     // In shared memory: of local unknowns; of own ones.
     float *inverse;
-    Value *u, *t;
-    Value *p, *x, *w;
+    Value *u, *t, *w;
+    Value *p, *x;
     float *diagonal;
   };
 
@@ -370,7 +368,9 @@ namespace undine::particles
       solve_resident(const __grid_constant__ ConjugateGradients<float, PackedEntry, Value> general,
                      const BlockExchange::Workspace exchanged,
                      const DeviceTeam::Workspace    team_workspace,
-                     const int                      room)
+                     const int                      room,
+                     unsigned int                  *outside,
+                     const int                      room_outside)
     {
       using Solver = ResidentGradients<Value>;
       extern __shared__ __align__(16) char memory[];
@@ -378,8 +378,8 @@ namespace undine::particles
       if (general.control->done())
         return;
       BlockExchange exchange(exchanged);
-      ResidentSetup setup(general.system.matrix, exchange, memory, room);
-      if (setup.fill(Solver::per_local, Solver::per_own, Solver::most_local * (blockDim.x - 32)))
+      ResidentSetup setup(general.system.matrix, exchange, memory, room, outside, room_outside);
+      if (setup.fill(Solver::per_local, Solver::per_own))
         Solver(general, setup.rows, setup.vectors, exchange, shared)();
       else
         {

@@ -6,8 +6,6 @@
 
 #include <undine/particles/pressure_matrix.h>
 
-#include <cuda_pipeline.h>
-
 namespace undine::particles
 {
   /// The rows of the matrix that a block works on, in its shared memory. Blocks share the rows that
@@ -16,14 +14,19 @@ namespace undine::particles
   /// threads on each.
   struct ResidentRows
   {
-    int           n_own;     ///< rows
-    int           n_local;   ///< columns
-    int           first_own; ///< local number of the first own row
-    int           lanes;     ///< threads a row
-    int          *global;    ///< number in the matrix of a local column
-    int          *begins;    ///< of the warps' entries
-    unsigned int *entries;   ///< local column and root of the coefficient, as in PackedEntry
-    float         scale;     ///< of the coefficients
+    int  n_own;     ///< rows
+    int  n_local;   ///< columns
+    int  first_own; ///< local number of the first own row
+    int  lanes;     ///< threads a row
+    int *global;    ///< number in the matrix of a local column
+    int *begins;    ///< of the warps' entries
+    /// Local column and root of the coefficient, as in PackedEntry; of the slices from `n_inside`
+    /// on outside, in global memory. @{
+    unsigned int *entries;
+    unsigned int *entries_outside;
+    int           n_inside;
+    /// @}
+    float scale; ///< of the coefficients
 
     __device__ static constexpr int
     rows_at_once(const int lanes)
@@ -36,22 +39,51 @@ namespace undine::particles
     __device__ __forceinline__ Value
     times(const int slice, const Value *x) const
     {
-      const int lane = threadIdx.x & 31;
-      Value     sum  = Value();
-      const int end  = begins[slice + 1];
-#pragma unroll 4
-      for (int k = begins[slice] + lane; k < end; k += 32)
-        {
-          const unsigned int bits = entries[k];
-          const float        root = static_cast<float>(bits & PackedEntry::largest);
-          sum += (root * root) * x[bits >> PackedEntry::weight_bits];
-        }
+      Value sum =
+        slice < n_inside ? sum_over<4>(slice, entries, x) : sum_over<8>(slice, entries_outside, x);
       for (int distance = 1; distance < lanes; distance *= 2)
         sum += shuffled(sum, distance);
       return (scale / (float(PackedEntry::largest) * float(PackedEntry::largest))) * sum;
     }
 
+    __device__ __forceinline__ unsigned int *
+    entries_of(const int slice) const
+    {
+      return slice < n_inside ? entries : entries_outside;
+    }
+
   private:
+    /// As many entries at once as a thread has the patience to wait for.
+    template <int at_once, class Value>
+    __device__ __forceinline__ Value
+    sum_over(const int slice, const unsigned int *from, const Value *x) const
+    {
+      Value     sum   = Value();
+      const int end   = begins[slice + 1];
+      int       place = begins[slice] + (threadIdx.x & 31);
+      for (; place + (at_once - 1) * 32 < end; place += at_once * 32)
+        {
+          unsigned int bits[at_once];
+#pragma unroll
+          for (int k = 0; k < at_once; ++k)
+            bits[k] = from[place + k * 32];
+#pragma unroll
+          for (int k = 0; k < at_once; ++k)
+            add(sum, bits[k], x);
+        }
+      for (; place < end; place += 32)
+        add(sum, from[place], x);
+      return sum;
+    }
+
+    template <class Value>
+    __device__ __forceinline__ static void
+    add(Value &sum, const unsigned int bits, const Value *x)
+    {
+      const float root = static_cast<float>(bits & PackedEntry::largest);
+      sum += (root * root) * x[bits >> PackedEntry::weight_bits];
+    }
+
     __device__ static float
     shuffled(const float value, const int distance)
     {
@@ -75,42 +107,45 @@ namespace undine::particles
   public:
     using Matrix = PressureMatrix<float, PackedEntry>;
 
-    /// `room` bytes of shared memory from `memory` on.
+    /// `room` bytes of shared memory from `memory` on, and `room_outside` entries for each block in
+    /// global memory.
     __device__
-    ResidentSetup(const Matrix &matrix, BlockExchange &exchange, char *memory, const int room)
+    ResidentSetup(const Matrix  &matrix,
+                  BlockExchange &exchange,
+                  char          *memory,
+                  const int      room,
+                  unsigned int  *outside,
+                  const int      room_outside)
       : matrix(matrix)
       , exchange(exchange)
       , memory(memory)
       , room(room)
+      , room_outside(room_outside)
       , n_words((matrix.n + 31) / 32)
     {
-      rows.scale = matrix.scale;
-      bitmap     = reinterpret_cast<unsigned int *>(memory + room) - n_words;
-      ranks      = reinterpret_cast<int *>(bitmap) - n_words;
+      rows.scale           = matrix.scale;
+      rows.entries_outside = outside + blockIdx.x * static_cast<std::size_t>(room_outside);
+      bitmap               = reinterpret_cast<unsigned int *>(memory + room) - n_words;
+      ranks                = reinterpret_cast<int *>(bitmap) - n_words;
     }
 
     /// Returns false on all blocks if the rows of one do not fit. `per_local` and `per_own` are the
-    /// bytes of vectors that will be needed besides, and the threads can take care of `most_local`
-    /// columns.
+    /// bytes of vectors that will be needed besides.
     __device__ bool
-    fill(const int per_local, const int per_own, const int most_local)
+    fill(const int per_local, const int per_own)
     {
       count_rows();
-      bool fits = take_rows() && place_entries();
+      bool fits = take_rows();
       if (fits)
         {
-          load_entries();
+          place_entries();
           mark_columns();
           rank_columns();
-          const int end = n_bytes_before_columns() + 4 * rows.n_local;
-          fits          = end <= before_bitmap() && rows.n_local <= most_local &&
-                 end + 16 + rows.n_local * per_local + rows.n_own * per_own <= room;
+          const int of_vectors = 16 + rows.n_local * per_local + rows.n_own * per_own;
+          fits                 = place_columns(of_vectors);
         }
       if (fits)
-        {
-          number_columns();
-          vectors = memory + (n_bytes_before_columns() + 4 * rows.n_local + 15) / 16 * 16;
-        }
+        number_columns();
       return everywhere(fits);
     }
 
@@ -160,6 +195,7 @@ namespace undine::particles
         }
       if (static_cast<int>(threadIdx.x) < blocks)
         before[threadIdx.x + 1] = static_cast<int>(exchange.share_of(threadIdx.x));
+      __syncwarp();
       __syncthreads();
       if (threadIdx.x < 32)
         scan(before, blocks + 1);
@@ -256,7 +292,7 @@ namespace undine::particles
     }
 
     /// Where the entries of the slices begin; all rows of a slice get as much room.
-    __device__ bool
+    __device__ void
     place_entries()
     {
       const int warp = threadIdx.x / 32, warps = blockDim.x / 32;
@@ -268,59 +304,43 @@ namespace undine::particles
           if ((threadIdx.x & 31) == 0)
             rows.begins[slice + 1] = (most + rows.lanes - 1) / rows.lanes * 32;
         }
+      for (int word = threadIdx.x; word < n_words; word += blockDim.x)
+        bitmap[word] = 0;
       __syncthreads();
       if (warp == 0)
         scan(rows.begins, n_slices() + 1);
       __syncthreads();
-      rows.entries = reinterpret_cast<unsigned int *>(rows.begins + n_slices() + 1);
-      return n_bytes_before_columns() <= before_bitmap();
     }
 
-    __device__ int
-    n_bytes_before_columns() const
+    /// f(row, slice, place, entry) for all of them, some at once. Room that is left over in slices
+    /// gets the row itself with the coefficient zero.
+    template <class Function>
+    __device__ __forceinline__ void
+    for_each_entry(const Function &f) const
     {
-      return 4 * (rows.n_own + n_slices() + 1 + rows.begins[n_slices()]);
-    }
-
-    /// Copies the entries as they are. The room that is left over in slices gets the row itself
-    /// with the coefficient zero.
-    __device__ void
-    load_entries()
-    {
-      const int warp = threadIdx.x / 32, lane = threadIdx.x & 31, warps = blockDim.x / 32;
+      constexpr int at_once = 8;
+      const int     warp = threadIdx.x / 32, lane = threadIdx.x & 31, warps = blockDim.x / 32;
       for (int slice = warp; slice < n_slices(); slice += warps)
         {
           const int own   = min(row_of_thread(slice), rows.n_own - 1);
           const int row   = own_rows[own];
           const int count = own == row_of_thread(slice) ? matrix.counts[row] : 0;
+          const int end   = rows.begins[slice + 1];
           int       k     = lane & (rows.lanes - 1);
-          for (int place = rows.begins[slice] + lane; place < rows.begins[slice + 1];
-               place += 32, k += rows.lanes)
-            if (k < count)
-              __pipeline_memcpy_async(
-                rows.entries + place, matrix.entries + list_slot(row, k, matrix.capacity), 4);
-            else
-              rows.entries[place] = 0;
-        }
-      for (int word = threadIdx.x; word < n_words; word += blockDim.x)
-        bitmap[word] = 0;
-      __pipeline_commit();
-      __pipeline_wait_prior(0);
-      __syncthreads();
-    }
-
-    /// f(row, entry) for all of them.
-    template <class Function>
-    __device__ __forceinline__ void
-    for_each_entry(const Function &f) const
-    {
-      const int warp = threadIdx.x / 32, lane = threadIdx.x & 31, warps = blockDim.x / 32;
-      for (int slice = warp; slice < n_slices(); slice += warps)
-        {
-          const int row = own_rows[min(row_of_thread(slice), rows.n_own - 1)];
-#pragma unroll 4
-          for (int place = rows.begins[slice] + lane; place < rows.begins[slice + 1]; place += 32)
-            f(row, rows.entries[place]);
+          for (int place = rows.begins[slice] + lane; place < end;
+               place += at_once * 32, k += at_once * rows.lanes)
+            {
+              PackedEntry entries[at_once];
+#pragma unroll
+              for (int m = 0; m < at_once; ++m)
+                entries[m] = k + m * rows.lanes < count
+                               ? matrix.entries[list_slot(row, k + m * rows.lanes, matrix.capacity)]
+                               : PackedEntry{0};
+#pragma unroll
+              for (int m = 0; m < at_once; ++m)
+                if (place + m * 32 < end)
+                  f(row, slice, place + m * 32, entries[m]);
+            }
         }
     }
 
@@ -328,8 +348,8 @@ namespace undine::particles
     __device__ void
     mark_columns()
     {
-      for_each_entry([&](const int row, const unsigned int &entry) {
-        mark(row + PackedEntry{entry}.difference());
+      for_each_entry([&](const int row, const int, const int, const PackedEntry entry) {
+        mark(row + entry.difference());
       });
       for (int own = threadIdx.x; own < rows.n_own; own += blockDim.x)
         mark(own_rows[own]);
@@ -339,9 +359,7 @@ namespace undine::particles
     __device__ __forceinline__ void
     mark(const int column) const
     {
-      const unsigned int bit = 1u << (column & 31);
-      if ((bitmap[column >> 5] & bit) == 0)
-        atomicOr(bitmap + (column >> 5), bit);
+      atomicOr(bitmap + (column >> 5), 1u << (column & 31));
     }
 
     /// How many columns are before each group of 32.
@@ -383,17 +401,35 @@ namespace undine::particles
       return ranks[column >> 5] + __popc(bitmap[column >> 5] & ((1u << (column & 31)) - 1));
     }
 
-    /// Entries get local columns.
+    /// As many slices inside as there is room for, besides the columns and vectors. Returns whether
+    /// there is enough outside for the others.
+    __device__ bool
+    place_columns(const int of_vectors)
+    {
+      const int slices = n_slices();
+      rows.global      = rows.begins + slices + 1;
+      rows.entries     = reinterpret_cast<unsigned int *>(rows.global + rows.n_local);
+      const int begin  = static_cast<int>(reinterpret_cast<char *>(rows.entries) - memory);
+      const int most   = min(room - of_vectors, before_bitmap()) - begin;
+      rows.n_inside    = 0;
+      while (rows.n_inside < slices && 4 * rows.begins[rows.n_inside + 1] <= most)
+        ++rows.n_inside;
+      const int inside = rows.begins[rows.n_inside];
+      rows.entries_outside -= inside;
+      vectors = memory + (begin + 4 * inside + 15) / 16 * 16;
+      return most >= 0 && rows.begins[slices] - inside <= room_outside;
+    }
+
+    /// Entries with local columns.
     __device__ void
     number_columns()
     {
-      rows.global    = reinterpret_cast<int *>(rows.entries + rows.begins[n_slices()]);
       rows.first_own = rows.n_own > 0 ? local_number(own_rows[0]) : 0;
-      for_each_entry([&](const int row, unsigned int &entry) {
-        const PackedEntry old{entry};
-        entry = (static_cast<unsigned int>(local_number(row + old.difference()))
-                 << PackedEntry::weight_bits) |
-                (old.bits & PackedEntry::largest);
+      for_each_entry([&](const int row, const int slice, const int place, const PackedEntry entry) {
+        rows.entries_of(slice)[place] =
+          (static_cast<unsigned int>(local_number(row + entry.difference()))
+           << PackedEntry::weight_bits) |
+          (entry.bits & PackedEntry::largest);
       });
       for (int word = threadIdx.x; word < n_words; word += blockDim.x)
         {
@@ -408,7 +444,7 @@ namespace undine::particles
     Matrix         matrix;
     BlockExchange &exchange;
     char          *memory;
-    int            room, n_words;
+    int            room, room_outside, n_words;
     int            part;        ///< rows of the matrix that a block counts
     int           *rows_before; ///< that are not empty, by block that counted
     int           *own_rows;

@@ -9,4 +9,11 @@
 #  define UNDINE_HOST_DEVICE inline
 #endif
 
+/// Before a loop of few rounds: writes them out one after the other.
+#ifdef __CUDA_ARCH__
+#  define UNDINE_UNROLL _Pragma("unroll")
+#else
+#  define UNDINE_UNROLL _Pragma("GCC unroll 8")
+#endif
+
 #endif

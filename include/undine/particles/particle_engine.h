@@ -34,10 +34,12 @@ namespace undine::particles
       executor->set_threads(setup.numerics.threads);
       n = static_cast<int>(state.positions.size());
       snapshot.reset();
+      scratch.reset();
       system.reset();
       wide.reset();
       system   = std::make_unique<System<Entry>>(*executor, setup, lattice(), n);
       snapshot = std::make_unique<Snapshot<Executor, dim, Real>>(*executor, n, system->elastic().n);
+      scratch  = std::make_unique<Buffer<Executor, StepControl>>(*executor, 1);
       take_state(system->arrays(), system->elastic(), state);
     }
 
@@ -131,11 +133,11 @@ namespace undine::particles
     StepControl
     begin(AnySystem &present, const double length)
     {
-      Buffer<Executor, StepControl> control(*executor, 1);
-      executor->for_each(n, MeasureSpeed<dim, Real>{present.arrays().view(), control.data()});
+      scratch->clear();
+      executor->for_each(n, MeasureSpeed<dim, Real>{present.arrays().view(), scratch->data()});
       StepControl fresh;
       fresh.frame         = length;
-      fresh.largest_speed = control.values()[0].largest_speed;
+      fresh.largest_speed = scratch->values()[0].largest_speed;
       present.write_control(fresh);
       present.prepare();
       return fresh;
@@ -184,6 +186,7 @@ namespace undine::particles
     std::unique_ptr<System<Entry>>                 system;
     std::unique_ptr<System<Wide>>                  wide; ///< instead of `system`
     std::unique_ptr<Snapshot<Executor, dim, Real>> snapshot;
+    std::unique_ptr<Buffer<Executor, StepControl>> scratch;
   };
 
 
