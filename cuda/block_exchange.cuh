@@ -47,7 +47,8 @@ namespace undine::particles
       put(values() + k, flagged(value, round));
     }
 
-    /// Wait for values number from[k]. Afterwards a warp needs a __syncwarp() to go on together.
+    /// Wait for values number from[k]; nullptr: nobody takes it. Afterwards a warp needs a
+    /// __syncwarp() to go on together.
     template <int count>
     __device__ __forceinline__ void
     get_values(float *const (&to)[count], const int (&from)[count]) const
@@ -67,7 +68,8 @@ namespace undine::particles
       while (!complete);
 #pragma unroll
       for (int k = 0; k < count; ++k)
-        *to[k] = number_in(word[k]);
+        if (to[k] != nullptr)
+          *to[k] = number_in(word[k]);
     }
 
     /// Hand out this block's share of sums; by the threads of one warp.

@@ -49,6 +49,9 @@ namespace undine::particles
   public:
     using Team = DeviceTeam;
 
+    /// Particles.
+    static constexpr int multigrid_pays_from = 300000;
+
     /// Throws InputError if there is no device.
     DeviceExecutor()
     {

@@ -56,6 +56,25 @@ namespace undine::particles
   };
 
 
+  /// Works on a part of a pass while the others wait.
+  struct LoneBlock
+  {
+    template <class Function>
+    __device__ __forceinline__ void
+    for_each_spread(const int n, const Function &f) const
+    {
+      for (int i = static_cast<int>(threadIdx.x); i < n; i += static_cast<int>(blockDim.x))
+        f(i);
+    }
+
+    __device__ void
+    sync() const
+    {
+      __syncthreads();
+    }
+  };
+
+
   /// The threads of one launch, see HostTeam. Every block has a contiguous share of the indices.
   class DeviceTeam
   {
@@ -90,6 +109,25 @@ namespace undine::particles
       for (int i = begin + static_cast<int>(threadIdx.x); i < end;
            i += static_cast<int>(blockDim.x))
         f(i);
+    }
+
+    template <class Function>
+    __device__ __forceinline__ void
+    for_each_spread(const int n, const Function &f) const
+    {
+      for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < n;
+           i += static_cast<int>(gridDim.x * blockDim.x))
+        f(i);
+    }
+
+    template <class Function>
+    __device__ __forceinline__ void
+    alone(const Function &f) const
+    {
+      if (blockIdx.x != 0)
+        return;
+      LoneBlock block;
+      f(block);
     }
 
     /// The order of additions depends on the size of the launch only.

@@ -298,7 +298,7 @@ namespace undine::particles
               const int other = place / count, c = place % count;
               const int local = other < rows.first_own ? other : other + rows.n_own;
               from[k]         = row_of(local) * count + c;
-              to[k]           = &Part::of(w[local], c);
+              to[k]           = first + k * threads < others ? &Part::of(w[local], c) : nullptr;
             }
           exchange.template get_values<at_once>(to, from);
         }

@@ -12,8 +12,10 @@
 /// Before a loop of few rounds: writes them out one after the other.
 #ifdef __CUDA_ARCH__
 #  define UNDINE_UNROLL _Pragma("unroll")
+#  define UNDINE_UNROLL_ALL _Pragma("unroll")
 #else
 #  define UNDINE_UNROLL _Pragma("GCC unroll 8")
+#  define UNDINE_UNROLL_ALL _Pragma("GCC unroll 27")
 #endif
 
 #endif

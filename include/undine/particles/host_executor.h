@@ -15,6 +15,24 @@
 
 namespace undine::particles
 {
+  /// Works on a part of a pass while the others wait.
+  struct LoneWorker
+  {
+    template <class Function>
+    void
+    for_each_spread(const int n, const Function &f) const
+    {
+      for (int i = 0; i < n; ++i)
+        f(i);
+    }
+
+    void
+    sync() const
+    {
+    }
+  };
+
+
   /// The threads that work on one pass together. A pass that needs several rounds with all of its
   /// workers waiting for each other in between is written as a function of a team; DeviceTeam in
   /// cuda/ has the same interface for the threads of one launch.
@@ -46,6 +64,25 @@ namespace undine::particles
       const int end   = std::min(n, (rank + 1) * share);
       for (int i = rank * share; i < end; ++i)
         f(i);
+    }
+
+    /// The same with neighbouring i for different workers, where few of them are any work.
+    template <class Function>
+    void
+    for_each_spread(const int n, const Function &f) const
+    {
+      for_each(n, f);
+    }
+
+    /// f(team) by a few workers that need not wait long for each other; the others go on.
+    template <class Function>
+    void
+    alone(const Function &f) const
+    {
+      if (rank != 0)
+        return;
+      LoneWorker worker;
+      f(worker);
     }
 
     /// The sums that f(i, sums) adds to over all i of 0 ... n-1, for all workers, who wait for each
@@ -99,6 +136,9 @@ namespace undine::particles
   {
   public:
     using Team = HostTeam;
+
+    /// Particles.
+    static constexpr int multigrid_pays_from = 100000;
 
     /// `threads` = 0: all cores.
     explicit HostExecutor(const int threads)

@@ -8,9 +8,14 @@
 #include <undine/particles/elastic_step.h>
 #include <undine/particles/explicit_forces.h>
 #include <undine/particles/make_constants.h>
+#include <undine/particles/multigrid_arrays.h>
+#include <undine/particles/multigrid_gradients.h>
 #include <undine/particles/neighbour_list.h>
 #include <undine/particles/particle_arrays.h>
+#include <undine/particles/phases.h>
 #include <undine/particles/pressure_forces.h>
+
+#include <memory>
 
 namespace undine::particles
 {
@@ -49,6 +54,12 @@ namespace undine::particles
       , numbers(executor, 5 * n)
       , vectors(executor, 5 * n)
     {
+      using Preconditioner = Numerics::Preconditioner;
+      if (numerics.preconditioner == Preconditioner::multigrid ||
+          (numerics.preconditioner == Preconditioner::automatic &&
+           n > Executor::multigrid_pays_from))
+        multigrid =
+          std::make_unique<MultigridArrays<Executor, dim, Real>>(executor, constants.grid, n);
     }
 
     /// The particles as they are; fill, then call prepare().
@@ -165,8 +176,15 @@ namespace undine::particles
                                                  pressures.data(),
                                                  control.data()});
       executor.enter(Phase::pressure);
-      solve(
-        diagonal, right_hand_side, pressures, numbers, numerics.tolerance, &StepControl::pressure);
+      if (multigrid != nullptr)
+        solve_by_multigrid();
+      else
+        solve(diagonal,
+              right_hand_side,
+              pressures,
+              numbers,
+              numerics.tolerance,
+              &StepControl::pressure);
       executor.for_each(n,
                         TakePressures<dim, Real>{
                           is_unknown.data(), pressures.data(), now.motions.data(), control.data()});
@@ -237,6 +255,26 @@ namespace undine::particles
                      record});
     }
 
+    void
+    solve_by_multigrid()
+    {
+      executor.enter(Phase::multigrid);
+      multigrid->build(
+        now.places.data(), is_unknown.data(), matrix(), diagonal.data(), cells.cell_starts());
+      executor.enter(Phase::pressure);
+      Real *const w = numbers.data();
+      executor.run(n,
+                   MultigridGradients<dim, Real, Entry>{
+                     {{matrix(), diagonal.data(), right_hand_side.data(), pressures.data()},
+                      {w, w + n, w + 2 * n, w + 3 * n, w + 4 * n},
+                      {numerics.tolerance, numerics.max_iterations},
+                      control.data(),
+                      &StepControl::pressure},
+                     multigrid->view(),
+                     multigrid->cells_of_particles(),
+                     cells.cell_starts()});
+    }
+
     Neighbourhood<dim, Real>
     neighbourhood() const
     {
@@ -286,6 +324,8 @@ namespace undine::particles
     Buffer<Executor, Vector<dim, Real>> gaps;
     Buffer<Executor, Real>              numbers; ///< of the pressure solver
     Buffer<Executor, Vector<dim, Real>> vectors; ///< of the faces' solver
+
+    std::unique_ptr<MultigridArrays<Executor, dim, Real>> multigrid; ///< nullptr: not used
   };
 } // namespace undine::particles
 

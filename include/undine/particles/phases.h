@@ -13,6 +13,7 @@ namespace undine::particles
     neighbours, ///< finding them
     assembly,   ///< neighbourhoods, matrix, right-hand sides
     faces,      ///< solving for the potentials of the virtual faces
+    multigrid,  ///< building its levels
     pressure,   ///< solving for the pressures
     correction, ///< by the pressures
     other,
@@ -28,6 +29,7 @@ namespace undine::particles
                                      "neighbours",
                                      "assembly",
                                      "virtual faces",
+                                     "multigrid levels",
                                      "pressure equation",
                                      "pressure correction",
                                      "other"};
