@@ -34,7 +34,7 @@ namespace undine::particles
     {
     }
 
-    __device__ void
+    __device__ __forceinline__ void
     begin_round()
     {
       ++round;
@@ -89,15 +89,35 @@ namespace undine::particles
     __device__ __forceinline__ Sums<count>
                                get_sums() const
     {
-      constexpr int most_passes = most_blocks / 32;
-      Sums<count>   total;
-#pragma unroll
-      for (int pass = 0; pass < most_passes; ++pass)
+      constexpr int passes = most_blocks / 32, words = (count + 1) / 2 * 2;
+      const int     lane = threadIdx.x & 31;
+      FlaggedWord   word[passes][words];
+      bool          complete;
+      do // all at once: each look takes long
         {
-          const int block = pass * 32 + (threadIdx.x & 31);
-          if (block < static_cast<int>(gridDim.x))
-            add_share(total, block);
+          complete = true;
+#pragma unroll
+          for (int pass = 0; pass < passes; ++pass)
+#pragma unroll
+            for (int k = 0; k < words; k += 2)
+              look_at_two(word[pass][k],
+                          word[pass][k + 1],
+                          of_block(min(pass * 32 + lane, static_cast<int>(gridDim.x) - 1)) + k);
+#pragma unroll
+          for (int pass = 0; pass < passes; ++pass)
+#pragma unroll
+            for (int k = 0; k < count; ++k)
+              complete = complete && is_long_of(word[pass][k], round);
         }
+      while (!complete);
+      __syncwarp();
+      Sums<count> total;
+#pragma unroll
+      for (int pass = 0; pass < passes; ++pass)
+        if (pass * 32 + lane < static_cast<int>(gridDim.x))
+#pragma unroll
+          for (int k = 0; k < count; ++k)
+            total.values[k] += long_number_in(word[pass][k]);
 #pragma unroll
       for (int distance = 16; distance > 0; distance /= 2)
 #pragma unroll
@@ -108,38 +128,17 @@ namespace undine::particles
 
     /// A block's share of the first sum. As after get_values(), a warp needs a __syncwarp() before
     /// it goes on together.
-    __device__ double
+    __device__ __forceinline__ double
     share_of(const int block) const
     {
-      Sums<1> share;
-      add_share(share, block);
-      return share[0];
+      FlaggedWord word;
+      do
+        word = look_at(of_block(block));
+      while (!is_long_of(word, round));
+      return long_number_in(word);
     }
 
   private:
-    template <int count>
-    __device__ __forceinline__ void
-    add_share(Sums<count> &total, const int block) const
-    {
-      constexpr int words = (count + 1) / 2 * 2;
-      FlaggedWord   word[words];
-      bool          complete;
-      do
-        {
-          complete = true;
-#pragma unroll
-          for (int k = 0; k < words; k += 2)
-            look_at_two(word[k], word[k + 1], of_block(block) + k);
-#pragma unroll
-          for (int k = 0; k < count; ++k)
-            complete = complete && is_long_of(word[k], round);
-        }
-      while (!complete);
-#pragma unroll
-      for (int k = 0; k < count; ++k)
-        total.values[k] += long_number_in(word[k]);
-    }
-
     __device__ __forceinline__ FlaggedWord *
     values() const
     {

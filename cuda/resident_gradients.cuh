@@ -35,11 +35,11 @@ namespace undine::particles
     };
 
     __device__
-    ResidentGradients(const General      &general,
-                      const ResidentRows &rows,
-                      char               *memory,
-                      BlockExchange      &exchange,
-                      Shared             &shared)
+    ResidentGradients(const General       &general,
+                      const ResidentRows  &rows,
+                      char                *memory,
+                      const BlockExchange &exchange,
+                      Shared              &shared)
       : general(general)
       , rows(rows)
       , exchange(exchange)
@@ -54,7 +54,7 @@ namespace undine::particles
       diagonal = reinterpret_cast<float *>(x + rows.n_own);
     }
 
-    __device__ void
+    __device__ __forceinline__ void
     operator()()
     {
       solve_empty_rows();
@@ -73,6 +73,8 @@ namespace undine::particles
           if (!shared.goes_on)
             break;
           update();
+          if (is_first_warp())
+            prepare_step();
           __syncthreads();
         }
       for (int own = threadIdx.x; own < rows.n_own; own += blockDim.x)
@@ -83,13 +85,13 @@ namespace undine::particles
     using Products = Sums<2 * count>;
     using Part     = Components<Value>;
 
-    __device__ static bool
+    __device__ __forceinline__ static bool
     is_first_warp()
     {
       return threadIdx.x < 32;
     }
 
-    __device__ static double
+    __device__ __forceinline__ static double
     total(const Products &products)
     {
       double sum = 0;
@@ -99,7 +101,7 @@ namespace undine::particles
     }
 
     /// Rows without neighbours belong to no block.
-    __device__ void
+    __device__ __forceinline__ void
     solve_empty_rows() const
     {
       const auto &system = general.system;
@@ -109,20 +111,20 @@ namespace undine::particles
           system.solution[row] = (1 / system.diagonal[row]) * system.right_hand_side[row];
     }
 
-    __device__ int
+    __device__ __forceinline__ int
     row_of(const int local) const
     {
       return rows.global[local];
     }
 
-    __device__ bool
+    __device__ __forceinline__ bool
     is_own(const int local) const
     {
       return local >= rows.first_own && local < rows.first_own + rows.n_own;
     }
 
     /// The guess as u.
-    __device__ void
+    __device__ __forceinline__ void
     load()
     {
       const auto &system = general.system;
@@ -147,7 +149,7 @@ namespace undine::particles
     }
 
     /// u of the residual of the guess, and the size of the right-hand side.
-    __device__ void
+    __device__ __forceinline__ void
     begin()
     {
       exchange.begin_round();
@@ -190,7 +192,7 @@ namespace undine::particles
     }
 
     /// w = A u, and its products.
-    __device__ void
+    __device__ __forceinline__ void
     multiply()
     {
       float sums[2 * count] = {};
@@ -250,7 +252,7 @@ namespace undine::particles
     }
 
     /// With 1 / alpha the curvature is (w, u) - beta^2 last curvature.
-    __device__ void
+    __device__ __forceinline__ void
     choose_step(const int iteration)
     {
       const Products now     = exchange_sums();
@@ -274,14 +276,20 @@ namespace undine::particles
         shared.goes_on = goes_on;
       if (!goes_on && blockIdx.x == 0 && threadIdx.x == 0)
         general.report(iteration, size > 0 ? sqrt(square / size) : 0.);
-      __threadfence_block();
+      last = now;
+    }
+
+    /// For the next iteration, while there is time; by the first warp.
+    __device__ __forceinline__ void
+    prepare_step()
+    {
 #pragma unroll
       for (int k = 0; k < count; ++k)
-        inverse_last[k] = now.values[k] != 0 ? 1 / now.values[k] : 0.;
+        inverse_last[k] = last.values[k] != 0 ? 1 / last.values[k] : 0.;
     }
 
     /// The products of other blocks' rows, by all but the first warp; some on the way together.
-    __device__ void
+    __device__ __forceinline__ void
     fetch() const
     {
       constexpr int at_once = 4;
@@ -305,7 +313,7 @@ namespace undine::particles
       __syncwarp();
     }
 
-    __device__ void
+    __device__ __forceinline__ void
     update()
     {
       float alpha[count], beta[count];
@@ -339,15 +347,16 @@ namespace undine::particles
         }
     }
 
-    const General      &general;
-    const ResidentRows &rows;
-    BlockExchange      &exchange;
-    Shared             &shared;
+    const General &general;
+    ResidentRows   rows;
+    BlockExchange  exchange;
+    Shared        &shared;
 
     // Of the first warp.
-    double size                = 0;  ///< of the right-hand side
-    double inverse_last[count] = {}; ///< 1 / (r, u) of the last iteration
-    double curvature[count]    = {};
+    double   size = 0;                 ///< of the right-hand side
+    Products last;                     ///< sums of the last iteration
+    double   inverse_last[count] = {}; ///< of the first of them
+    double   curvature[count]    = {};
 
     // In shared memory: of local unknowns; of own ones.
     float *inverse;

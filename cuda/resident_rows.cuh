@@ -131,7 +131,7 @@ namespace undine::particles
 
     /// Returns false on all blocks if the rows of one do not fit. `per_local` and `per_own` are the
     /// bytes of vectors that will be needed besides.
-    __device__ bool
+    __device__ __forceinline__ bool
     fill(const int per_local, const int per_own)
     {
       count_rows();
@@ -153,13 +153,13 @@ namespace undine::particles
     char        *vectors = nullptr; ///< free room after the rows
 
   private:
-    __device__ int
+    __device__ __forceinline__ int
     before_bitmap() const
     {
       return room - 8 * n_words;
     }
 
-    __device__ bool
+    __device__ __forceinline__ bool
     everywhere(const bool fits)
     {
       __shared__ bool result;
@@ -178,7 +178,7 @@ namespace undine::particles
     }
 
     /// How many rows before each block's part of the matrix are not empty.
-    __device__ void
+    __device__ __forceinline__ void
     count_rows()
     {
       __shared__ int before[BlockExchange::most_blocks + 1];
@@ -203,7 +203,7 @@ namespace undine::particles
     }
 
     /// Each block gets as many rows that are not empty as the others.
-    __device__ bool
+    __device__ __forceinline__ bool
     take_rows()
     {
       const int  blocks = gridDim.x;
@@ -230,7 +230,7 @@ namespace undine::particles
 
     /// Go through the rows of a part in order. Those that are not empty get numbers from `before`
     /// on; numbers begin ... end-1 become own rows. Returns how many are not empty.
-    __device__ int
+    __device__ __forceinline__ int
     scan_part(const int block, int before, const int begin, const int end)
     {
       __shared__ int of_warps[32];
@@ -258,7 +258,7 @@ namespace undine::particles
     }
 
     /// Replaces numbers by the sums up to them, but the first by zero; by one warp.
-    __device__ static void
+    __device__ __forceinline__ static void
     scan(int *numbers, const int n)
     {
       const int lane   = threadIdx.x & 31;
@@ -278,21 +278,21 @@ namespace undine::particles
         }
     }
 
-    __device__ int
+    __device__ __forceinline__ int
     n_slices() const
     {
       const int at_once = ResidentRows::rows_at_once(rows.lanes);
       return (rows.n_own + at_once - 1) / at_once;
     }
 
-    __device__ int
+    __device__ __forceinline__ int
     row_of_thread(const int slice) const
     {
       return slice * ResidentRows::rows_at_once(rows.lanes) + (threadIdx.x & 31) / rows.lanes;
     }
 
     /// Where the entries of the slices begin; all rows of a slice get as much room.
-    __device__ void
+    __device__ __forceinline__ void
     place_entries()
     {
       const int warp = threadIdx.x / 32, warps = blockDim.x / 32;
@@ -345,7 +345,7 @@ namespace undine::particles
     }
 
     /// Which columns occur.
-    __device__ void
+    __device__ __forceinline__ void
     mark_columns()
     {
       for_each_entry([&](const int row, const int, const int, const PackedEntry entry) {
@@ -363,7 +363,7 @@ namespace undine::particles
     }
 
     /// How many columns are before each group of 32.
-    __device__ void
+    __device__ __forceinline__ void
     rank_columns()
     {
       __shared__ int of_warps[33];
@@ -403,7 +403,7 @@ namespace undine::particles
 
     /// As many slices inside as there is room for, besides the columns and vectors. Returns whether
     /// there is enough outside for the others.
-    __device__ bool
+    __device__ __forceinline__ bool
     place_columns(const int of_vectors)
     {
       const int slices = n_slices();
@@ -421,7 +421,7 @@ namespace undine::particles
     }
 
     /// Entries with local columns.
-    __device__ void
+    __device__ __forceinline__ void
     number_columns()
     {
       rows.first_own = rows.n_own > 0 ? local_number(own_rows[0]) : 0;
