@@ -109,15 +109,16 @@ namespace undine::particles
       check() const
       {
         for (std::size_t i = 0; i < cells.size(); ++i)
-          grid.for_each_run_around(state.positions[i], [&](const int first, const int end) {
-            auto other =
-              std::lower_bound(order.begin(), order.end(), first, [&](const int j, const int cell) {
-                return cells[j] < cell;
-              });
-            for (; other != order.end() && cells[*other] < end; ++other)
-              if (static_cast<std::size_t>(*other) > i)
-                check(i, *other);
-          });
+          grid.for_each_run_around(
+            state.positions[i], [&](const int first, const int end, const auto &) {
+              auto other = std::lower_bound(
+                order.begin(), order.end(), first, [&](const int j, const int cell) {
+                  return cells[j] < cell;
+                });
+              for (; other != order.end() && cells[*other] < end; ++other)
+                if (static_cast<std::size_t>(*other) > i)
+                  check(i, *other);
+            });
       }
 
     private:

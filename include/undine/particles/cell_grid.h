@@ -96,49 +96,68 @@ namespace undine::particles
       return index(coordinates);
     }
 
-    /// Call f(begin, end) for runs of consecutive cells which together are the cell of x and all
-    /// around it, each once, in a fixed order.
+    /// Call f(begin, end, y) for runs of consecutive cells which together are the cell of x and all
+    /// around it, each once, in a fixed order. Seen from there, across periodic boundaries, x is at
+    /// y.
     template <class Function>
     UNDINE_HOST_DEVICE void
     for_each_run_around(const Vector<dim, Real> &x, const Function &f) const
     {
-      int rows = 1, here = 0, length = 0;
+      int  rows = 1, here = 0, length = 0;
+      bool wraps  = false;
+      Real period = 0;
       for (int axis = 0; axis < dim; ++axis)
         if (axis == along)
           {
             here   = coordinate(x, axis);
             length = cells[axis];
+            wraps  = periodic[axis];
+            period = size[axis];
           }
         else
           rows *= 3;
       for (int row = 0; row < rows; ++row)
         {
-          int  first  = 0;
-          bool exists = true, wraps = false;
-          int  rest = row;
+          int  first = 0, rest = row;
+          bool exists = true;
+          auto y      = x;
           for (int axis = 0; axis < dim; ++axis)
             {
               if (axis == along)
-                {
-                  wraps = periodic[axis];
-                  continue;
-                }
+                continue;
               int cell = coordinate(x, axis) + rest % 3 - 1;
               rest /= 3;
-              if (periodic[axis])
-                cell =
-                  cell < 0 ? cell + cells[axis] : (cell >= cells[axis] ? cell - cells[axis] : cell);
+              if (periodic[axis] && cell < 0)
+                {
+                  cell += cells[axis];
+                  y[axis] += size[axis];
+                }
+              else if (periodic[axis] && cell >= cells[axis])
+                {
+                  cell -= cells[axis];
+                  y[axis] -= size[axis];
+                }
               exists = exists && cell >= 0 && cell < cells[axis];
               first += cell * strides[axis];
             }
           if (!exists)
             continue;
-          f(first + maximum(here - 1, 0), first + minimum(here + 1, length - 1) + 1);
+          f(first + maximum(here - 1, 0), first + minimum(here + 1, length - 1) + 1, y);
           if (wraps && here == 0)
-            f(first + length - 1, first + length);
+            f(first + length - 1, first + length, shifted_along(y, period));
           if (wraps && here == length - 1)
-            f(first, first + 1);
+            f(first, first + 1, shifted_along(y, -period));
         }
+    }
+
+  private:
+    UNDINE_HOST_DEVICE Vector<dim, Real>
+                       shifted_along(Vector<dim, Real> x, const Real distance) const
+    {
+      for (int axis = 0; axis < dim; ++axis)
+        if (axis == along)
+          x[axis] += distance;
+      return x;
     }
   };
 

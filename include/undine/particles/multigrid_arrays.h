@@ -38,8 +38,8 @@ namespace undine::particles
           grid = coarsened(grid);
         }
       cycle.n_large = minimum(cycle.n_large, cycle.n_levels - 1);
-      cycle.damping = Real(0.7);
-      cycle.factor  = Real(1.5);
+      cycle.damping = Real(0.95);
+      cycle.factor  = Real(1.6);
     }
 
     /// After the matrix has been assembled. `starts` are those of the cells.

@@ -9,7 +9,7 @@
 
 namespace undine::particles
 {
-  /// Find the particles within the reach of one.
+  /// Find the particles within the reach of one. Dummies need none.
   template <int dim, class Real>
   struct FindNeighbours
   {
@@ -25,31 +25,40 @@ namespace undine::particles
     UNDINE_HOST_DEVICE void
     operator()(const int i) const
     {
-      const Vector<dim, Real> x     = places[i].x;
-      int                     count = 0;
-      grid.for_each_run_around(x, [&](const int first_cell, const int end_cell) {
-        constexpr int together = 4; // their places are on the way at the same time
-        const int     end      = starts[end_cell];
-        for (int first = starts[first_cell]; first < end; first += together)
-          {
-            Vector<dim, Real> other[together];
-            UNDINE_UNROLL
-            for (int k = 0; k < together; ++k)
-              other[k] = places[minimum(first + k, end - 1)].x;
-            UNDINE_UNROLL
-            for (int k = 0; k < together; ++k)
-              if (norm_square(grid.difference(other[k], x)) < reach * reach && first + k < end &&
-                  first + k != i)
-                {
-                  if (count < capacity)
-                    indices[list_slot(i, count, capacity)] = first + k;
-                  ++count;
-                }
-          }
-      });
+      const Place<dim, Real> place = places[i];
+      int                    count = 0;
+      if (place.tag.kind() != Kind::dummy)
+        grid.for_each_run_around(
+          place.x, [&](const int first_cell, const int end_cell, const Vector<dim, Real> &x) {
+            collect(i, x, starts[first_cell], starts[end_cell], count);
+          });
       if (count > capacity)
         atomic_or(&control->failures, static_cast<unsigned int>(Failure::neighbours));
       counts[i] = minimum(count, capacity);
+    }
+
+  private:
+    /// Among the particles begin ... end-1, seen from x.
+    UNDINE_HOST_DEVICE void
+    collect(
+      const int i, const Vector<dim, Real> &x, const int begin, const int end, int &count) const
+    {
+      constexpr int together = 4; // their places are on the way at the same time
+      for (int first = begin; first < end; first += together)
+        {
+          Vector<dim, Real> other[together];
+          UNDINE_UNROLL
+          for (int k = 0; k < together; ++k)
+            other[k] = places[minimum(first + k, end - 1)].x;
+          UNDINE_UNROLL
+          for (int k = 0; k < together; ++k)
+            if (norm_square(other[k] - x) < reach * reach && first + k < end && first + k != i)
+              {
+                if (count < capacity)
+                  indices[list_slot(i, count, capacity)] = first + k;
+                ++count;
+              }
+        }
     }
   };
 

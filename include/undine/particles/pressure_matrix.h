@@ -101,11 +101,23 @@ namespace undine::particles
     UNDINE_HOST_DEVICE Value
     row_times(const int row, const Value *x) const
     {
-      const int count = counts[row];
-      Value     sum   = Value();
-      for (int k = 0; k < count; ++k)
+      constexpr int together = 8; // on the way at the same time
+      const int     count    = counts[row];
+      Value         sum      = Value();
+      int           first    = 0;
+      for (; first + together <= count; first += together)
         {
-          const Entry entry = entries[list_slot(row, k, capacity)];
+          Entry entry[together];
+          UNDINE_UNROLL
+          for (int k = 0; k < together; ++k)
+            entry[k] = entries[list_slot(row, first + k, capacity)];
+          UNDINE_UNROLL
+          for (int k = 0; k < together; ++k)
+            sum += entry[k].coefficient(scale) * x[row + entry[k].difference()];
+        }
+      for (; first < count; ++first)
+        {
+          const Entry entry = entries[list_slot(row, first, capacity)];
           sum += entry.coefficient(scale) * x[row + entry.difference()];
         }
       return sum;
