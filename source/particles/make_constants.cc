@@ -24,12 +24,9 @@ namespace undine::particles
         setup.fluid_bulk_modulus > 0 ? static_cast<Real>(1 / setup.fluid_bulk_modulus) : Real(0);
       for (std::size_t b = 0; b < setup.bodies.size(); ++b)
         {
-          const auto  &body = setup.bodies[b];
-          const double nu   = body.poissons_ratio;
-          const double bulk = // lambda + 2 mu / dim
-            body.youngs_modulus * (nu / ((1 + nu) * (1 - 2 * nu)) + 1 / (dim * (1 + nu)));
+          const auto &body                   = setup.bodies[b];
           constants.densities[b + 1]         = static_cast<Real>(body.density);
-          constants.compressibilities[b + 1] = static_cast<Real>(1 / bulk);
+          constants.compressibilities[b + 1] = Real(0);
         }
     }
   } // namespace
@@ -69,6 +66,14 @@ namespace undine::particles
     constants.shifting              = static_cast<Real>(numerics.shifting);
     constants.shifting_limit        = static_cast<Real>(numerics.shifting_limit * l0);
     return constants;
+  }
+
+
+  double
+  bulk_modulus(const BodySetup &body, const int dim)
+  {
+    const double nu = body.poissons_ratio;
+    return body.youngs_modulus * (nu / ((1 + nu) * (1 - 2 * nu)) + 1 / (dim * (1 + nu)));
   }
 
 

@@ -117,9 +117,11 @@ namespace undine::particles
   };
 
 
-  /// The right-hand side of the pressure equation, rho_f lambda n0 / (2 dim) s with
+  /// The right-hand side of the pressure equation, rho_f lambda n0 / (2 dim) s; runs after the
+  /// potentials are known. In the fluid
   ///     s = -div v* / dt + gamma (n* - n0) / (n0 dt^2)  [1/s^2]
-  /// or one of the other sources. Runs after the potentials are known.
+  /// or one of the other sources; none in bodies: pressure takes them along as if they were fluid
+  /// of another density, and elasticity keeps their volume.
   template <int dim, class Real>
   struct MeasureSource
   {
@@ -141,27 +143,34 @@ namespace undine::particles
         return;
       guess[i]      = motions[i].pressure;
       const Tag tag = neighbours.places[i].tag;
-      if (tag.kind() == Kind::solid)
-        return; // elasticity keeps the bodies' volumes
-      const Real dt    = static_cast<Real>(control->dt);
-      const Real n0    = constants.number_density;
-      const Real error = (neighbourhood.densities[i] - n0) / (n0 * dt * dt);
-      Real       s     = share(dt) * error;
-      if (constants.source == Source::divergence)
-        s -= divergence(i, tag) / dt;
-      right_hand_side[i] = pressure_scale(constants) * s;
+      if (tag.kind() != Kind::solid)
+        right_hand_side[i] =
+          pressure_scale(constants) * fluid_source(i, tag, static_cast<Real>(control->dt));
     }
 
   private:
+    UNDINE_HOST_DEVICE Real
+    fluid_source(const int i, const Tag tag, const Real dt) const
+    {
+      const Real n0    = constants.number_density;
+      const Real error = (neighbourhood.densities[i] - n0) / (n0 * dt * dt);
+      switch (constants.source)
+        {
+          case Source::density:
+            return error;
+          case Source::relaxed:
+            return constants.density_share * error;
+          default:
+            return share(dt) * error - divergence(i, tag) / dt;
+        }
+    }
+
     /// gamma
     UNDINE_HOST_DEVICE Real
     share(const Real dt) const
     {
-      if (constants.source == Source::density)
-        return 1;
-      if (constants.source == Source::divergence && constants.relaxation_time > 0)
-        return minimum(Real(1), dt / constants.relaxation_time);
-      return constants.density_share;
+      return constants.relaxation_time > 0 ? minimum(Real(1), dt / constants.relaxation_time)
+                                           : constants.density_share;
     }
 
     /// By the same faces as the forces of pressures, where faces close.

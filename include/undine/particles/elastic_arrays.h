@@ -23,6 +23,7 @@ namespace undine::particles
       , counts(executor, lattice.counts)
       , indices(executor, lattice.indices)
       , inverse_moments(executor, lattice.inverse_moments)
+      , inverse_means(executor, lattice.inverse_means)
       , x(executor, lattice.positions)
       , v(executor, n)
       , x_next(executor, n)
@@ -33,6 +34,9 @@ namespace undine::particles
       , deformations(executor, n)
       , rotations(executor, std::vector<Matrix<dim, Real>>(n, Matrix<dim, Real>::diagonal(1)))
       , stresses(executor, n)
+      , surfaces(executor, n)
+      , surface_moments(executor, n)
+      , carried(executor, lattice.materials.size())
       , where(executor, n)
     {
     }
@@ -49,11 +53,15 @@ namespace undine::particles
               counts.data(),
               indices.data(),
               inverse_moments.data(),
+              inverse_means.data(),
               x.data(),
               v.data(),
               deformations.data(),
               rotations.data(),
-              stresses.data()};
+              stresses.data(),
+              carried.data(),
+              surfaces.data(),
+              surface_moments.data()};
     }
 
     int                                     n, capacity;
@@ -66,7 +74,10 @@ namespace undine::particles
     Buffer<Executor, Matrix<dim, Real>>     inverse_moments;
     Buffer<Executor, Vector<dim, Real>>     x, v, x_next, v_next, x_start, v_start;
     Buffer<Executor, Vector<dim, Real>>     accelerations; ///< by pressures [m/s^2]
-    Buffer<Executor, Matrix<dim, Real>>     deformations, rotations, stresses;
+    Buffer<Executor, Vector<dim, Real>>     surfaces;
+    Buffer<Executor, Real>                  carried;
+    Buffer<Executor, Matrix<dim, Real>>     deformations, rotations, stresses, surface_moments;
+    Buffer<Executor, Real>                  inverse_means;
     Buffer<Executor, int>                   where; ///< sorted place of each identity
   };
 } // namespace undine::particles

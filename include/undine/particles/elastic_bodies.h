@@ -34,11 +34,19 @@ namespace undine::particles
     const int                   *counts;
     const int                   *indices;
     const Matrix<dim, Real>     *inverse_moments; ///< A^{-1}, A = sum w X_ij X_ij^T [1/m^2]
+    const Real                  *inverse_means;   ///< 1 / a, a = tr(A) / dim [1/m^2]
 
     Vector<dim, Real> *x, *v;
     Matrix<dim, Real> *deformations; ///< F
     Matrix<dim, Real> *rotations;    ///< R, last valid one
     Matrix<dim, Real> *stresses;     ///< P A^{-1} [Pa/m^2], P of first Piola and Kirchhoff
+
+    const Real *carried; ///< of the bodies: mean pressure around them that elasticity carries [Pa]
+
+    /// Of the particle's surface that does not touch its own body: its faces over rho V [m^2/kg in
+    /// space], and their first moments about the centre over V [1].
+    const Vector<dim, Real> *surfaces;
+    const Matrix<dim, Real> *surface_moments;
   };
 
   /// Corotated linear elasticity of particles, derived from one energy, so that momentum and
@@ -52,8 +60,8 @@ namespace undine::particles
   struct Elasticity
   {
     CellGrid<dim, Real>      grid;
-    Real                     reach;
-    Real                     volume; ///< of a particle [m^dim]
+    Real                     spacing; ///< [m]
+    Real                     reach;   ///< [m]
     ElasticBodies<dim, Real> bodies;
 
     /// f(j, X_ij, x_ij, w_ij) for all neighbours in the reference.
@@ -79,17 +87,6 @@ namespace undine::particles
       return bodies.materials[bodies.bodies[i]];
     }
 
-    /// 1 / a_i [1/m^2]
-    UNDINE_HOST_DEVICE Real
-    inverse_mean_moment(const int i) const
-    {
-      // A is nearly a multiple of the identity, of which this is the harmonic mean.
-      Real trace = 0;
-      for (int axis = 0; axis < dim; ++axis)
-        trace += bodies.inverse_moments[i][axis][axis];
-      return trace / dim;
-    }
-
     /// F, R and P A^{-1} at the present places.
     UNDINE_HOST_DEVICE void
     deform(const int i) const
@@ -100,52 +97,43 @@ namespace undine::particles
         [&](const int, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
           moment.add_outer_product(w, x_ij, X_ij);
         });
-      const auto        F          = moment * bodies.inverse_moments[i];
-      const auto        R          = rotation_of(F, bodies.rotations[i]);
-      const auto       &properties = material(i);
-      const Real        strain     = double_contraction(R, F) - dim; // tr(R^T F - I)
-      Matrix<dim, Real> stress;
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-          stress[a][b] =
-            2 * properties.mu * (F[a][b] - R[a][b]) + properties.lambda * strain * R[a][b];
+      const auto F           = moment * bodies.inverse_moments[i];
       bodies.deformations[i] = F;
-      bodies.rotations[i]    = R;
-      bodies.stresses[i]     = stress * bodies.inverse_moments[i];
+      bodies.rotations[i]    = rotation_of(F, bodies.rotations[i]);
+      bodies.stresses[i]     = stress(i) * bodies.inverse_moments[i];
     }
 
-    /// The acceleration by elasticity and damping [m/s^2], after deform() of all.
+    /// The acceleration by elasticity, damping and the carried pressure [m/s^2], after deform() of
+    /// all.
     UNDINE_HOST_DEVICE Vector<dim, Real>
                        acceleration(const int i) const
     {
       const auto &properties = material(i);
       const auto  F_i = bodies.deformations[i], stress_i = bodies.stresses[i];
       const Real  stiffness = 2 * properties.hourglass * properties.mu;
-      const Real  a_i       = inverse_mean_moment(i);
+      const Real  a_i       = bodies.inverse_means[i];
       // Speed of pressure waves over the spacing: the scale of damping.
-      const Real rate =
-        sqrt((properties.lambda + 2 * properties.mu) * properties.density) * properties.damping / 8;
+      const Real rate = sqrt((properties.lambda + 2 * properties.mu) * properties.density) *
+                        properties.damping / (8 * spacing);
       auto force = Vector<dim, Real>::zero();
       for_each_bond(
         i,
         [&](
           const int j, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
-          const Real a_j = inverse_mean_moment(j);
           force += w * (stress_i * X_ij + bodies.stresses[j] * X_ij);
-          force += (w * stiffness) *
-                   (a_i * (x_ij - F_i * X_ij) + a_j * (x_ij - bodies.deformations[j] * X_ij));
+          force +=
+            (w * stiffness) * (a_i * (x_ij - F_i * X_ij) +
+                               bodies.inverse_means[j] * (x_ij - bodies.deformations[j] * X_ij));
           if (rate > 0)
-            {
-              const Real square = norm_square(x_ij);
-              force += (w * rate * ((bodies.v[j] - bodies.v[i]) * x_ij) / (square * reach)) * x_ij;
-            }
+            force += (w * rate * ((bodies.v[j] - bodies.v[i]) * x_ij) / norm_square(x_ij)) * x_ij;
         });
-      return (1 / properties.density) * force;
+      return (1 / properties.density) * force -
+             bodies.carried[bodies.bodies[i]] * bodies.surfaces[i];
     }
 
-    /// V times the density of elastic energy [J, in the plane per m], after deform() of all.
+    /// Density of elastic energy at a particle [J/m^dim], after deform() of all.
     UNDINE_HOST_DEVICE Real
-    energy(const int i) const
+    energy_density(const int i) const
     {
       const auto &properties = material(i);
       const auto  F = bodies.deformations[i], R = bodies.rotations[i];
@@ -160,8 +148,27 @@ namespace undine::particles
         [&](const int, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
           bonds += w * norm_square(x_ij - F * X_ij);
         });
-      return volume * (properties.mu * square + properties.lambda / 2 * strain * strain +
-                       properties.hourglass * properties.mu * inverse_mean_moment(i) * bonds);
+      return properties.mu * square + properties.lambda / 2 * strain * strain +
+             properties.hourglass * properties.mu * bodies.inverse_means[i] * bonds;
+    }
+
+  private:
+    /// Of first Piola and Kirchhoff, P = 2 mu (F - R) + lambda tr(R^T F - I) R [Pa], and what the
+    /// carried pressure adds because it acts on the surface and not at centres of particles.
+    UNDINE_HOST_DEVICE Matrix<dim, Real>
+                       stress(const int i) const
+    {
+      const auto       &properties = material(i);
+      const auto        F = bodies.deformations[i], R = bodies.rotations[i];
+      const auto        moment = bodies.surface_moments[i] * R;
+      const Real        p      = bodies.carried[bodies.bodies[i]];
+      const Real        strain = double_contraction(R, F) - dim; // tr(R^T F - I)
+      Matrix<dim, Real> result;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          result[a][b] = 2 * properties.mu * (F[a][b] - R[a][b]) +
+                         properties.lambda * strain * R[a][b] + p * moment[a][b];
+      return result;
     }
   };
 } // namespace undine::particles

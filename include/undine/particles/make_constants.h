@@ -14,6 +14,10 @@ namespace undine::particles
   Constants<dim, Real>
   make_constants(const Setup<dim> &setup);
 
+  /// lambda + 2 mu / dim [Pa]; in 2D of plane strain.
+  double
+  bulk_modulus(const BodySetup &body, int dim);
+
   /// Bounds on the sub-steps of a frame [s]. `elastic` is the explicit step of the bodies.
   template <int dim>
   StepBounds

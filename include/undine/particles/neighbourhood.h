@@ -28,7 +28,7 @@ namespace undine::particles
     Constants<dim, Real>     constants;
     Neighbours<dim, Real>    neighbours;
     const int               *identities;
-    const unsigned char     *inside_body; ///< by identity: never at a free surface
+    const unsigned char     *inside_body; ///< by identity: has its own body all around
     Neighbourhood<dim, Real> result;
     const StepControl       *control;
 
@@ -55,7 +55,7 @@ namespace undine::particles
       result.densities[i]  = n;
       result.is_covered[i] = covered ? 1 : 0;
       result.is_unknown[i] = has_pressure(tag, n, covered) ? 1 : 0;
-      if (covered)
+      if (covered || tag.kind() == Kind::solid)
         result.corrections[i] = correction(moment);
     }
 

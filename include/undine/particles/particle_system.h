@@ -26,6 +26,7 @@ namespace undine::particles
       : executor(executor)
       , numerics(setup.numerics)
       , constants(make_constants<dim, Real>(setup))
+      , has_fluid(setup.has_fluid)
       , bounds(make_bounds(setup, lattice.explicit_step(setup.numerics.elastic_share)))
       , n(n)
       , now(executor, n)
@@ -72,6 +73,12 @@ namespace undine::particles
       list.find(now.view(), cells.cell_starts(), control.data());
     }
 
+    const Constants<dim, Real> &
+    consts() const
+    {
+      return constants;
+    }
+
     StepControl
     read_control() const
     {
@@ -92,6 +99,8 @@ namespace undine::particles
       move_without_pressure();
       sort();
       list.find(now.view(), cells.cell_starts(), control.data());
+      if (!has_fluid)
+        return;
       solve_pressure();
       move_by_pressure();
     }
@@ -111,7 +120,7 @@ namespace undine::particles
                                                   control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
-      move_bodies(nullptr);
+      move_bodies(has_fluid ? ElasticRun::attempt : ElasticRun::alone);
     }
 
     void
@@ -178,35 +187,42 @@ namespace undine::particles
                                                   next.places.data(),
                                                   next.motions.data(),
                                                   bodies.accelerations.data(),
+                                                  bodies.surfaces.data(),
+                                                  bodies.surface_moments.data(),
                                                   control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
-      move_bodies(bodies.accelerations.data());
+      move_bodies(ElasticRun::final);
     }
 
     void
-    move_bodies(const Vector<dim, Real> *pressure_accelerations)
+    move_bodies(const ElasticRun purpose)
     {
       if (bodies.n == 0)
         return;
       const auto view = bodies.view();
-      executor.run(bodies.n,
-                   ElasticStep<dim, Real>{{constants.grid, constants.reach, constants.volume, view},
-                                          {constants.spacing,
-                                           view,
-                                           list.view(now.view()),
-                                           now.identities.data(),
-                                           bodies.where.data(),
-                                           constants.volume},
-                                          constants.gravity,
-                                          bodies.x_start.data(),
-                                          bodies.v_start.data(),
-                                          bodies.x_next.data(),
-                                          bodies.v_next.data(),
-                                          pressure_accelerations,
-                                          now.places.data(),
-                                          now.motions.data(),
-                                          control.data()});
+      executor.run(
+        bodies.n,
+        ElasticStep<dim, Real>{purpose,
+                               {constants.grid, constants.spacing, constants.reach, view},
+                               {constants.spacing,
+                                view,
+                                list.view(now.view()),
+                                now.identities.data(),
+                                bodies.where.data(),
+                                constants.volume},
+                               constants.gravity,
+                               bodies.x_start.data(),
+                               bodies.v_start.data(),
+                               bodies.x_next.data(),
+                               bodies.v_next.data(),
+                               bodies.accelerations.data(),
+                               static_cast<int>(bodies.carried.size()),
+                               bodies.carried.data(),
+                               static_cast<Real>(numerics.carry_share),
+                               now.places.data(),
+                               now.motions.data(),
+                               control.data()});
     }
 
     template <class Value>
@@ -259,6 +275,7 @@ namespace undine::particles
     Executor            &executor;
     Numerics             numerics;
     Constants<dim, Real> constants;
+    bool                 has_fluid;
     StepBounds           bounds;
     int                  n;
 

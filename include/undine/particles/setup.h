@@ -16,7 +16,9 @@ namespace undine::particles
     double largest_sub_step = 0;   ///< [s]; 0: a frame
     double speed_share      = 0.2; ///< of the spacing that a particle may cross in a sub-step [1]
     double wave_share       = 0.3; ///< of l0 / sqrt(g H) [1]
-    double elastic_share    = 0.6; ///< of l0 / c_p that an explicit step of a body may take [1]
+    double carry_share =
+      0.02; ///< of a body's pressure that elasticity takes over in a sub-step [1]
+    double elastic_share = 0.6; ///< of l0 / c_p that an explicit step of a body may take [1]
 
     Source source        = Source::divergence;
     double density_share = 0.02; ///< gamma [1]
@@ -71,6 +73,7 @@ namespace undine::particles
     bool                periodic[dim] = {};
     Vector<dim, double> gravity       = Vector<dim, double>::zero(); ///< [m/s^2]
 
+    bool   has_fluid          = true; ///< else bodies move by elasticity alone
     double fluid_density      = 1000; ///< [kg/m^3]
     double fluid_viscosity    = 0;    ///< kinematic [m^2/s]
     double fluid_bulk_modulus = 0;    ///< [Pa]; 0: incompressible
