@@ -23,6 +23,7 @@ namespace undine::particles
               static_cast<Real>(body.density),
               static_cast<Real>(body.hourglass),
               static_cast<Real>(body.damping),
+              static_cast<Real>(body.bulk_damping),
               static_cast<Real>(contact * std::pow(spacing, dim - 2))};
     }
 

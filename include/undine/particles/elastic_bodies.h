@@ -16,7 +16,8 @@ namespace undine::particles
     Real density;    ///< [kg/m^3]
     Real hourglass;  ///< alpha: stiffness against motions that deformation gradients do not see [1]
     Real damping;    ///< zeta: share of critical damping of neighbours' relative motion [1]
-    Real contact;    ///< stiffness of contact with walls and other bodies [N/m, in the plane per m]
+    Real bulk_damping; ///< bulk viscosity over rho c_p l0, which damps sound [1]
+    Real contact; ///< stiffness of contact with walls and other bodies [N/m, in the plane per m]
   };
 
   /// The particles of all elastic bodies, by identity. The reference configuration and its
@@ -91,16 +92,18 @@ namespace undine::particles
     UNDINE_HOST_DEVICE void
     deform(const int i) const
     {
-      auto moment = Matrix<dim, Real>::diagonal(0);
+      auto moment = Matrix<dim, Real>::diagonal(0), rate = moment;
       for_each_bond(
         i,
-        [&](const int, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
+        [&](
+          const int j, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
           moment.add_outer_product(w, x_ij, X_ij);
+          rate.add_outer_product(w, bodies.v[j] - bodies.v[i], X_ij);
         });
       const auto F           = moment * bodies.inverse_moments[i];
       bodies.deformations[i] = F;
       bodies.rotations[i]    = rotation_of(F, bodies.rotations[i]);
-      bodies.stresses[i]     = stress(i) * bodies.inverse_moments[i];
+      bodies.stresses[i] = stress(i, rate * bodies.inverse_moments[i]) * bodies.inverse_moments[i];
     }
 
     /// The acceleration by elasticity, damping and the carried pressure [m/s^2], after deform() of
@@ -112,10 +115,8 @@ namespace undine::particles
       const auto  F_i = bodies.deformations[i], stress_i = bodies.stresses[i];
       const Real  stiffness = 2 * properties.hourglass * properties.mu;
       const Real  a_i       = bodies.inverse_means[i];
-      // Speed of pressure waves over the spacing: the scale of damping.
-      const Real rate = sqrt((properties.lambda + 2 * properties.mu) * properties.density) *
-                        properties.damping / (8 * spacing);
-      auto force = Vector<dim, Real>::zero();
+      const Real  rate      = sound_impedance(i) * properties.damping / (8 * spacing);
+      auto        force     = Vector<dim, Real>::zero();
       for_each_bond(
         i,
         [&](
@@ -153,21 +154,31 @@ namespace undine::particles
     }
 
   private:
-    /// Of first Piola and Kirchhoff, P = 2 mu (F - R) + lambda tr(R^T F - I) R [Pa], and what the
-    /// carried pressure adds because it acts on the surface and not at centres of particles.
-    UNDINE_HOST_DEVICE Matrix<dim, Real>
-                       stress(const int i) const
+    /// rho c_p, the scale of damping [kg/m^2 s].
+    UNDINE_HOST_DEVICE Real
+    sound_impedance(const int i) const
     {
-      const auto       &properties = material(i);
-      const auto        F = bodies.deformations[i], R = bodies.rotations[i];
-      const auto        moment = bodies.surface_moments[i] * R;
-      const Real        p      = bodies.carried[bodies.bodies[i]];
-      const Real        strain = double_contraction(R, F) - dim; // tr(R^T F - I)
+      return sqrt((material(i).lambda + 2 * material(i).mu) * material(i).density);
+    }
+
+    /// Of first Piola and Kirchhoff, P = 2 mu (F - R) + lambda tr(R^T F - I) R [Pa], with bulk
+    /// viscosity and what the carried pressure adds because it acts on the surface and not at
+    /// centres of particles.
+    UNDINE_HOST_DEVICE Matrix<dim, Real>
+                       stress(const int i, const Matrix<dim, Real> &F_rate) const
+    {
+      const auto &properties = material(i);
+      const auto  F = bodies.deformations[i], R = bodies.rotations[i];
+      const auto  surface        = bodies.surface_moments[i] * R;
+      const Real  carried        = bodies.carried[bodies.bodies[i]];
+      const Real  bulk_viscosity = properties.bulk_damping * sound_impedance(i) * spacing;
+      const Real  pull = properties.lambda * (double_contraction(R, F) - dim) + // tr(R^T F - I)
+                        bulk_viscosity * double_contraction(R, F_rate);
       Matrix<dim, Real> result;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
-          result[a][b] = 2 * properties.mu * (F[a][b] - R[a][b]) +
-                         properties.lambda * strain * R[a][b] + p * moment[a][b];
+          result[a][b] =
+            2 * properties.mu * (F[a][b] - R[a][b]) + pull * R[a][b] + carried * surface[a][b];
       return result;
     }
   };
