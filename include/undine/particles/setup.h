@@ -34,7 +34,7 @@ namespace undine::particles
 
     double collision_distance = 0.8;  ///< [spacings]
     double restitution        = 0.2;  ///< [1]
-    double shifting           = 0.1;  ///< [1]
+    double shifting           = 0.3;  ///< [1]
     double shifting_limit     = 0.05; ///< [spacings per sub-step]
 
     double tolerance       = 1e-4; ///< of the pressure solver, relative
