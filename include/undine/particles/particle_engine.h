@@ -37,7 +37,8 @@ namespace undine::particles
       system.reset();
       wide.reset();
       system   = std::make_unique<System<Entry>>(*executor, setup, lattice(), n);
-      snapshot = std::make_unique<Snapshot<Executor, dim, Real>>(*executor, n, system->elastic().n);
+      snapshot = std::make_unique<Snapshot<Executor, dim, Real>>(
+        *executor, n, system->elastic().n, static_cast<int>(setup.bodies.size()));
       take_state(system->arrays(), system->elastic(), state);
     }
 
@@ -61,7 +62,7 @@ namespace undine::particles
     void
     fetch(ParticleState<dim> &state) const override
     {
-      with_system([&](auto &present) { give_state(state, present.arrays()); });
+      with_system([&](auto &present) { give_state(state, present.arrays(), present.elastic()); });
     }
 
     Balance<dim>
