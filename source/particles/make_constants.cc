@@ -15,13 +15,15 @@ namespace undine::particles
     void
     set_materials(Constants<dim, Real> &constants, const Setup<dim> &setup)
     {
-      const std::size_t most = Constants<dim, Real>::max_materials - 1;
+      const std::size_t most = inflow_material - 1;
       if (setup.bodies.size() > most)
         throw InputError("the scene has " + std::to_string(setup.bodies.size()) +
                          " elastic bodies; at most " + std::to_string(most) + " are possible.");
       constants.densities[0] = static_cast<Real>(setup.fluid_density);
       constants.compressibilities[0] =
         setup.fluid_bulk_modulus > 0 ? static_cast<Real>(1 / setup.fluid_bulk_modulus) : Real(0);
+      constants.densities[inflow_material]         = constants.densities[0];
+      constants.compressibilities[inflow_material] = constants.compressibilities[0];
       for (std::size_t b = 0; b < setup.bodies.size(); ++b)
         {
           const auto &body                   = setup.bodies[b];
@@ -69,6 +71,25 @@ namespace undine::particles
   }
 
 
+  template <int dim, class Real>
+  OpenBoundaries<dim, Real>
+  make_open_boundaries(const Setup<dim> &setup)
+  {
+    OpenBoundaries<dim, Real> open{};
+    if (setup.open_sides.size() > OpenBoundaries<dim, Real>::most)
+      throw InputError("the scene has " + std::to_string(setup.open_sides.size()) +
+                       " inflows and outflows; at most " +
+                       std::to_string(OpenBoundaries<dim, Real>::most) + " are possible.");
+    for (const auto &side : setup.open_sides)
+      open.boundaries[open.n++] = {side.axis,
+                                   static_cast<Real>(side.plane),
+                                   static_cast<Real>(side.inward),
+                                   static_cast<Real>(side.depth),
+                                   side.is_inflow};
+    return open;
+  }
+
+
   double
   bulk_modulus(const BodySetup &body, const int dim)
   {
@@ -98,6 +119,14 @@ namespace undine::particles
   }
 
 
+  template OpenBoundaries<2, float>
+  make_open_boundaries(const Setup<2> &);
+  template OpenBoundaries<2, double>
+  make_open_boundaries(const Setup<2> &);
+  template OpenBoundaries<3, float>
+  make_open_boundaries(const Setup<3> &);
+  template OpenBoundaries<3, double>
+  make_open_boundaries(const Setup<3> &);
   template Constants<2, float>
   make_constants(const Setup<2> &);
   template Constants<2, double>

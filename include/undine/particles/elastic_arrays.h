@@ -12,6 +12,9 @@ namespace undine::particles
   template <class Executor, int dim, class Real>
   struct ElasticArrays
   {
+    using Vectors  = Buffer<Executor, Vector<dim, Real>>;
+    using Matrices = Buffer<Executor, Matrix<dim, Real>>;
+
     ElasticArrays(const Executor &executor, const ReferenceLattice<dim, Real> &lattice)
       : n(static_cast<int>(lattice.positions.size()))
       , capacity(lattice.capacity)
@@ -26,17 +29,17 @@ namespace undine::particles
       , inverse_means(executor, lattice.inverse_means)
       , x(executor, lattice.positions)
       , v(executor, n)
+      , rotations(executor, std::vector<Matrix<dim, Real>>(n, Matrix<dim, Real>::diagonal(1)))
+      , carried(executor, lattice.materials.size())
+      , surfaces(executor, n)
+      , surface_moments(executor, n)
+      , deformations(executor, n)
+      , stresses(executor, n)
       , x_next(executor, n)
       , v_next(executor, n)
       , x_start(executor, n)
       , v_start(executor, n)
       , accelerations(executor, n)
-      , deformations(executor, n)
-      , rotations(executor, std::vector<Matrix<dim, Real>>(n, Matrix<dim, Real>::diagonal(1)))
-      , stresses(executor, n)
-      , surfaces(executor, n)
-      , surface_moments(executor, n)
-      , carried(executor, lattice.materials.size())
       , where(executor, n)
     {
     }
@@ -64,21 +67,33 @@ namespace undine::particles
               surface_moments.data()};
     }
 
-    int                                     n, capacity;
-    Buffer<Executor, Vector<dim, Real>>     reference;
+    int n, capacity;
+
+    /// Constant. @{
+    Vectors                                 reference;
     Buffer<Executor, int>                   bodies;
     Buffer<Executor, ElasticMaterial<Real>> materials;
     Buffer<Executor, unsigned char>         held;
     Buffer<Executor, unsigned char>         inside; ///< surrounded by their own body
     Buffer<Executor, int>                   counts, indices;
-    Buffer<Executor, Matrix<dim, Real>>     inverse_moments;
-    Buffer<Executor, Vector<dim, Real>>     x, v, x_next, v_next, x_start, v_start;
-    Buffer<Executor, Vector<dim, Real>>     accelerations; ///< by pressures [m/s^2]
-    Buffer<Executor, Vector<dim, Real>>     surfaces;
-    Buffer<Executor, Real>                  carried;
-    Buffer<Executor, Matrix<dim, Real>>     deformations, rotations, stresses, surface_moments;
+    Matrices                                inverse_moments;
     Buffer<Executor, Real>                  inverse_means;
-    Buffer<Executor, int>                   where; ///< sorted place of each identity
+    /// @}
+
+    /// The state. @{
+    Vectors                x, v;
+    Matrices               rotations;
+    Buffer<Executor, Real> carried;
+    Vectors                surfaces;
+    Matrices               surface_moments;
+    /// @}
+
+    /// Of a sub-step. @{
+    Matrices              deformations, stresses;
+    Vectors               x_next, v_next, x_start, v_start;
+    Vectors               accelerations; ///< by pressures [m/s^2]
+    Buffer<Executor, int> where;         ///< sorted place of each identity
+    /// @}
   };
 } // namespace undine::particles
 

@@ -132,6 +132,8 @@ namespace undine::particles
       const auto x = now.bodies().x[i], v = now.bodies().v[i];
       const int  slot = contact.where[i];
       places[slot].x  = elasticity.grid.wrapped(x);
+      if (!elasticity.grid.contains(places[slot].x))
+        atomic_or(&control->failures, static_cast<unsigned int>(Failure::outside));
       if (purpose == ElasticRun::attempt)
         {
           // The mean velocity: what matters to the fluid is how far the surface comes, not in which

@@ -25,6 +25,9 @@ namespace undine::particles
     UNDINE_HOST_DEVICE void
     operator()(const int i) const
     {
+      counts[i] = 0;
+      if (places[i].tag.is_parked())
+        return;
       const Vector<dim, Real> x     = places[i].x;
       int                     count = 0;
       grid.for_each_run_around(x, [&](const int first_cell, const int end_cell) {

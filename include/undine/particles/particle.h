@@ -17,6 +17,11 @@ namespace undine::particles
     dummy = 3  ///< deeper layers, which only fill the neighbourhood of wall and fluid
   };
 
+  /// Materials beyond those of bodies. @{
+  constexpr int inflow_material = 14; ///< of the layers behind inflows
+  constexpr int parked_material = 15; ///< of what waits outside of space to flow in
+  /// @}
+
   /// Kind and material of a particle in one number.
   struct Tag
   {
@@ -26,6 +31,19 @@ namespace undine::particles
     of(const Kind kind, const int material)
     {
       return {static_cast<std::int32_t>(kind) + 4 * material};
+    }
+
+    /// Of a particle that waits outside of space to flow in.
+    UNDINE_HOST_DEVICE static Tag
+    parked()
+    {
+      return of(Kind::dummy, parked_material);
+    }
+
+    UNDINE_HOST_DEVICE bool
+    is_parked() const
+    {
+      return code == parked().code;
     }
 
     UNDINE_HOST_DEVICE Kind

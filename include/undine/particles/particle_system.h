@@ -9,6 +9,7 @@
 #include <undine/particles/explicit_forces.h>
 #include <undine/particles/make_constants.h>
 #include <undine/particles/neighbour_list.h>
+#include <undine/particles/open_boundaries.h>
 #include <undine/particles/particle_arrays.h>
 #include <undine/particles/pressure_forces.h>
 
@@ -47,6 +48,9 @@ namespace undine::particles
       , pressures(executor, n)
       , faces_diagonal(executor, n)
       , gaps(executor, n)
+      , open(make_open_boundaries<dim, Real>(setup))
+      , crossed(executor, open.n > 0 ? n : 0)
+      , crossed_before(executor, open.n > 0 ? n : 0)
       , numbers(executor, 5 * n)
       , vectors(executor, 5 * n)
     {
@@ -79,6 +83,15 @@ namespace undine::particles
       return constants;
     }
 
+    /// Particles that wait to flow in; knows what the last sort left.
+    int
+    count_parked() const
+    {
+      int first;
+      executor.download(&first, cells.first_parked(), 1);
+      return n - first;
+    }
+
     StepControl
     read_control() const
     {
@@ -97,6 +110,8 @@ namespace undine::particles
     {
       executor.for_each(1, ChooseStep{control.data(), bounds});
       move_without_pressure();
+      if (open.n > 0)
+        cross_boundaries();
       sort();
       list.find(now.view(), cells.cell_starts(), control.data());
       if (!has_fluid)
@@ -121,6 +136,28 @@ namespace undine::particles
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
       move_bodies(has_fluid ? ElasticRun::attempt : ElasticRun::alone);
+    }
+
+    void
+    cross_boundaries()
+    {
+      executor.for_each(n,
+                        CrossBoundaries<dim, Real>{open,
+                                                   constants.spacing,
+                                                   now.places.data(),
+                                                   now.motions.data(),
+                                                   crossed.data(),
+                                                   control.data()});
+      executor.exclusive_scan(n, crossed.data(), crossed_before.data());
+      executor.for_each(n,
+                        RefillInflows<dim, Real>{open,
+                                                 n,
+                                                 now.places.data(),
+                                                 now.motions.data(),
+                                                 crossed.data(),
+                                                 crossed_before.data(),
+                                                 cells.first_parked(),
+                                                 control.data()});
     }
 
     void
@@ -292,6 +329,8 @@ namespace undine::particles
     Buffer<Executor, Entry>                      entries;
     Buffer<Executor, Real>              diagonal, right_hand_side, pressures, faces_diagonal;
     Buffer<Executor, Vector<dim, Real>> gaps;
+    OpenBoundaries<dim, Real>           open;
+    Buffer<Executor, int>               crossed, crossed_before;
     Buffer<Executor, Real>              numbers; ///< of the pressure solver
     Buffer<Executor, Vector<dim, Real>> vectors; ///< of the faces' solver
   };

@@ -68,6 +68,8 @@ namespace undine::particles
               if (neighbourhood.is_covered[i])
                 place.x += shift(sum.crowd);
               place.x = constants.grid.wrapped(place.x);
+              if (!constants.grid.contains(place.x))
+                atomic_or(&control->failures, static_cast<unsigned int>(Failure::outside));
             }
         }
       new_places[i]  = place;

@@ -64,6 +64,18 @@ namespace undine::particles
     double contact_modulus = 0;    ///< [Pa]; 0: Young's modulus
   };
 
+  /// A side of the box, or a part of space behind a plane, where fluid enters or leaves; see
+  /// OpenBoundary.
+  struct OpenSide
+  {
+    int    axis   = 0;
+    double plane  = 0; ///< [m]
+    double inward = 1; ///< +1 or -1: direction into the domain along the axis
+    bool   is_inflow =
+      false;          ///< with layers of wall and dummy particles of `inflow_material` behind it
+    double depth = 0; ///< of these layers, a whole number of spacings [m]
+  };
+
   /// What a run of particles is made of; constant. Identities 0 ... reference.size() - 1 are the
   /// particles of elastic bodies, whose vectors below are by identity.
   template <int dim>
@@ -79,6 +91,8 @@ namespace undine::particles
     double fluid_viscosity    = 0;    ///< kinematic [m^2/s]
     double fluid_bulk_modulus = 0;    ///< [Pa]; 0: incompressible
     double depth              = 0;    ///< of the fluid along gravity, for the waves' speed [m]
+
+    std::vector<OpenSide> open_sides;
 
     std::vector<BodySetup>           bodies;
     std::vector<Vector<dim, double>> reference; ///< X [m]

@@ -6,6 +6,7 @@
 #include <undine/particles/particle_arrays.h>
 #include <undine/particles/particle_state.h>
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -54,18 +55,19 @@ namespace undine::particles
   }
 
 
-  /// Fill arrays where an executor works with a state.
+  /// Fill arrays where an executor works with a state; places beyond those of the state are parked.
   template <class Executor, int dim, class Real>
   void
   take_state(ParticleArrays<Executor, dim, Real> &arrays,
              ElasticArrays<Executor, dim, Real>  &bodies,
              const ParticleState<dim>            &state)
   {
-    const std::size_t              n = state.positions.size();
-    std::vector<Place<dim, Real>>  places(n);
-    std::vector<Motion<dim, Real>> motions(n);
+    const std::size_t              n_state = state.positions.size(), n = arrays.places.size();
+    std::vector<Place<dim, Real>>  places(n, {Vector<dim, Real>::zero(), Tag::parked()});
+    std::vector<Motion<dim, Real>> motions(n, {Vector<dim, Real>::zero(), Real(0)});
     std::vector<Vector<dim, Real>> x(bodies.n), v(bodies.n);
-    for (std::size_t i = 0; i < n; ++i)
+    std::vector<int>               identities = state.identities;
+    for (std::size_t i = 0; i < n_state; ++i)
       {
         places[i]  = {converted<dim, Real>(state.positions[i]), state.tags[i]};
         motions[i] = {converted<dim, Real>(state.velocities[i]),
@@ -76,9 +78,12 @@ namespace undine::particles
             v[state.identities[i]] = motions[i].v;
           }
       }
+    int next = n_state == 0 ? 0 : *std::max_element(identities.begin(), identities.end()) + 1;
+    while (identities.size() < n)
+      identities.push_back(next++);
     arrays.places.set(places);
     arrays.motions.set(motions);
-    arrays.identities.set(state.identities);
+    arrays.identities.set(identities);
     bodies.x.set(x);
     bodies.v.set(v);
     bodies.deformations.set(
@@ -91,7 +96,9 @@ namespace undine::particles
       unflatten<Real>(values, state.guesses, position);
       buffer.set(values);
     };
-    take(arrays.potentials);
+    std::vector<Vector<dim, Real>> potentials(n_state);
+    unflatten<Real>(potentials, state.guesses, position);
+    arrays.potentials.set(potentials);
     for_each_memory(bodies, take);
   }
 
@@ -103,10 +110,15 @@ namespace undine::particles
              const ParticleArrays<Executor, dim, Real> &arrays,
              ElasticArrays<Executor, dim, Real>        &bodies)
   {
-    const auto        places  = arrays.places.values();
-    const auto        motions = arrays.motions.values();
-    const std::size_t n       = places.size();
-    state.identities          = arrays.identities.values();
+    const auto places = arrays.places.values();
+    // Parked particles are the last ones.
+    const std::size_t n = std::find_if(places.begin(),
+                                       places.end(),
+                                       [](const auto &place) { return place.tag.is_parked(); }) -
+                          places.begin();
+    const auto motions = arrays.motions.values();
+    state.identities   = arrays.identities.values();
+    state.identities.resize(n);
     state.positions.resize(n);
     state.velocities.resize(n);
     state.pressures.resize(n);
@@ -119,6 +131,7 @@ namespace undine::particles
         state.tags[i]       = places[i].tag;
       }
     state.guesses = flattened<Real>(arrays.potentials.values());
+    state.guesses.resize(n * dim);
     for_each_memory(bodies, [&](auto &buffer) {
       const auto more = flattened<Real>(buffer.values());
       state.guesses.insert(state.guesses.end(), more.begin(), more.end());

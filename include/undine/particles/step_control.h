@@ -25,7 +25,8 @@ namespace undine::particles
     not_a_number   = 1, ///< a speed is
     neighbours     = 2, ///< a particle has more neighbours than the list can hold
     outside        = 4, ///< a particle left the box
-    matrix_indices = 8  ///< neighbours are too far apart in memory for packed matrix entries
+    matrix_indices = 8, ///< neighbours are too far apart in memory for packed matrix entries
+    no_reserve     = 16 ///< more particles flow in than wait to
   };
 
   /// Bounds on sub-steps [s], constant.
