@@ -50,8 +50,12 @@ namespace undine::particles
     constants.number_density = static_cast<Real>(lattice.number_density);
     constants.spread         = static_cast<Real>(lattice.spread * l0 * l0);
     for (int axis = 0; axis < dim; ++axis)
-      constants.gravity[axis] = static_cast<Real>(setup.gravity[axis]);
-    constants.viscosity = static_cast<Real>(setup.fluid_viscosity);
+      {
+        constants.force.gravity[axis] = static_cast<Real>(setup.gravity[axis]);
+        constants.force.centre[axis]  = static_cast<Real>(setup.centre[axis]);
+      }
+    constants.force.attraction = static_cast<Real>(setup.attraction);
+    constants.viscosity        = static_cast<Real>(setup.fluid_viscosity);
     set_materials(constants, setup);
     constants.source        = numerics.source;
     constants.density_share = static_cast<Real>(numerics.density_share);

@@ -2,6 +2,7 @@
 #ifndef undine_particles_constants_h
 #define undine_particles_constants_h
 
+#include <undine/particles/body_force.h>
 #include <undine/particles/cell_grid.h>
 #include <undine/particles/particle.h>
 
@@ -38,9 +39,9 @@ namespace undine::particles
     Real                number_density; ///< n0 [1]
     Real                spread;         ///< lambda [m^2]
 
-    Vector<dim, Real> gravity;                  ///< [m/s^2]
-    Real              viscosity;                ///< kinematic, of the fluid [m^2/s]
-    Real              densities[max_materials]; ///< [kg/m^3]; material 0 is the fluid
+    BodyForce<dim, Real> force;
+    Real                 viscosity;                ///< kinematic, of the fluid [m^2/s]
+    Real                 densities[max_materials]; ///< [kg/m^3]; material 0 is the fluid
     /// 1 / K of the materials' volumes in the pressure equation [1/Pa]; 0: incompressible.
     Real compressibilities[max_materials];
 

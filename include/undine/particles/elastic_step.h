@@ -2,6 +2,7 @@
 #ifndef undine_particles_elastic_step_h
 #define undine_particles_elastic_step_h
 
+#include <undine/particles/body_force.h>
 #include <undine/particles/contact.h>
 #include <undine/particles/elastic_bodies.h>
 #include <undine/particles/step_control.h>
@@ -25,7 +26,7 @@ namespace undine::particles
     ElasticRun               purpose;
     Elasticity<dim, Real>    elasticity;
     Contact<dim, Real>       contact;
-    Vector<dim, Real>        gravity;
+    BodyForce<dim, Real>     force;
     Vector<dim, Real>       *x_start;                ///< [m]
     const Vector<dim, Real> *v_start;                ///< [m/s]
     Vector<dim, Real>       *x_next, *v_next;        ///< while others still read x and v
@@ -106,7 +107,8 @@ namespace undine::particles
       auto v = Vector<dim, Real>::zero();
       if (!bodies().held[i])
         {
-          auto acceleration = elasticity.acceleration(i) + contact.acceleration(i) + gravity;
+          auto acceleration = elasticity.acceleration(i) + contact.acceleration(i) +
+                              force.acceleration(bodies().x[i]);
           if (purpose == ElasticRun::final)
             acceleration += pressure_accelerations[i];
           v = bodies().v[i] + h * acceleration;

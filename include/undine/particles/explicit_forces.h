@@ -35,7 +35,8 @@ namespace undine::particles
           const Real dt = static_cast<Real>(control->dt);
           if (place.tag.kind() == Kind::fluid)
             {
-              motion.v += velocity_change(i, place.tag, motion.v, dt) + dt * constants.gravity;
+              motion.v += velocity_change(i, place.tag, motion.v, dt) +
+                          dt * constants.force.acceleration(place.x);
               place.x = constants.grid.wrapped(place.x + dt * motion.v);
             }
           else if (place.tag.kind() == Kind::solid)

@@ -248,7 +248,7 @@ namespace undine::particles
                                 now.identities.data(),
                                 bodies.where.data(),
                                 constants.volume},
-                               constants.gravity,
+                               constants.force,
                                bodies.x_start.data(),
                                bodies.v_start.data(),
                                bodies.x_next.data(),

@@ -85,6 +85,8 @@ namespace undine::particles
     Vector<dim, double> lower, upper; ///< of the box that no particle may leave, walls included [m]
     bool                periodic[dim] = {};
     Vector<dim, double> gravity       = Vector<dim, double>::zero(); ///< [m/s^2]
+    double              attraction    = 0; ///< towards the centre, per distance [1/s^2]
+    Vector<dim, double> centre        = Vector<dim, double>::zero(); ///< [m]
 
     bool   has_fluid          = true; ///< else bodies move by elasticity alone
     double fluid_density      = 1000; ///< [kg/m^3]
