@@ -96,6 +96,11 @@ namespace undine
                 "1",
                 Allowed::between(0, 1),
                 "Of neighbours' relative motion, as share of the critical one.");
+    options.add("Bulk damping",
+                setup.bulk_damping,
+                "1",
+                Allowed::between(0, 2),
+                "Of sound in the body, as share of rho c_p l0, c_p the speed of pressure waves.");
     options.add(
       "Contact modulus",
       setup.contact_modulus,

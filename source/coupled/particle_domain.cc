@@ -3,6 +3,7 @@
 #include <undine/fluid/boundary.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,13 @@ namespace undine
     sides_of_dimension(const unsigned int dimension)
     {
       return {side_names().begin(), side_names().begin() + 2 * dimension};
+    }
+    /// Without digits that only rounding has brought.
+    template <int dim>
+    std::string
+    short_text(const dealii::Point<dim> &point)
+    {
+      return fmt::format("{:.10g}", fmt::join(point.begin_raw(), point.begin_raw() + dim, ", "));
     }
   } // namespace
 
@@ -87,7 +95,7 @@ namespace undine
           fmt::format("is {:.6g} spacings above the lower one along {}: not a whole number",
                       (upper[axis] - lower[axis]) / spacing,
                       "xyz"[axis]),
-          "Try: 'Upper corner = " + write_value(fit) +
+          "Try: 'Upper corner = " + short_text(fit) +
             "', or a 'Particles / Spacing' that divides "
             "the domain.");
   }

@@ -11,7 +11,7 @@ namespace undine
   namespace
   {
     constexpr double apart   = 0.9;  // from other kinds of particles at the start [spacings]
-    constexpr double overlap = 0.5;  // nearer bodies lie on each other [spacings]
+    constexpr double overlap = 0.55; // nearer bodies lie on each other [spacings]
     constexpr double inside  = 0.25; // deeper in another body is on it [spacings]
 
 
@@ -115,6 +115,7 @@ namespace undine
     constants.numerics = particle_numerics.numerics;
     for (unsigned int axis = 0; axis < dim; ++axis)
       constants.periodic[axis] = box.periodic(axis);
+    constants.has_fluid = fluid.has_value();
     if (fluid)
       {
         constants.fluid_density      = fluid->density;

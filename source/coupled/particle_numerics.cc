@@ -102,6 +102,11 @@ namespace undine
       "1",
       Allowed::between(1e-3, 10),
       "Sub-steps are at most this times l0 / sqrt(g H), H the fluid's depth at the start.");
+    options.add("Carry share",
+                numerics.carry_share,
+                "1",
+                Allowed::between(0, 1),
+                "Share of a body's pressure that its elasticity takes over in a sub-step.");
     options.add("Elastic share",
                 numerics.elastic_share,
                 "1",
@@ -116,7 +121,6 @@ namespace undine
   {
     using particles::PairForce;
     using particles::Source;
-    using Preconditioner = particles::Numerics::Preconditioner;
     add_choice<Source>(options,
                        "Source",
                        numerics.source,
@@ -150,6 +154,14 @@ namespace undine
       "How pressures push. balanced: equal and opposite, and nothing where the "
       "pressure is constant. corrected: exact for linear pressures. minimum: "
       "every pair repels. conserving: equal and opposite, noisy in deep fluid.");
+    read_solver(options);
+  }
+
+
+  void
+  ParticleNumerics::read_solver(const Options &options)
+  {
+    using Preconditioner = particles::Numerics::Preconditioner;
     options.add("Tolerance",
                 numerics.tolerance,
                 "1",

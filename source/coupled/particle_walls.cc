@@ -12,6 +12,9 @@ namespace undine
   {
     constexpr double       rounding         = 1e-6; // [spacings]
     constexpr double       nearest_accepted = 0.6;  // [spacings]
+    constexpr double       misfit           = 0.2;  // of the depth [spacings]
+    constexpr double       room             = 0.85; // that a misfit needs [spacings]
+    constexpr unsigned int projections      = 5;    // after which depths are right, if they can be
     constexpr unsigned int relaxations      = 60;
 
 
@@ -79,6 +82,37 @@ namespace undine
     }
 
 
+    /// Leave out those of deeper layers for which a thin wall has no room.
+    template <int dim>
+    std::vector<WallParticle<dim>>
+    without_misfits(const std::vector<WallParticle<dim>> &particles,
+                    const ParticleDomain<dim>            &domain,
+                    const SurfaceDistance<dim>           &surface)
+    {
+      const double                   l0 = domain.spacing;
+      PointGrid<dim>                 fitting(l0);
+      std::vector<WallParticle<dim>> result, misfits;
+      for (const auto &particle : particles)
+        {
+          const double depth = -surface.nearest(particle.place).distance / l0;
+          if (std::abs(depth - particle.layer - 0.5) < misfit)
+            {
+              fitting.add(particle.place);
+              result.push_back(particle);
+            }
+          else
+            misfits.push_back(particle);
+        }
+      for (const auto &particle : misfits)
+        if (!fitting.any_near(particle.place, room * l0))
+          {
+            fitting.add(particle.place);
+            result.push_back(particle);
+          }
+      return result;
+    }
+
+
     /// Move those that are closer than a spacing a little apart.
     template <int dim>
     void
@@ -136,6 +170,8 @@ namespace undine
           push_apart(particles, domain.spacing);
         for (auto &particle : particles)
           project(particle, surface, domain.spacing);
+        if (k == projections)
+          particles = without_misfits(particles, domain, surface);
       }
     return accepted(particles, domain, surface);
   }

@@ -28,6 +28,8 @@ namespace undine
     void
     read_pressure(const Options &options);
     void
+    read_solver(const Options &options);
+    void
     read_free_surface(const Options &options);
     void
     read_order(const Options &options);
