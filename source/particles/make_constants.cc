@@ -62,6 +62,8 @@ namespace undine::particles
     const double gravity    = std::sqrt(norm_square(setup.gravity));
     constants.relaxation_time =
       gravity > 0 ? static_cast<Real>(numerics.relaxation_time * std::sqrt(l0 / gravity)) : Real(0);
+    constants.crowd_excess          = static_cast<Real>(numerics.crowd_excess);
+    constants.crowd_share           = static_cast<Real>(numerics.crowd_share);
     constants.surface_density       = static_cast<Real>(numerics.surface_density);
     constants.one_sided_density     = static_cast<Real>(numerics.one_sided_density);
     constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);

@@ -161,8 +161,17 @@ namespace undine::particles
           case Source::relaxed:
             return constants.density_share * error;
           default:
-            return share(dt) * error - divergence(i, tag) / dt;
+            return share(dt) * error + crowding(i) / (dt * dt) - divergence(i, tag) / dt;
         }
+    }
+
+    /// Where particles crowd, as between a body and a wall, much more of the error is removed at
+    /// once.
+    UNDINE_HOST_DEVICE Real
+    crowding(const int i) const
+    {
+      const Real excess = neighbourhood.densities[i] / constants.number_density - 1;
+      return constants.crowd_share * maximum(Real(0), excess - constants.crowd_excess);
     }
 
     /// gamma

@@ -49,6 +49,9 @@ namespace undine::particles
     Real   density_share;   ///< gamma of Source::relaxed, and of divergence without the next [1]
     Real   relaxation_time; ///< tau: gamma = dt / tau [s]; 0: density_share
 
+    Real crowd_excess; ///< of n* over n0 from which on particles crowd [1]
+    Real crowd_share;  ///< of the excess beyond that, removed in a sub-step [1]
+
     Real surface_density;       ///< n* < this * n0: at the free surface
     Real one_sided_density;     ///< n* < this * n0 and
     Real surface_one_sidedness; ///< |sum w r/|r|| > this * n0: also at the free surface

@@ -149,11 +149,27 @@ namespace undine::particles
         [&](const int, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
           bonds += w * norm_square(x_ij - F * X_ij);
         });
-      return properties.mu * square + properties.lambda / 2 * strain * strain +
+      const Real excess = excess_squeeze(strain);
+      return properties.mu * square + properties.lambda / 2 * strain * strain -
+             resistance(properties, excess) * excess / 3 +
              properties.hourglass * properties.mu * bodies.inverse_means[i] * bonds;
     }
 
   private:
+    /// Linear elasticity lets a body collapse: once a quarter of its volume is gone, squeezing it
+    /// meets a growing resistance, a pressure of 2 (lambda + 2 mu) e^2 where e = s + 1/4 < 0 [Pa].
+    UNDINE_HOST_DEVICE static Real
+    resistance(const ElasticMaterial<Real> &properties, const Real excess)
+    {
+      return 2 * (properties.lambda + 2 * properties.mu) * excess * excess;
+    }
+
+    UNDINE_HOST_DEVICE static Real
+    excess_squeeze(const Real strain)
+    {
+      return minimum(strain + Real(0.25), Real(0));
+    }
+
     /// rho c_p, the scale of damping [kg/m^2 s].
     UNDINE_HOST_DEVICE Real
     sound_impedance(const int i) const
@@ -172,7 +188,9 @@ namespace undine::particles
       const auto  surface        = bodies.surface_moments[i] * R;
       const Real  carried        = bodies.carried[bodies.bodies[i]];
       const Real  bulk_viscosity = properties.bulk_damping * sound_impedance(i) * spacing;
-      const Real  pull = properties.lambda * (double_contraction(R, F) - dim) + // tr(R^T F - I)
+      const Real  strain         = double_contraction(R, F) - dim; // tr(R^T F - I)
+      const Real  pull           = properties.lambda * strain -
+                        resistance(properties, excess_squeeze(strain)) +
                         bulk_viscosity * double_contraction(R, F_rate);
       Matrix<dim, Real> result;
       for (int a = 0; a < dim; ++a)

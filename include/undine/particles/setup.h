@@ -25,6 +25,8 @@ namespace undine::particles
     /// Errors of the density fade in this time [sqrt(l0 / g)], gamma = dt / tau; 0 or no gravity:
     /// density_share.
     double    relaxation_time = 3;
+    double    crowd_excess    = 0.1; ///< of n* over n0, from which on errors are removed faster [1]
+    double    crowd_share     = 0.2; ///< of the excess beyond that, removed in a sub-step [1]
     PairForce pair_force      = PairForce::balanced;
 
     double surface_density       = 0.9;  ///< share of n0 [1]
