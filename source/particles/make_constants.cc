@@ -119,8 +119,9 @@ namespace undine::particles
       bounds.waves = numerics.wave_share * l0 / std::sqrt(gravity * setup.depth);
     if (setup.fluid_viscosity > 0)
       bounds.viscosity = spread / (4 * dim * setup.fluid_viscosity); // half of what is stable
-    bounds.speed_share = numerics.speed_share * l0;
-    bounds.elastic     = elastic;
+    bounds.speed_share        = numerics.speed_share * l0;
+    bounds.elastic            = elastic;
+    bounds.most_elastic_steps = numerics.most_elastic_steps;
     return bounds;
   }
 

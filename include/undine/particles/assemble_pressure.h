@@ -47,7 +47,8 @@ namespace undine::particles
     Vector<dim, Real>          *gaps;           ///< right-hand side of the potentials
     StepControl                *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       matrix.counts[i] = 0;
@@ -62,7 +63,8 @@ namespace undine::particles
     }
 
   private:
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     fill_row(const int i) const
     {
       const Tag  tag     = neighbours.places[i].tag;
@@ -99,7 +101,8 @@ namespace undine::particles
         }
     }
 
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     air(const int i, const Tag tag) const
     {
       if (neighbourhood.is_covered[i] || tag.kind() == Kind::solid)
@@ -108,7 +111,8 @@ namespace undine::particles
              maximum(Real(0), constants.number_density - neighbourhood.densities[i]);
     }
 
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     compressibility(const Tag tag) const
     {
       const Real dt = static_cast<Real>(control->dt);
@@ -134,7 +138,8 @@ namespace undine::particles
     Real                    *guess; ///< of the pressures
     const StepControl       *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       right_hand_side[i] = 0;
@@ -149,7 +154,8 @@ namespace undine::particles
     }
 
   private:
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     fluid_source(const int i, const Tag tag, const Real dt) const
     {
       const Real n0    = constants.number_density;
@@ -167,7 +173,8 @@ namespace undine::particles
 
     /// Where particles crowd, as between a body and a wall, much more of the error is removed at
     /// once.
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     crowding(const int i) const
     {
       const Real excess = neighbourhood.densities[i] / constants.number_density - 1;
@@ -175,7 +182,8 @@ namespace undine::particles
     }
 
     /// gamma
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     share(const Real dt) const
     {
       return constants.relaxation_time > 0 ? minimum(Real(1), dt / constants.relaxation_time)
@@ -183,7 +191,8 @@ namespace undine::particles
     }
 
     /// By the same faces as the forces of pressures, where faces close.
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     divergence(const int i, const Tag tag) const
     {
       const auto v = motions[i].v;

@@ -15,14 +15,16 @@ namespace undine::particles
     Vector<dim, Real> centre;     ///< x_c [m]
 
     /// [m/s^2]
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       acceleration(const Vector<dim, Real> &x) const
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    acceleration(const Vector<dim, Real> &x) const
     {
       return gravity - attraction * (x - centre);
     }
 
     /// Potential energy per mass, zero at the centre and at the origin of its height [J/kg].
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     potential(const Vector<dim, Real> &x) const
     {
       return attraction / 2 * norm_square(x - centre) - gravity * x;

@@ -20,7 +20,8 @@ namespace undine::particles
     bool              periodic[dim];
     int               order[dim]; ///< axes, fastest first
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     n_cells() const
     {
       int product = 1;
@@ -30,8 +31,9 @@ namespace undine::particles
     }
 
     /// The shortest vector to x from y across periodic boundaries [m].
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       difference(const Vector<dim, Real> &x, const Vector<dim, Real> &y) const
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    difference(const Vector<dim, Real> &x, const Vector<dim, Real> &y) const
     {
       Vector<dim, Real> result = x - y;
       for (int axis = 0; axis < dim; ++axis)
@@ -46,8 +48,9 @@ namespace undine::particles
     }
 
     /// Back into the box across periodic boundaries.
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       wrapped(Vector<dim, Real> x) const
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    wrapped(Vector<dim, Real> x) const
     {
       for (int axis = 0; axis < dim; ++axis)
         if (periodic[axis])
@@ -60,7 +63,8 @@ namespace undine::particles
       return x;
     }
 
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     contains(const Vector<dim, Real> &x) const
     {
       bool inside = true;
@@ -70,14 +74,16 @@ namespace undine::particles
     }
 
     /// Along one axis; what is outside counts to the outermost cells.
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     coordinate(const Vector<dim, Real> &x, const int axis) const
     {
       const int cell = static_cast<int>((x[axis] - lower[axis]) * inverse_cell[axis]);
       return minimum(maximum(cell, 0), cells[axis] - 1);
     }
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     index(const int (&coordinates)[dim]) const
     {
       int result = 0;
@@ -86,7 +92,8 @@ namespace undine::particles
       return result;
     }
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     cell_of(const Vector<dim, Real> &x) const
     {
       int coordinates[dim];

@@ -18,7 +18,8 @@ namespace undine::particles
     int                    *cells;
     int                    *counts;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       cells[i] = places[i].tag.is_parked() ? grid.n_cells() : grid.cell_of(places[i].x);
@@ -34,7 +35,8 @@ namespace undine::particles
     int       *counts;
     int       *order;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       order[starts[cells[i]] + atomic_add(counts + cells[i], -1) - 1] = i;
@@ -52,7 +54,8 @@ namespace undine::particles
     int                 *where; ///< of the identities below n_solid; nullptr if there are none
     int                  n_solid;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int slot) const
     {
       const int i        = order[slot];

@@ -66,7 +66,8 @@ namespace undine::particles
 
     /// Density at the middle between two particles, at which pressure gradients accelerate. Walls
     /// count as fluid.
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     mean_density(const Tag a, const Tag b) const
     {
       return (densities[a.material()] + densities[b.material()]) / 2;

@@ -4,6 +4,7 @@
 
 #include <undine/particles/buffer.h>
 #include <undine/particles/elastic_bodies.h>
+#include <undine/particles/implicit_elasticity.h>
 #include <undine/particles/reference_lattice.h>
 
 namespace undine::particles
@@ -41,6 +42,8 @@ namespace undine::particles
       , v_start(executor, n)
       , accelerations(executor, n)
       , where(executor, n)
+      , implicit_work(executor, 4 * n)
+      , implicit_tensors(executor, 2 * n)
     {
     }
 
@@ -65,6 +68,13 @@ namespace undine::particles
               carried.data(),
               surfaces.data(),
               surface_moments.data()};
+    }
+
+    ImplicitVectors<dim, Real>
+    implicit_vectors() const
+    {
+      Vector<dim, Real> *const w = implicit_work.data();
+      return {w, w + n, w + 2 * n, w + 3 * n, implicit_tensors.data(), implicit_tensors.data() + n};
     }
 
     int n, capacity;
@@ -93,6 +103,8 @@ namespace undine::particles
     Vectors               x_next, v_next, x_start, v_start;
     Vectors               accelerations; ///< by pressures [m/s^2]
     Buffer<Executor, int> where;         ///< sorted place of each identity
+    Vectors               implicit_work; ///< of ImplicitVectors
+    Matrices              implicit_tensors;
     /// @}
   };
 } // namespace undine::particles

@@ -64,6 +64,7 @@ namespace undine::particles
     Real                     spacing; ///< [m]
     Real                     reach;   ///< [m]
     ElasticBodies<dim, Real> bodies;
+    bool                     is_damped; ///< else without viscous forces
 
     /// f(j, X_ij, x_ij, w_ij) for all neighbours in the reference.
     template <class Function>
@@ -82,14 +83,16 @@ namespace undine::particles
         }
     }
 
-    UNDINE_HOST_DEVICE const ElasticMaterial<Real>                          &
+    UNDINE_HOST_DEVICE
+    const ElasticMaterial<Real> &
     material(const int i) const
     {
       return bodies.materials[bodies.bodies[i]];
     }
 
     /// F, R and P A^{-1} at the present places.
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     deform(const int i) const
     {
       auto moment = Matrix<dim, Real>::diagonal(0), rate = moment;
@@ -108,15 +111,17 @@ namespace undine::particles
 
     /// The acceleration by elasticity, damping and the carried pressure [m/s^2], after deform() of
     /// all.
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       acceleration(const int i) const
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    acceleration(const int i) const
     {
       const auto &properties = material(i);
       const auto  F_i = bodies.deformations[i], stress_i = bodies.stresses[i];
       const Real  stiffness = 2 * properties.hourglass * properties.mu;
       const Real  a_i       = bodies.inverse_means[i];
-      const Real  rate      = sound_impedance(i) * properties.damping / (8 * spacing);
-      auto        force     = Vector<dim, Real>::zero();
+      const Real  rate =
+        is_damped ? sound_impedance(i) * properties.damping / (8 * spacing) : Real(0);
+      auto force = Vector<dim, Real>::zero();
       for_each_bond(
         i,
         [&](
@@ -132,8 +137,58 @@ namespace undine::particles
              bodies.carried[bodies.bodies[i]] * bodies.surfaces[i];
     }
 
+    /// Changes of F and of P A^{-1} with places that move along u, rotations held.
+    UNDINE_HOST_DEVICE
+    void
+    differentiate(const int                i,
+                  const Vector<dim, Real> *u,
+                  Matrix<dim, Real>       *F_changes,
+                  Matrix<dim, Real>       *stress_changes) const
+    {
+      auto moment = Matrix<dim, Real>::diagonal(0);
+      for_each_bond(
+        i,
+        [&](const int j, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &, const Real w) {
+          moment.add_outer_product(w, u[j] - u[i], X_ij);
+        });
+      const auto       &properties = material(i);
+      const auto        F = moment * bodies.inverse_moments[i], R = bodies.rotations[i];
+      const Real        pull = properties.lambda * double_contraction(R, F);
+      Matrix<dim, Real> stress;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          stress[a][b] = 2 * properties.mu * F[a][b] + pull * R[a][b];
+      F_changes[i]      = F;
+      stress_changes[i] = stress * bodies.inverse_moments[i];
+    }
+
+    /// Change of the elastic acceleration that belongs to them [1/s^2 times that of u].
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    acceleration_change(const int                i,
+                        const Vector<dim, Real> *u,
+                        const Matrix<dim, Real> *F_changes,
+                        const Matrix<dim, Real> *stress_changes) const
+    {
+      const auto &properties = material(i);
+      const auto  F_i = F_changes[i], stress_i = stress_changes[i];
+      const Real  stiffness = 2 * properties.hourglass * properties.mu;
+      const Real  a_i       = bodies.inverse_means[i];
+      auto        force     = Vector<dim, Real>::zero();
+      for_each_bond(
+        i,
+        [&](const int j, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &, const Real w) {
+          const auto u_ij = u[j] - u[i];
+          force += w * (stress_i * X_ij + stress_changes[j] * X_ij);
+          force += (w * stiffness) * (a_i * (u_ij - F_i * X_ij) +
+                                      bodies.inverse_means[j] * (u_ij - F_changes[j] * X_ij));
+        });
+      return (1 / properties.density) * force;
+    }
+
     /// Density of elastic energy at a particle [J/m^dim], after deform() of all.
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     energy_density(const int i) const
     {
       const auto &properties = material(i);
@@ -158,20 +213,23 @@ namespace undine::particles
   private:
     /// Linear elasticity lets a body collapse: once a quarter of its volume is gone, squeezing it
     /// meets a growing resistance, a pressure of 2 (lambda + 2 mu) e^2 where e = s + 1/4 < 0 [Pa].
-    UNDINE_HOST_DEVICE static Real
+    UNDINE_HOST_DEVICE
+    static Real
     resistance(const ElasticMaterial<Real> &properties, const Real excess)
     {
       return 2 * (properties.lambda + 2 * properties.mu) * excess * excess;
     }
 
-    UNDINE_HOST_DEVICE static Real
+    UNDINE_HOST_DEVICE
+    static Real
     excess_squeeze(const Real strain)
     {
       return minimum(strain + Real(0.25), Real(0));
     }
 
     /// rho c_p, the scale of damping [kg/m^2 s].
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     sound_impedance(const int i) const
     {
       return sqrt((material(i).lambda + 2 * material(i).mu) * material(i).density);
@@ -180,16 +238,18 @@ namespace undine::particles
     /// Of first Piola and Kirchhoff, P = 2 mu (F - R) + lambda tr(R^T F - I) R [Pa], with bulk
     /// viscosity and what the carried pressure adds because it acts on the surface and not at
     /// centres of particles.
-    UNDINE_HOST_DEVICE Matrix<dim, Real>
-                       stress(const int i, const Matrix<dim, Real> &F_rate) const
+    UNDINE_HOST_DEVICE
+    Matrix<dim, Real>
+    stress(const int i, const Matrix<dim, Real> &F_rate) const
     {
       const auto &properties = material(i);
       const auto  F = bodies.deformations[i], R = bodies.rotations[i];
-      const auto  surface        = bodies.surface_moments[i] * R;
-      const Real  carried        = bodies.carried[bodies.bodies[i]];
-      const Real  bulk_viscosity = properties.bulk_damping * sound_impedance(i) * spacing;
-      const Real  strain         = double_contraction(R, F) - dim; // tr(R^T F - I)
-      const Real  pull           = properties.lambda * strain -
+      const auto  surface = bodies.surface_moments[i] * R;
+      const Real  carried = bodies.carried[bodies.bodies[i]];
+      const Real  bulk_viscosity =
+        is_damped ? properties.bulk_damping * sound_impedance(i) * spacing : Real(0);
+      const Real strain = double_contraction(R, F) - dim; // tr(R^T F - I)
+      const Real pull   = properties.lambda * strain -
                         resistance(properties, excess_squeeze(strain)) +
                         bulk_viscosity * double_contraction(R, F_rate);
       Matrix<dim, Real> result;

@@ -5,6 +5,7 @@
 #include <undine/particles/body_force.h>
 #include <undine/particles/contact.h>
 #include <undine/particles/elastic_bodies.h>
+#include <undine/particles/implicit_elasticity.h>
 #include <undine/particles/step_control.h>
 #include <undine/particles/sums.h>
 
@@ -23,20 +24,21 @@ namespace undine::particles
   template <int dim, class Real>
   struct ElasticStep
   {
-    ElasticRun               purpose;
-    Elasticity<dim, Real>    elasticity;
-    Contact<dim, Real>       contact;
-    BodyForce<dim, Real>     force;
-    Vector<dim, Real>       *x_start;                ///< [m]
-    const Vector<dim, Real> *v_start;                ///< [m/s]
-    Vector<dim, Real>       *x_next, *v_next;        ///< while others still read x and v
-    const Vector<dim, Real> *pressure_accelerations; ///< [m/s^2]
-    int                      n_bodies;
-    Real                    *carried;     ///< of ElasticBodies [Pa]
-    Real                     carry_share; ///< of the difference, in a sub-step [1]
-    Place<dim, Real>        *places;      ///< of the sorted particles; receives the result
-    Motion<dim, Real>       *motions;
-    StepControl             *control;
+    ElasticRun                 purpose;
+    Elasticity<dim, Real>      elasticity;
+    Contact<dim, Real>         contact;
+    BodyForce<dim, Real>       force;
+    Vector<dim, Real>         *x_start;         ///< [m]
+    const Vector<dim, Real>   *v_start;         ///< [m/s]
+    Vector<dim, Real>         *x_next, *v_next; ///< while others still read x and v
+    ImplicitVectors<dim, Real> implicit_vectors;
+    const Vector<dim, Real>   *pressure_accelerations; ///< [m/s^2]
+    int                        n_bodies;
+    Real                      *carried;     ///< of ElasticBodies [Pa]
+    Real                       carry_share; ///< of the difference, in a sub-step [1]
+    Place<dim, Real>          *places;      ///< of the sorted particles; receives the result
+    Motion<dim, Real>         *motions;
+    StepControl               *control;
 
     template <class Team>
     UNDINE_HOST_DEVICE void
@@ -50,14 +52,17 @@ namespace undine::particles
       const int   n   = elasticity.bodies.n;
       team.for_each(n, [&](const int i) { now.begin(i); });
       team.sync();
-      for (int step = 0; step < steps; ++step)
-        {
-          team.for_each(n, [&](const int i) { now.elasticity.deform(i); });
-          team.sync();
-          team.for_each(n, [&](const int i) { now.move(i, h); });
-          team.sync();
-          now.swap();
-        }
+      if (control->elastic_is_implicit)
+        now.move_implicitly(team, h);
+      else
+        for (int step = 0; step < steps; ++step)
+          {
+            team.for_each(n, [&](const int i) { now.elasticity.deform(i); });
+            team.sync();
+            team.for_each(n, [&](const int i) { now.move(i, h); });
+            team.sync();
+            now.swap();
+          }
       team.for_each(n, [&](const int i) { end(i, now); });
       if (purpose == ElasticRun::final)
         carry_pressure(team);
@@ -85,13 +90,15 @@ namespace undine::particles
         }
     }
 
-    UNDINE_HOST_DEVICE ElasticBodies<dim, Real>                    &
+    UNDINE_HOST_DEVICE
+    ElasticBodies<dim, Real> &
     bodies()
     {
       return elasticity.bodies;
     }
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     begin(const int i)
     {
       if (purpose == ElasticRun::final)
@@ -101,23 +108,51 @@ namespace undine::particles
       bodies().v[i] = v_start[i];
     }
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     move(const int i, const Real h)
     {
       auto v = Vector<dim, Real>::zero();
       if (!bodies().held[i])
-        {
-          auto acceleration = elasticity.acceleration(i) + contact.acceleration(i) +
-                              force.acceleration(bodies().x[i]);
-          if (purpose == ElasticRun::final)
-            acceleration += pressure_accelerations[i];
-          v = bodies().v[i] + h * acceleration;
-        }
+        v = bodies().v[i] + h * acceleration(i);
       v_next[i] = v;
       x_next[i] = bodies().x[i] + h * v;
     }
 
+    /// One step of backward Euler; what contacts and pressures do is held constant.
+    template <class Team>
     UNDINE_HOST_DEVICE void
+    move_implicitly(Team &team, const Real h)
+    {
+      const int n          = bodies().n;
+      elasticity.is_damped = false;
+      team.for_each(n, [&](const int i) { elasticity.deform(i); });
+      team.sync();
+      ImplicitElasticity<dim, Real>{elasticity, implicit_vectors, h}.step(
+        team, bodies().v, [&](const int i) { return acceleration(i); });
+      team.sync();
+      team.for_each(n, [&](const int i) {
+        v_next[i] =
+          bodies().held[i] ? Vector<dim, Real>::zero() : bodies().v[i] + implicit_vectors.change[i];
+        x_next[i] = bodies().x[i] + h * v_next[i];
+      });
+      team.sync();
+      swap();
+    }
+
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    acceleration(const int i) const
+    {
+      auto result = elasticity.acceleration(i) + contact.acceleration(i) +
+                    force.acceleration(elasticity.bodies.x[i]);
+      if (purpose == ElasticRun::final)
+        result += pressure_accelerations[i];
+      return result;
+    }
+
+    UNDINE_HOST_DEVICE
+    void
     swap()
     {
       auto *const x = bodies().x, *const v = bodies().v;
@@ -128,7 +163,8 @@ namespace undine::particles
     }
 
     /// `now` knows where the last x and v are.
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     end(const int i, ElasticStep &now) const
     {
       const auto x = now.bodies().x[i], v = now.bodies().v[i];

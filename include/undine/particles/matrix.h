@@ -12,19 +12,22 @@ namespace undine::particles
   {
     Real entries[dim][dim];
 
-    UNDINE_HOST_DEVICE Real *
+    UNDINE_HOST_DEVICE
+    Real *
     operator[](const int row)
     {
       return entries[row];
     }
 
-    UNDINE_HOST_DEVICE const Real *
+    UNDINE_HOST_DEVICE
+    const Real *
     operator[](const int row) const
     {
       return entries[row];
     }
 
-    UNDINE_HOST_DEVICE static Matrix
+    UNDINE_HOST_DEVICE
+    static Matrix
     diagonal(const Real value)
     {
       Matrix result;
@@ -35,7 +38,8 @@ namespace undine::particles
     }
 
     /// Add factor * a b^T.
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     add_outer_product(const Real factor, const Vector<dim, Real> &a, const Vector<dim, Real> &b)
     {
       for (int i = 0; i < dim; ++i)
@@ -136,13 +140,15 @@ namespace undine::particles
 
     Real entries[size];
 
-    UNDINE_HOST_DEVICE static int
+    UNDINE_HOST_DEVICE
+    static int
     index(const int i, const int j)
     {
       return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i;
     }
 
-    UNDINE_HOST_DEVICE static SymmetricMatrix
+    UNDINE_HOST_DEVICE
+    static SymmetricMatrix
     diagonal(const Real value)
     {
       SymmetricMatrix result;
@@ -153,7 +159,8 @@ namespace undine::particles
     }
 
     /// Add factor * a a^T.
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     add_square(const Real factor, const Vector<dim, Real> &a)
     {
       for (int i = 0; i < dim; ++i)
@@ -161,8 +168,9 @@ namespace undine::particles
           entries[index(i, j)] += factor * a[i] * a[j];
     }
 
-    UNDINE_HOST_DEVICE Matrix<dim, Real>
-                       full() const
+    UNDINE_HOST_DEVICE
+    Matrix<dim, Real>
+    full() const
     {
       Matrix<dim, Real> result;
       for (int i = 0; i < dim; ++i)
@@ -172,7 +180,8 @@ namespace undine::particles
     }
 
     /// The lower triangle of a matrix that is symmetric.
-    UNDINE_HOST_DEVICE static SymmetricMatrix
+    UNDINE_HOST_DEVICE
+    static SymmetricMatrix
     of(const Matrix<dim, Real> &m)
     {
       SymmetricMatrix result;

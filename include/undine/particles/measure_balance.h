@@ -19,7 +19,8 @@ namespace undine::particles
     Particles<dim, Real> particles;
     StepControl         *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       if (particles.places[i].tag.is_free())

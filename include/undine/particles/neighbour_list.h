@@ -22,7 +22,8 @@ namespace undine::particles
     int                    *indices;
     StepControl            *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       counts[i] = 0;

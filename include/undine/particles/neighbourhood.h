@@ -32,7 +32,8 @@ namespace undine::particles
     Neighbourhood<dim, Real> result;
     const StepControl       *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       const Tag tag         = neighbours.places[i].tag;
@@ -60,7 +61,8 @@ namespace undine::particles
     }
 
   private:
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     is_covered(const Tag tag, const int identity, const Real n, const Vector<dim, Real> &side) const
     {
       if (tag.kind() == Kind::solid && inside_body[identity])
@@ -74,7 +76,8 @@ namespace undine::particles
 
     /// With air, pressures at the free surface are unknown too; only drops that fly alone have
     /// none.
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     has_pressure(const Tag tag, const Real n, const bool covered) const
     {
       if (covered || constants.air <= 0 || tag.kind() == Kind::solid)
@@ -85,8 +88,9 @@ namespace undine::particles
 
     /// The inverse of (dim / n0) sum w r r^T / r^2; the identity where neighbours do not span
     /// space.
-    UNDINE_HOST_DEVICE SymmetricMatrix<dim, Real>
-                       correction(const SymmetricMatrix<dim, Real> &moment) const
+    UNDINE_HOST_DEVICE
+    SymmetricMatrix<dim, Real>
+    correction(const SymmetricMatrix<dim, Real> &moment) const
     {
       auto scaled = moment.full();
       for (int i = 0; i < dim; ++i)

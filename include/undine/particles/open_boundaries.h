@@ -22,7 +22,8 @@ namespace undine::particles
     bool is_inflow; ///< else an outflow
 
     /// How far x is behind the plane, outside [m].
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     behind(const Vector<dim, Real> &x) const
     {
       return (plane - x[axis]) * inward;
@@ -50,7 +51,8 @@ namespace undine::particles
     int                      *crossed;
     const StepControl        *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       crossed[i]             = 0;
@@ -73,7 +75,8 @@ namespace undine::particles
 
   private:
     /// To the nearest one.
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     distance_behind_inflow(const Vector<dim, Real> &x) const
     {
       Real distance = -1;
@@ -83,7 +86,8 @@ namespace undine::particles
       return distance;
     }
 
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     has_left(const Vector<dim, Real> &x) const
     {
       for (int b = 0; b < open.n; ++b)
@@ -107,7 +111,8 @@ namespace undine::particles
     const int                *first_parked;
     StepControl              *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       if (control->done() || !crossed[i])

@@ -241,7 +241,7 @@ namespace undine::particles
       executor.run(
         bodies.n,
         ElasticStep<dim, Real>{purpose,
-                               {constants.grid, constants.spacing, constants.reach, view},
+                               {constants.grid, constants.spacing, constants.reach, view, true},
                                {constants.spacing,
                                 view,
                                 list.view(now.view()),
@@ -253,6 +253,7 @@ namespace undine::particles
                                bodies.v_start.data(),
                                bodies.x_next.data(),
                                bodies.v_next.data(),
+                               bodies.implicit_vectors(),
                                bodies.accelerations.data(),
                                static_cast<int>(bodies.carried.size()),
                                bodies.carried.data(),

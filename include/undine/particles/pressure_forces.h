@@ -15,7 +15,8 @@ namespace undine::particles
     Motion<dim, Real> *motions;
     const StepControl *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       if (control->done())
@@ -47,7 +48,8 @@ namespace undine::particles
     Matrix<dim, Real>       *solid_surface_moments; ///< of ElasticBodies
     StepControl             *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       Place<dim, Real>  place  = neighbours.places[i];
@@ -88,7 +90,8 @@ namespace undine::particles
       Matrix<dim, Real> surface_moment = Matrix<dim, Real>::diagonal(1);
     };
 
-    UNDINE_HOST_DEVICE Sum
+    UNDINE_HOST_DEVICE
+    Sum
     sum(const int i, const Tag tag, const Real P) const
     {
       const auto M = neighbourhood.corrections[i];
@@ -124,7 +127,8 @@ namespace undine::particles
     }
 
     /// 2 P_ij. A body and something else press but do not pull each other.
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     twice_pressure(const Tag tag, const Tag other, const Real P_i, const Real P_j) const
     {
       const Real a = constants.densities[tag.material()], b = constants.densities[other.material()];
@@ -132,7 +136,8 @@ namespace undine::particles
       return tag.code == other.code ? value : maximum(value, Real(0));
     }
 
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     least_pressure(const int i, Real least) const
     {
       neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
@@ -142,7 +147,8 @@ namespace undine::particles
       return least;
     }
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     move(Place<dim, Real>        &place,
          Motion<dim, Real>       &motion,
          const Vector<dim, Real> &acceleration) const
@@ -154,8 +160,9 @@ namespace undine::particles
     }
 
     /// Away from where neighbours crowd [m].
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       shift(const Vector<dim, Real> &crowd) const
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    shift(const Vector<dim, Real> &crowd) const
     {
       auto result =
         (-constants.shifting * constants.spacing * constants.spacing * faces.factor) * crowd;

@@ -30,7 +30,8 @@ namespace undine::particles
               static_cast<std::uint32_t>(code)};
     }
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     difference() const
     {
       return static_cast<std::int32_t>(bits) >> weight_bits;
@@ -44,7 +45,8 @@ namespace undine::particles
       return code * code * (scale / (Real(largest) * Real(largest)));
     }
 
-    UNDINE_HOST_DEVICE static bool
+    UNDINE_HOST_DEVICE
+    static bool
     can_reach(const int difference)
     {
       return difference >= -reach && difference < reach;
@@ -58,25 +60,29 @@ namespace undine::particles
     int    column_difference;
     Number value;
 
-    UNDINE_HOST_DEVICE static WideEntry
+    UNDINE_HOST_DEVICE
+    static WideEntry
     of(const int difference, const Number coefficient, const Number)
     {
       return {difference, coefficient};
     }
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     difference() const
     {
       return column_difference;
     }
 
-    UNDINE_HOST_DEVICE Number
+    UNDINE_HOST_DEVICE
+    Number
     coefficient(const Number) const
     {
       return value;
     }
 
-    UNDINE_HOST_DEVICE static bool
+    UNDINE_HOST_DEVICE
+    static bool
     can_reach(const int)
     {
       return true;

@@ -9,7 +9,8 @@
 namespace undine::particles
 {
   /// 1 / sqrt(x), by the device's instruction where there is one.
-  UNDINE_HOST_DEVICE float
+  UNDINE_HOST_DEVICE
+  float
   inverse_square_root(const float x)
   {
 #ifdef __CUDA_ARCH__
@@ -19,7 +20,8 @@ namespace undine::particles
 #endif
   }
 
-  UNDINE_HOST_DEVICE double
+  UNDINE_HOST_DEVICE
+  double
   inverse_square_root(const double x)
   {
     return 1 / sqrt(x);
@@ -46,19 +48,22 @@ namespace undine::particles
   {
     Real entries[dim];
 
-    UNDINE_HOST_DEVICE Real &
+    UNDINE_HOST_DEVICE
+    Real &
     operator[](const int axis)
     {
       return entries[axis];
     }
 
-    UNDINE_HOST_DEVICE const Real &
+    UNDINE_HOST_DEVICE
+    const Real &
     operator[](const int axis) const
     {
       return entries[axis];
     }
 
-    UNDINE_HOST_DEVICE Vector &
+    UNDINE_HOST_DEVICE
+    Vector &
     operator+=(const Vector &other)
     {
       for (int axis = 0; axis < dim; ++axis)
@@ -66,7 +71,8 @@ namespace undine::particles
       return *this;
     }
 
-    UNDINE_HOST_DEVICE Vector &
+    UNDINE_HOST_DEVICE
+    Vector &
     operator-=(const Vector &other)
     {
       for (int axis = 0; axis < dim; ++axis)
@@ -74,7 +80,8 @@ namespace undine::particles
       return *this;
     }
 
-    UNDINE_HOST_DEVICE Vector &
+    UNDINE_HOST_DEVICE
+    Vector &
     operator*=(const Real factor)
     {
       for (int axis = 0; axis < dim; ++axis)
@@ -82,7 +89,8 @@ namespace undine::particles
       return *this;
     }
 
-    UNDINE_HOST_DEVICE static Vector
+    UNDINE_HOST_DEVICE
+    static Vector
     zero()
     {
       Vector result;
