@@ -71,6 +71,7 @@ namespace undine::particles
     constants.collision_distance    = static_cast<Real>(numerics.collision_distance * l0);
     constants.restitution           = static_cast<Real>(numerics.restitution);
     constants.pair_force            = numerics.pair_force;
+    constants.coupling              = numerics.coupling;
     constants.shifting              = static_cast<Real>(numerics.shifting);
     constants.shifting_limit        = static_cast<Real>(numerics.shifting_limit * l0);
     return constants;

@@ -12,7 +12,8 @@ namespace undine::particles
   /// rho_f lambda n0 / (2 dim): what div(grad P / rho) is multiplied with in the pressure equation
   /// [kg/m^(dim-2)].
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   pressure_scale(const Constants<dim, Real> &constants)
   {
     return constants.densities[0] * constants.spread * constants.number_density / (2 * dim);
@@ -20,7 +21,8 @@ namespace undine::particles
 
   /// The pair's coefficient in the pressure equation, k_ij [1].
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   pressure_coefficient(const Constants<dim, Real> &constants,
                        const Tag                   tag,
                        const Pair<dim, Real>      &pair)
@@ -150,10 +152,27 @@ namespace undine::particles
       const Tag tag = neighbours.places[i].tag;
       if (tag.kind() != Kind::solid)
         right_hand_side[i] =
+          given_pressures(i, tag) +
           pressure_scale(constants) * fluid_source(i, tag, static_cast<Real>(control->dt));
     }
 
   private:
+    /// What neighbours contribute whose pressure is given, sum k_ij P_j: bodies, in one of the ways
+    /// to couple them.
+    UNDINE_HOST_DEVICE
+    Real
+    given_pressures(const int i, const Tag tag) const
+    {
+      if (constants.coupling == Coupling::simultaneous)
+        return 0;
+      Real sum = 0;
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        if (pair.tag.kind() == Kind::solid)
+          sum += pressure_coefficient(constants, tag, pair) * motions[j].pressure;
+      });
+      return sum;
+    }
+
     UNDINE_HOST_DEVICE
     Real
     fluid_source(const int i, const Tag tag, const Real dt) const

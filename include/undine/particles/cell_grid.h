@@ -105,7 +105,8 @@ namespace undine::particles
     /// Call f(begin, end) for runs of consecutive cells which together are the cell of x and all
     /// around it, each once, in a fixed order.
     template <class Function>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     for_each_run_around(const Vector<dim, Real> &x, const Function &f) const
     {
       int rows = 1;

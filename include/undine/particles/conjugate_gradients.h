@@ -85,7 +85,8 @@ namespace undine::particles
     using Products             = Sums<2 * count>;
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(Team &team) const
     {
       if (control->done())

@@ -25,6 +25,13 @@ namespace undine::particles
     conserving ///< P_i + P_j: equal and opposite, but stiff under high pressure
   };
 
+  /// How bodies take part in the pressure equation.
+  enum class Coupling
+  {
+    simultaneous,    ///< as fluid of another density: all their particles are unknowns
+    surface_pressure ///< with the pressure of their elasticity, the source's equation 7
+  };
+
   /// The numbers of a scene that passes need, constant during a run; in the unit system of the
   /// scene.
   template <int dim, class Real>
@@ -61,6 +68,7 @@ namespace undine::particles
     Real restitution;        ///< [1]
 
     PairForce pair_force;
+    Coupling  coupling;
     Real      shifting;       ///< strength [1]
     Real      shifting_limit; ///< [m] per sub-step
 

@@ -68,7 +68,8 @@ namespace undine::particles
 
     /// f(j, X_ij, x_ij, w_ij) for all neighbours in the reference.
     template <class Function>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     for_each_bond(const int i, const Function &f) const
     {
       const Vector<dim, Real> X = bodies.reference[i], x = bodies.x[i];

@@ -41,7 +41,8 @@ namespace undine::particles
     StepControl               *control;
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(Team &team) const
     {
       const int steps = control->elastic_steps;
@@ -72,7 +73,8 @@ namespace undine::particles
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
     /// swing with their own sound.
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     carry_pressure(Team &team) const
     {
       for (int body = 0; body < n_bodies; ++body)
@@ -121,7 +123,8 @@ namespace undine::particles
 
     /// One step of backward Euler; what contacts and pressures do is held constant.
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     move_implicitly(Team &team, const Real h)
     {
       const int n          = bodies().n;

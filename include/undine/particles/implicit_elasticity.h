@@ -32,7 +32,8 @@ namespace undine::particles
 
     /// Adds the change of velocity to v, on which a = accelerations(i) acts; held particles stay.
     template <class Team, class Accelerations>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     step(Team &team, Vector<dim, Real> *v, const Accelerations &accelerations) const
     {
       const int n = elasticity.bodies.n;
@@ -87,7 +88,8 @@ namespace undine::particles
 
     /// Of deformation gradients and stresses, in the direction u.
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     differentiate(Team &team, const Vector<dim, Real> *u) const
     {
       team.sync();

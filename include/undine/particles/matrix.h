@@ -49,8 +49,9 @@ namespace undine::particles
   };
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Vector<dim, Real>
-                     operator*(const Matrix<dim, Real> &m, const Vector<dim, Real> &v)
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  operator*(const Matrix<dim, Real> &m, const Vector<dim, Real> &v)
   {
     Vector<dim, Real> result = Vector<dim, Real>::zero();
     for (int i = 0; i < dim; ++i)
@@ -60,8 +61,9 @@ namespace undine::particles
   }
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Matrix<dim, Real>
-                     operator*(const Matrix<dim, Real> &a, const Matrix<dim, Real> &b)
+  UNDINE_HOST_DEVICE
+  Matrix<dim, Real>
+  operator*(const Matrix<dim, Real> &a, const Matrix<dim, Real> &b)
   {
     Matrix<dim, Real> result = Matrix<dim, Real>::diagonal(0);
     for (int i = 0; i < dim; ++i)
@@ -73,7 +75,8 @@ namespace undine::particles
 
   /// a : b
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   double_contraction(const Matrix<dim, Real> &a, const Matrix<dim, Real> &b)
   {
     Real sum = 0;
@@ -85,15 +88,17 @@ namespace undine::particles
 
   /// det(m) m^{-T}, which exists for singular m too. @{
   template <class Real>
-  UNDINE_HOST_DEVICE Matrix<2, Real>
-                     cofactors(const Matrix<2, Real> &m)
+  UNDINE_HOST_DEVICE
+  Matrix<2, Real>
+  cofactors(const Matrix<2, Real> &m)
   {
     return {{{m[1][1], -m[1][0]}, {-m[0][1], m[0][0]}}};
   }
 
   template <class Real>
-  UNDINE_HOST_DEVICE Matrix<3, Real>
-                     cofactors(const Matrix<3, Real> &m)
+  UNDINE_HOST_DEVICE
+  Matrix<3, Real>
+  cofactors(const Matrix<3, Real> &m)
   {
     Matrix<3, Real> result;
     for (int i = 0; i < 3; ++i)
@@ -107,7 +112,8 @@ namespace undine::particles
   /// @}
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   determinant(const Matrix<dim, Real> &m)
   {
     const auto cofactor = cofactors(m);
@@ -119,8 +125,9 @@ namespace undine::particles
 
   /// m^{-T}; m must be regular.
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Matrix<dim, Real>
-                     inverse_transpose(const Matrix<dim, Real> &m)
+  UNDINE_HOST_DEVICE
+  Matrix<dim, Real>
+  inverse_transpose(const Matrix<dim, Real> &m)
   {
     Matrix<dim, Real> result = cofactors(m);
     Real              det    = 0;
@@ -193,8 +200,9 @@ namespace undine::particles
   };
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Vector<dim, Real>
-                     operator*(const SymmetricMatrix<dim, Real> &m, const Vector<dim, Real> &v)
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  operator*(const SymmetricMatrix<dim, Real> &m, const Vector<dim, Real> &v)
   {
     Vector<dim, Real> result = Vector<dim, Real>::zero();
     for (int i = 0; i < dim; ++i)
@@ -207,7 +215,8 @@ namespace undine::particles
   /// [Higham 1986]. A deformation that is nearly flat or inverted has no useful rotation: it keeps
   /// `last`.
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Matrix<dim, Real>
+  UNDINE_HOST_DEVICE
+  Matrix<dim, Real>
   rotation_of(const Matrix<dim, Real> &deformation, const Matrix<dim, Real> &last)
   {
     const Real enough = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-14);

@@ -42,7 +42,8 @@ namespace undine::particles
     Sums<count>         *result;
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(Team &team) const
     {
       const auto sums = team.template sum<count>(particles.n, [&](const int i, Sums<count> &sums) {
@@ -79,7 +80,8 @@ namespace undine::particles
     Sums<count>             *result;
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(Team &team) const
     {
       const auto sums = team.template sum<count>(bodies.n, [&](const int i, Sums<count> &sums) {

@@ -80,6 +80,8 @@ namespace undine::particles
     bool
     has_pressure(const Tag tag, const Real n, const bool covered) const
     {
+      if (tag.kind() == Kind::solid && constants.coupling == Coupling::surface_pressure)
+        return false;
       if (covered || constants.air <= 0 || tag.kind() == Kind::solid)
         return covered;
       const Real least = tag.kind() == Kind::wall ? Real(0.2) : Real(0.1);

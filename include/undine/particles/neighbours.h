@@ -40,7 +40,8 @@ namespace undine::particles
 
     /// Call f(j, pair) for all neighbours of i at present places.
     template <class Function>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     for_each(const int i, const Function &f) const
     {
       const Vector<dim, Real> x     = places[i].x;

@@ -170,6 +170,10 @@ namespace undine::particles
     void
     solve_pressure()
     {
+      if (constants.coupling == Coupling::surface_pressure)
+        executor.for_each(
+          bodies.n,
+          GiveSurfacePressures<dim, Real>{bodies.view(), now.motions.data(), bodies.where.data()});
       executor.for_each(n,
                         MeasureNeighbourhood<dim, Real>{constants,
                                                         list.view(now.view()),
@@ -207,8 +211,12 @@ namespace undine::particles
       solve(
         diagonal, right_hand_side, pressures, numbers, numerics.tolerance, &StepControl::pressure);
       executor.for_each(n,
-                        TakePressures<dim, Real>{
-                          is_unknown.data(), pressures.data(), now.motions.data(), control.data()});
+                        TakePressures<dim, Real>{is_unknown.data(),
+                                                 pressures.data(),
+                                                 now.places.data(),
+                                                 now.motions.data(),
+                                                 constants.coupling == Coupling::surface_pressure,
+                                                 control.data()});
     }
 
     void
@@ -257,7 +265,9 @@ namespace undine::particles
                                bodies.accelerations.data(),
                                static_cast<int>(bodies.carried.size()),
                                bodies.carried.data(),
-                               static_cast<Real>(numerics.carry_share),
+                               constants.coupling == Coupling::simultaneous
+                                 ? static_cast<Real>(numerics.carry_share)
+                                 : Real(0),
                                now.places.data(),
                                now.motions.data(),
                                control.data()});

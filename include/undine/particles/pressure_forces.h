@@ -3,23 +3,48 @@
 #define undine_particles_pressure_forces_h
 
 #include <undine/particles/assemble_pressure.h>
+#include <undine/particles/elastic_bodies.h>
 
 namespace undine::particles
 {
+  /// Gives the bodies' particles the pressure of their elasticity, P_s = -lambda tr(e), on the
+  /// surface that it pushes (the source's equation 7, whose divergence is that of the printed
+  /// units).
+  template <int dim, class Real>
+  struct GiveSurfacePressures
+  {
+    ElasticBodies<dim, Real> bodies;
+    Motion<dim, Real>       *motions;
+    const int               *where;
+
+    UNDINE_HOST_DEVICE
+    void
+    operator()(const int identity) const
+    {
+      const Real strain =
+        double_contraction(bodies.rotations[identity], bodies.deformations[identity]) - dim;
+      const Real lambda                 = bodies.materials[bodies.bodies[identity]].lambda;
+      motions[where[identity]].pressure = maximum(-lambda * strain, Real(0));
+    }
+  };
+
+
   /// Gives the particles their pressures, which do not pull.
   template <int dim, class Real>
   struct TakePressures
   {
-    const int         *is_unknown;
-    const Real        *solution;
-    Motion<dim, Real> *motions;
-    const StepControl *control;
+    const int              *is_unknown;
+    const Real             *solution;
+    const Place<dim, Real> *places;
+    Motion<dim, Real>      *motions;
+    bool                    keeps_solids; ///< whose pressures are given
+    const StepControl      *control;
 
     UNDINE_HOST_DEVICE
     void
     operator()(const int i) const
     {
-      if (control->done())
+      if (control->done() || (keeps_solids && places[i].tag.kind() == Kind::solid))
         return;
       motions[i].pressure = is_unknown[i] ? maximum(solution[i], Real(0)) : Real(0);
     }
@@ -103,7 +128,7 @@ namespace undine::particles
       neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
         const Vector<dim, Real> plain = (pair.weight / pair.square) * pair.r;
         sum.crowd += plain;
-        if (pair.tag.kind() == Kind::dummy)
+        if (pair.tag.kind() == Kind::dummy || is_left_to_elasticity(tag, pair.tag))
           return;
         auto face  = faces.factor * plain;
         Real value = twice_pressure(tag, pair.tag, P, motions[j].pressure);
@@ -124,6 +149,16 @@ namespace undine::particles
           }
       });
       return sum;
+    }
+
+    /// With surface pressures a body's particles count neighbours of the fluid only (the source's
+    /// equation 8).
+    UNDINE_HOST_DEVICE
+    bool
+    is_left_to_elasticity(const Tag tag, const Tag other) const
+    {
+      return constants.coupling == Coupling::surface_pressure && tag.kind() == Kind::solid &&
+             tag.code == other.code;
     }
 
     /// 2 P_ij. A body and something else press but do not pull each other.

@@ -21,7 +21,8 @@ namespace undine::particles
     static constexpr int reach       = 1 << (31 - weight_bits); ///< of column - row
 
     template <class Real>
-    UNDINE_HOST_DEVICE static PackedEntry
+    UNDINE_HOST_DEVICE
+    static PackedEntry
     of(const int difference, const Real coefficient, const Real scale)
     {
       const Real root = coefficient * inverse_square_root(coefficient * scale) * largest;
@@ -38,7 +39,8 @@ namespace undine::particles
     }
 
     template <class Real>
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     coefficient(const Real scale) const
     {
       const Real code = static_cast<Real>(bits & largest);
@@ -104,7 +106,8 @@ namespace undine::particles
 
     /// sum_j k_ij x_j, for numbers or vectors x_j
     template <class Value>
-    UNDINE_HOST_DEVICE Value
+    UNDINE_HOST_DEVICE
+    Value
     row_times(const int row, const Value *x) const
     {
       const int count = counts[row];

@@ -30,6 +30,7 @@ namespace undine::particles
     double    crowd_excess    = 0.1; ///< of n* over n0, from which on errors are removed faster [1]
     double    crowd_share     = 0.2; ///< of the excess beyond that, removed in a sub-step [1]
     PairForce pair_force      = PairForce::balanced;
+    Coupling  coupling        = Coupling::simultaneous;
 
     double surface_density       = 0.9;  ///< share of n0 [1]
     double one_sided_density     = 0.97; ///< share of n0 [1]

@@ -28,14 +28,16 @@ namespace undine::particles
   }
 
   template <class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   minimum(const Real a, const Real b)
   {
     return b < a ? b : a;
   }
 
   template <class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   maximum(const Real a, const Real b)
   {
     return a < b ? b : a;
@@ -101,29 +103,33 @@ namespace undine::particles
   };
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Vector<dim, Real>
-                     operator+(Vector<dim, Real> a, const Vector<dim, Real> &b)
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  operator+(Vector<dim, Real> a, const Vector<dim, Real> &b)
   {
     return a += b;
   }
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Vector<dim, Real>
-                     operator-(Vector<dim, Real> a, const Vector<dim, Real> &b)
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  operator-(Vector<dim, Real> a, const Vector<dim, Real> &b)
   {
     return a -= b;
   }
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Vector<dim, Real>
-                     operator*(const Real factor, Vector<dim, Real> a)
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  operator*(const Real factor, Vector<dim, Real> a)
   {
     return a *= factor;
   }
 
   /// The scalar product.
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   operator*(const Vector<dim, Real> &a, const Vector<dim, Real> &b)
   {
     Real sum = 0;
@@ -133,7 +139,8 @@ namespace undine::particles
   }
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   norm_square(const Vector<dim, Real> &a)
   {
     return a * a;
