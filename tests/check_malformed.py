@@ -56,7 +56,7 @@ def faults(program, scene):
 def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     failed = 0
-    for name in ("fluid.inc", "solid.inc"):
+    for name in ("fluid.inc", "solid.inc", "particles.inc"):
         result = call(program, [str(folder / name), "--validate"])
         if result.returncode != 0:
             failed += 1

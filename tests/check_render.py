@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""contrib/render makes pictures of bodies, of a fluid, of an obstacle, of bodies in a fluid and of two
-runs side by side that are not just background.
+"""contrib/render makes pictures of bodies, of a fluid, of an obstacle, of bodies in a fluid, of particles
+and of two runs side by side that are not just background.
 
 usage: check_render.py RENDER PROGRAM SCENES      leaves with 77 (skipped) where VTK is missing
 """
@@ -66,7 +66,8 @@ def main():
         print("skipped: the Debian packages python3-vtk9 and xvfb are not installed")
         sys.exit(77)
     for name, options in (("cook_membrane", ["--field", "von_Mises_stress"]), ("plume", []),
-                          ("obstacle_flow", ["--field", "velocity"]), ("jet_two_sheets", [])):
+                          ("obstacle_flow", ["--field", "velocity"]), ("jet_two_sheets", []),
+                          ("floating_block", ["--field", "pressure"]), ("elastic_sphere", [])):
         with tempfile.TemporaryDirectory() as folder:
             scene_tools.run(program, [f"{scenes}/{name}.prm", "--output", folder,
                                       "--set", "Time/Maximum steps=2"])

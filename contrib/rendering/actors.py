@@ -57,6 +57,39 @@ def plain_actor(filter_, colour):
     return actor
 
 
+def particle_actor(part, field, transfer):
+    """Balls, in the plane discs, as wide as particles are apart."""
+    if part.is_flat():
+        shape = vtk.vtkRegularPolygonSource()
+        shape.SetNumberOfSides(12)
+        shape.SetRadius(part.diameter / 2)
+    else:
+        shape = vtk.vtkSphereSource()
+        shape.SetThetaResolution(10)
+        shape.SetPhiResolution(8)
+        shape.SetRadius(part.diameter / 2)
+    mapper = vtk.vtkGlyph3DMapper()
+    mapper.SetInputData(part.data)
+    mapper.SetSourceConnection(shape.GetOutputPort())
+    mapper.SetScaling(False)
+    mapper.SetOrient(False)
+    mapper.SetScalarVisibility(bool(field))
+    if field:
+        mapper.SetScalarModeToUsePointFieldData()
+        mapper.SelectColorArray(field)
+        if part.data.GetPointData().GetArray(field).GetNumberOfComponents() > 1:
+            transfer.SetVectorModeToMagnitude()
+        mapper.SetLookupTable(transfer)
+        mapper.UseLookupTableScalarRangeOn()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*GREY)
+    actor.GetProperty().SetLighting(not part.is_flat())
+    actor.GetProperty().SetAmbient(0.35)
+    actor.GetProperty().SetDiffuse(0.7)
+    return actor
+
+
 def edge_actor(data, flat):
     """The outline of bodies: in 2D their rim, in 3D their sharp edges."""
     skin = vtk.vtkGeometryFilter()
@@ -149,8 +182,21 @@ def middle_slice(data):
     return cut.GetOutput()
 
 
+def add_particles(renderer, part, extent, options):
+    """The same for particles."""
+    field = part.colour_field(options.field)
+    transfer = None
+    if field:
+        limits = extent.range_of(part, field, options)
+        transfer = transfer_function(colour_table(field, part.is_bodies, limits), limits)
+    renderer.AddActor(particle_actor(part, field, transfer))
+    return field and (part.is_bodies, field, transfer)
+
+
 def add_part(renderer, part, extent, options):
     """Draw a part. Returns what the colours mean, (is_bodies, field, transfer), or None."""
+    if part.is_particles:
+        return add_particles(renderer, part, extent, options)
     if part.is_obstacles:
         renderer.AddActor(obstacle_actor(part.data, extent.corners(), part.is_flat()))
         return None

@@ -30,18 +30,22 @@ def name_of(file):
     return file.stem.rsplit("_", 1)[0]
 
 
+def selected(data, field, low, high):
+    """The cells all of whose points have a value of `field` in between."""
+    threshold = vtk.vtkThreshold()
+    threshold.SetInputData(data)
+    threshold.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_POINTS, field)
+    threshold.SetLowerThreshold(low)
+    threshold.SetUpperThreshold(high)
+    threshold.Update()
+    return threshold.GetOutput()
+
+
 def blended(data):
     """A fluid among bodies, to be drawn as one continuous field. A cell that a body divides is there
     once for each of its parts; its corners get what the cells around say that are fluid all over,
     where there are none the mean by the share of fluid. Cells in bodies are left out."""
-    threshold = vtk.vtkThreshold()
-    threshold.SetInputData(data)
-    threshold.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_POINTS,
-                                     "fluid_fraction")
-    threshold.SetLowerThreshold(1e-12)
-    threshold.SetUpperThreshold(2)
-    threshold.Update()
-    data = threshold.GetOutput()
+    data = selected(data, "fluid_fraction", 1e-12, 2)
     if data.GetNumberOfPoints() == 0:
         return data
     points = vtk_to_numpy(data.GetPoints().GetData())
@@ -60,6 +64,8 @@ def blended(data):
 
 class Part:
     """Bodies, obstacles or fluid at one time: a data set with point data."""
+
+    is_particles = False
 
     READERS = {".vtu": "vtkXMLUnstructuredGridReader", ".pvtu": "vtkXMLPUnstructuredGridReader",
                ".vti": "vtkXMLImageDataReader", ".pvti": "vtkXMLPImageDataReader",
@@ -122,6 +128,36 @@ class Part:
         return self.data.GetPointData().GetArray(field).GetRange(-1)
 
 
+class ParticlePart(Part):
+    """The particles of a fluid, of bodies or of walls at one time, where they are."""
+
+    is_particles = True
+    KINDS = {"fluid": (0, 0), "bodies": (1, 1), "walls": (2, 3)}
+
+    def __init__(self, data, name, diameter):
+        self.data = selected(data, "kind", *self.KINDS[name])
+        point_data = self.data.GetPointData()
+        self.fields = [point_data.GetArrayName(i) for i in range(point_data.GetNumberOfArrays())]
+        self.is_bodies = name == "bodies"
+        self.is_obstacles = name == "walls"
+        self.diameter = diameter
+
+    def colour_field(self, wanted):
+        if self.is_obstacles:
+            return None
+        return wanted if wanted in self.fields else "velocity"
+
+    def warped(self, factor):
+        return self.data
+
+
+def particle_parts(file, diameter):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    return [ParticlePart(reader.GetOutput(), name, diameter) for name in ParticlePart.KINDS]
+
+
 class Run:
     """The folder of a run: its times of output, and what it says of itself."""
 
@@ -168,8 +204,13 @@ class Run:
     def parts(self, time):
         """The parts at one of its times that exist, are not empty, and are drawn: obstacles are, but
         not the pieces into which the grid cuts all surfaces."""
-        parts = [Part(file, self.moved) for file in self.files[time]
-                 if file.is_file() and name_of(file) != "surface"]
+        parts = []
+        for file in self.files[time]:
+            if file.is_file() and name_of(file) == "particles":
+                spacing = float(self.parameters.get("Particles", {}).get("Spacing", 0))
+                parts += particle_parts(file, spacing)
+            elif file.is_file() and name_of(file) != "surface":
+                parts.append(Part(file, self.moved))
         return [part for part in parts if not part.is_empty()]
 
 

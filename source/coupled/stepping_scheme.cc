@@ -5,25 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace undine
 {
-  namespace
-  {
-    /// Throws SolveError naming the first quantity that is no finite number.
-    void
-    assert_finite(const Columns &columns)
-    {
-      for (const auto &column : columns)
-        if (!std::isfinite(column.value))
-          throw SolveError("'" + column.name +
-                           "' is not a finite number. Check the expressions of the scene at this "
-                           "time, or try a smaller Time/Step.");
-    }
-  } // namespace
-
-
   template <int dim>
   void
   SteppingScheme<dim>::add_options(const Options &options)

@@ -140,6 +140,8 @@ namespace undine
         log.print("warning: {}", warning);
     if (scene.models.fluid)
       log.print("fluid: {} cells", scene.models.fluid->grid().n_cells());
+    if (scene.models.particles)
+      log.print("particles: {}", scene.models.particles->counts());
   }
 
 

@@ -54,6 +54,14 @@ namespace undine
 
 
   template <int dim>
+  bool
+  Effect<dim>::affect_particles(particles::Setup<dim> &) const
+  {
+    return false;
+  }
+
+
+  template <int dim>
   Columns
   Effect<dim>::columns(const FluidModel<dim> &, const FluidState<dim> &, double) const
   {

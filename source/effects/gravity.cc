@@ -7,7 +7,7 @@ namespace undine
 {
   /// Uniform gravity g. The fluid's pressure is the reduced one, p - rho g.x, in which the weight
   /// of a fluid of constant density is contained: nothing is added to its velocity, and fluid at
-  /// rest stays at rest exactly. Bodies feel their weight.
+  /// rest stays at rest exactly. Bodies and particles feel their weight.
   template <int dim>
   class Gravity : public Effect<dim>
   {
@@ -22,13 +22,21 @@ namespace undine
     std::string
     summary() const override
     {
-      return "(" + write_value(acceleration) + ") m/s^2, in the fluid as reduced pressure";
+      return "(" + write_value(acceleration) + ") m/s^2; in a fluid on a grid as reduced pressure";
     }
 
     void
     affect(SolidEnvironment<dim> &environment) const override
     {
       environment.gravity += acceleration;
+    }
+
+    bool
+    affect_particles(particles::Setup<dim> &setup) const override
+    {
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        setup.gravity[axis] += acceleration[axis];
+      return true;
     }
 
   private:

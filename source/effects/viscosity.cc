@@ -27,7 +27,7 @@ namespace undine
     void
     check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
     {
-      if (!around.fluid)
+      if (!around.fluid && !around.has_fluid_particles)
         throw options.error("",
                             "viscosity acts on a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
@@ -40,7 +40,14 @@ namespace undine
     std::string
     summary() const override
     {
-      return fmt::format("{:.4g} Pa s, implicit", dynamic_viscosity);
+      return fmt::format("{:.4g} Pa s, implicit on a grid", dynamic_viscosity);
+    }
+
+    bool
+    affect_particles(particles::Setup<dim> &setup) const override
+    {
+      setup.fluid_viscosity = dynamic_viscosity / setup.fluid_density;
+      return true;
     }
 
     void

@@ -1,55 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/disjoint_sets.h>
-#include <undine/interface/face_facets.h>
 #include <undine/interface/obstacles.h>
-#include <undine/solid/body_shape.h>
-
-#include <deal.II/base/geometry_info.h>
-#include <deal.II/grid/manifold.h>
-#include <deal.II/grid/tria.h>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <undine/interface/shape_boundary.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
 
 namespace undine
 {
   namespace
   {
-    constexpr unsigned int refinements_of_curved_shapes = 4;
-
-
     /// What a scene says about one obstacle.
     template <int dim>
     struct Obstacle
     {
       Obstacle(const std::string &name, const Options &options)
-        : name(name)
-        , options(options)
-        , shape(options.choose<BodyShape<dim>>("Shape", "box", "The shape at rest."))
-        , has_map(options.given("Map"))
-        , has_refinements(options.given("Refinements"))
+        : description(name, options)
       {
-        options.add("Map",
-                    map,
-                    "m",
-                    Allowed::anything(),
-                    "Where each vertex of the refined shape is at rest, as a function of where the "
-                    "shape has it; not given: there.");
-        if (has_map && map.names_time())
-          throw options.error("Map",
-                              "depends on the time t, but says where the obstacle rests",
-                              "Try: 'Displacement' for what moves.");
-        options.add("Refinements",
-                    refinements,
-                    "1",
-                    Allowed::between(0, 12),
-                    "How often each facet of the surface is split in two along every direction; "
-                    "not given: 4 times if the shape is curved or has a map, else not at all.");
         options.add("Displacement",
                     displacement,
                     "m",
@@ -57,13 +23,8 @@ namespace undine
                     "At time t, of the point that rests at x: a prescribed motion.");
       }
 
-      std::string                     name;
-      Options                         options;
-      std::unique_ptr<BodyShape<dim>> shape;
-      Expression<dim, dim>            map;
-      bool                            has_map, has_refinements;
-      unsigned int                    refinements = 0;
-      Expression<dim, dim>            displacement;
+      ShapeDescription<dim> description;
+      Expression<dim, dim>  displacement;
     };
 
 
@@ -75,158 +36,6 @@ namespace undine
       std::vector<Obstacle<dim>> result;
       for (const auto &name : section.named_sections("pillar"))
         result.emplace_back(name, section.section(name));
-      return result;
-    }
-
-
-    template <int dim>
-    bool
-    is_curved(const dealii::Triangulation<dim> &mesh)
-    {
-      for (const auto &cell : mesh.active_cell_iterators())
-        for (const unsigned int face : cell->face_indices())
-          if (cell->at_boundary(face) && dynamic_cast<const dealii::FlatManifold<dim> *>(
-                                           &cell->face(face)->get_manifold()) == nullptr)
-            return true;
-      return false;
-    }
-
-
-    /// Split all faces of the boundary; cells inside only as far as they must follow.
-    template <int dim>
-    void
-    refine_boundary(dealii::Triangulation<dim> &mesh)
-    {
-      for (const auto &cell : mesh.active_cell_iterators())
-        if (cell->at_boundary())
-          cell->set_refine_flag();
-      mesh.execute_coarsening_and_refinement();
-    }
-
-
-    /// The boundary of one obstacle.
-    template <int dim>
-    struct Boundary
-    {
-      std::vector<dealii::Point<dim>>           nodes;
-      std::vector<typename Surface<dim>::Facet> facets;
-    };
-
-
-    template <int dim>
-    Boundary<dim>
-    collect_boundary(const dealii::Triangulation<dim> &mesh)
-    {
-      const auto                           facets_of_face = face_facets<dim>(1);
-      std::map<unsigned int, unsigned int> numbers; // by vertex
-      Boundary<dim>                        result;
-      for (const auto &cell : mesh.active_cell_iterators())
-        for (const unsigned int face : cell->face_indices())
-          if (cell->at_boundary(face))
-            for (auto facet : facets_of_face[face])
-              {
-                for (auto &corner : facet)
-                  {
-                    const auto found =
-                      numbers.emplace(cell->vertex_index(corner), result.nodes.size());
-                    if (found.second)
-                      result.nodes.push_back(cell->vertex(corner));
-                    corner = found.first->second;
-                  }
-                result.facets.push_back(facet);
-              }
-      return result;
-    }
-
-
-    /// Which cells may be why a mesh encloses no volume.
-    template <int dim>
-    std::string
-    wrong_cells(const dealii::Triangulation<dim> &mesh)
-    {
-      std::set<std::array<double, dim>> centres;
-      for (const auto &cell : mesh.cell_iterators_on_level(0))
-        {
-          std::array<double, dim> centre;
-          for (unsigned int d = 0; d < dim; ++d)
-            centre[d] = cell->center()[d];
-          const auto place = fmt::format("({:.4g})", fmt::join(centre, ", "));
-          if (!centres.insert(centre).second)
-            return ": two cells lie on each other at " + place;
-          dealii::Point<dim>     vertices[1 << dim];
-          dealii::Tensor<0, dim> volumes[1 << dim];
-          for (unsigned int v = 0; v < (1u << dim); ++v)
-            vertices[v] = cell->vertex(v);
-          dealii::GeometryInfo<dim>::alternating_form_at_vertices(vertices, volumes);
-          if (!(*std::min_element(std::begin(volumes), std::end(volumes)) > 0))
-            return ": the cell at " + place + " is flat, inside out or crosses itself";
-        }
-      return "";
-    }
-
-
-    template <int dim>
-    InputError
-    no_volume(const Obstacle<dim> &obstacle, const dealii::Triangulation<dim> &mesh)
-    {
-      const std::string what    = "makes an obstacle that is inside out or has no volume";
-      const auto       &options = obstacle.options;
-      if (obstacle.has_map)
-        return options.error(
-          "Map", what, "Try: a map that is one-to-one and keeps the orientation.");
-      if (!options.given("File"))
-        return options.error("Shape", what, "Try: larger lengths.");
-      std::string file;
-      options.add("File", file, "", Allowed::anything(), "Mesh.");
-      return options.error("File",
-                           "'" + file + "' " + what + wrong_cells(mesh),
-                           "Try: correct the mesh; cells share vertices with their neighbours "
-                           "alone, numbered around them without crossing.");
-    }
-
-
-    /// Take each node to where the map has it.
-    template <int dim>
-    void
-    apply_map(std::vector<dealii::Point<dim>> &nodes, const Obstacle<dim> &obstacle)
-    {
-      constexpr double farthest = 1e100; // of which differences and products stay finite
-      for (auto &node : nodes)
-        {
-          const dealii::Point<dim> image(obstacle.map.vector(node, 0.));
-          for (unsigned int d = 0; d < dim; ++d)
-            if (!(std::abs(image[d]) < farthest))
-              throw obstacle.options.error(
-                "Map",
-                fmt::format("takes ({:.4g}) to a place that is not a number, or too far away",
-                            fmt::join(node.begin_raw(), node.begin_raw() + dim, ", ")),
-                "Try: a map that is finite on the whole shape.");
-          node = image;
-        }
-    }
-
-
-    template <int dim>
-    Boundary<dim>
-    make_boundary(const Obstacle<dim> &obstacle)
-    {
-      dealii::Triangulation<dim> mesh;
-      obstacle.shape->make_mesh(mesh);
-      unsigned int refinements = obstacle.refinements;
-      if (!obstacle.has_refinements && (obstacle.has_map || is_curved(mesh)))
-        refinements = refinements_of_curved_shapes;
-      for (unsigned int level = 0; level < refinements; ++level)
-        refine_boundary(mesh);
-      auto result = collect_boundary(mesh);
-      if (obstacle.has_map)
-        apply_map(result.nodes, obstacle);
-
-      const Surface<dim> surface(result.nodes.size(),
-                                 result.facets,
-                                 std::vector<unsigned int>(result.facets.size(), 0),
-                                 {obstacle.name});
-      if (!(body_volumes(surface, result.nodes)[0] > 0))
-        throw no_volume(obstacle, mesh);
       return result;
     }
 
@@ -326,7 +135,7 @@ namespace undine
     std::vector<std::string>                  names;
     for (const auto &obstacle : read_obstacles<dim>(scene))
       {
-        const auto         boundary = make_boundary(obstacle);
+        const auto         boundary = make_shape_boundary(obstacle.description);
         const unsigned int first    = rest_positions.size();
         for (auto facet : boundary.facets)
           {
@@ -338,7 +147,7 @@ namespace undine
         rest_positions.insert(rest_positions.end(), boundary.nodes.begin(), boundary.nodes.end());
         obstacle_of_node.resize(rest_positions.size(), names.size());
         displacements.push_back(obstacle.displacement);
-        names.push_back(obstacle.name);
+        names.push_back(obstacle.description.name);
       }
     all_facets =
       std::make_unique<const Surface<dim>>(rest_positions.size(), facets, obstacle_of_facet, names);

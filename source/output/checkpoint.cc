@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/checkpoint.h>
 #include <undine/output/files.h>
+#include <undine/output/particle_arrays.h>
 #include <undine/output/state_arrays.h>
 
 #include <algorithm>
@@ -15,14 +16,6 @@ namespace undine
     namespace fs = std::filesystem;
 
     constexpr std::uint64_t format_version = 1;
-
-
-    template <int dim>
-    MPI_Comm
-    communicator_of(const Models<dim> &models)
-    {
-      return models.solid ? models.solid->communicator() : models.fluid->grid().communicator();
-    }
 
 
     std::array<fs::path, 2>
@@ -160,7 +153,7 @@ namespace undine
     State<dim>
     read_slot(State<dim> state, const Models<dim> &models, const fs::path &slot)
     {
-      const MPI_Comm   communicator = communicator_of(models);
+      const MPI_Comm   communicator = models.communicator();
       const HDF5Reader file(slot, communicator);
       if (file.attribute<std::uint64_t>("dimension") != dim)
         throw FileError("'" + slot.string() + "' is not of " + std::to_string(dim) +
@@ -168,6 +161,8 @@ namespace undine
       state.clock.step = file.attribute<std::uint64_t>("step");
       state.clock.time = file.attribute<double>("time");
 
+      if (models.particles)
+        resize_guesses(state.particles, file);
       auto surface = pack_surface(models, state);
       read_arrays(surface, file, slot, communicator);
       unpack_surface(state, models, surface);
@@ -208,7 +203,7 @@ namespace undine
   void
   write_checkpoint(const fs::path &directory, const Models<dim> &models, const State<dim> &state)
   {
-    const MPI_Comm communicator = communicator_of(models);
+    const MPI_Comm communicator = models.communicator();
     auto           arrays       = pack_surface(models, state);
     for (auto &array : pack(models, state))
       arrays.push_back(std::move(array));
@@ -226,7 +221,7 @@ namespace undine
   ResumedFrom
   read_checkpoint(const fs::path &directory, const Models<dim> &models, State<dim> &state)
   {
-    const MPI_Comm communicator = communicator_of(models);
+    const MPI_Comm communicator = models.communicator();
     ResumedFrom    result;
     for (const unsigned int s : candidates(result.skipped, directory, communicator))
       try

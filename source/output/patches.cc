@@ -27,6 +27,8 @@ namespace undine
   }
 
 
+  template struct Patches<0, 2>;
+  template struct Patches<0, 3>;
   template struct Patches<1, 2>;
   template struct Patches<2, 3>;
   template struct Patches<2>;

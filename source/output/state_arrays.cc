@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/fluid_geometry.h>
+#include <undine/output/particle_arrays.h>
 #include <undine/output/state_arrays.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -252,6 +253,8 @@ namespace undine
   std::vector<StateArray>
   pack(const Models<dim> &models, const State<dim> &state)
   {
+    if (models.particles)
+      return pack_particles(state.particles);
     std::vector<StateArray> arrays;
     if (models.solid)
       {
@@ -278,6 +281,8 @@ namespace undine
   void
   unpack(State<dim> &state, const Models<dim> &models, const std::vector<StateArray> &arrays)
   {
+    if (models.particles)
+      return unpack_particles(state.particles, arrays);
     auto array = arrays.begin();
     if (models.solid)
       {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/files.h>
 #include <undine/output/output.h>
+#include <undine/output/particle_patches.h>
 #include <undine/output/schedule.h>
 #include <undine/output/solution_parts.h>
 #include <undine/output/time_records.h>
@@ -19,7 +20,7 @@ namespace undine
 
 
   /// Pictures for ParaView: `solution.pvd` lists, for every output time, one compressed .vtu file
-  /// for each part: bodies, fluid, and the surfaces in the fluid.
+  /// for each part: bodies, fluid, and the surfaces in the fluid; or particles.
   template <int dim>
   class Vtu : public Output<dim>
   {
@@ -70,6 +71,8 @@ namespace undine
         add(part, state.clock);
       for (const auto &part : surface_parts(context->models, state))
         add(part, state.clock);
+      if (context->models.particles)
+        add(particle_patches(*context->models.particles, state.particles), state.clock);
       records->add(state.clock.time, lines);
     }
 

@@ -33,9 +33,9 @@ namespace undine
 
 
     /// Fields in the order in which DataOutFilter has them, with their numbers of components.
-    template <int dim>
+    template <int dim, int spacedim>
     std::vector<std::pair<std::string, unsigned int>>
-    fields(const Patches<dim> &patches)
+    fields(const Patches<dim, spacedim> &patches)
     {
       std::vector<std::pair<std::string, unsigned int>> result;
       for (unsigned int c = 0; c < patches.components.size(); ++c)
@@ -72,15 +72,15 @@ namespace undine
   } // namespace
 
 
-  template <int dim>
+  template <int dim, int spacedim>
   dealii::XDMFEntry
-  write_hdf5(const MPI_Comm               communicator,
-             const std::filesystem::path &path,
-             const std::string           &shown_as,
-             const Patches<dim>          &patches,
-             const double                 time)
+  write_hdf5(const MPI_Comm                communicator,
+             const std::filesystem::path  &path,
+             const std::string            &shown_as,
+             const Patches<dim, spacedim> &patches,
+             const double                  time)
   {
-    const bool merge = patches.continuity == Patches<dim>::Continuity::continuous;
+    const bool merge = patches.continuity == Patches<dim, spacedim>::Continuity::continuous;
     dealii::DataOutBase::DataOutFilter filter(
       dealii::DataOutBase::DataOutFilterFlags(/*filter_duplicate_vertices*/ merge,
                                               /*xdmf_hdf5_output*/ true));
@@ -99,9 +99,10 @@ namespace undine
       }
 
     HDF5Writer file(path, communicator);
-    file.add("nodes", node_rows.of_columns(dim), nodes);
+    file.add("nodes", node_rows.of_columns(spacedim), nodes);
     file.add("cells", cell_rows.of_columns(dealii::GeometryInfo<dim>::vertices_per_cell), cells);
-    dealii::XDMFEntry entry(shown_as, time, node_rows.total, cell_rows.total, dim);
+    dealii::XDMFEntry entry(
+      shown_as, shown_as, time, node_rows.total, cell_rows.total, dim, spacedim);
     for (const auto &[name, n_components] : fields(patches))
       {
         file.add(name, node_rows.of_columns(n_components), field_data(filter, name));
@@ -112,6 +113,12 @@ namespace undine
   }
 
 
+  template dealii::XDMFEntry
+  write_hdf5(
+    MPI_Comm, const std::filesystem::path &, const std::string &, const Patches<0, 2> &, double);
+  template dealii::XDMFEntry
+  write_hdf5(
+    MPI_Comm, const std::filesystem::path &, const std::string &, const Patches<0, 3> &, double);
   template dealii::XDMFEntry
   write_hdf5(
     MPI_Comm, const std::filesystem::path &, const std::string &, const Patches<2> &, double);

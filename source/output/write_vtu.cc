@@ -34,6 +34,16 @@ namespace undine
   template void
   write_vtu(MPI_Comm,
             const std::filesystem::path &,
+            const Patches<0, 2> &,
+            const dealii::DataOutBase::VtkFlags &);
+  template void
+  write_vtu(MPI_Comm,
+            const std::filesystem::path &,
+            const Patches<0, 3> &,
+            const dealii::DataOutBase::VtkFlags &);
+  template void
+  write_vtu(MPI_Comm,
+            const std::filesystem::path &,
             const Patches<1, 2> &,
             const dealii::DataOutBase::VtkFlags &);
   template void

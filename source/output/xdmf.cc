@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/files.h>
 #include <undine/output/output.h>
+#include <undine/output/particle_patches.h>
 #include <undine/output/schedule.h>
 #include <undine/output/solution_parts.h>
 #include <undine/output/time_records.h>
@@ -43,7 +44,7 @@ namespace undine
 
 
   /// The solution as HDF5 arrays, for own evaluations and, by way of `solution.xdmf`, for ParaView:
-  /// one file of the bodies and one of the fluid for every output time.
+  /// one file of the bodies and one of the fluid, or one of the particles, for every output time.
   template <int dim>
   class Xdmf : public Output<dim>
   {
@@ -74,20 +75,26 @@ namespace undine
       const auto  timed = context->timing.section("xdmf");
       std::string grids;
       for (const auto &part : solution_parts(context->models, state))
-        {
-          const auto file  = solution_file(part.name, state.clock, "h5");
-          const auto entry = write_hdf5(context->communicator,
-                                        context->directory / file,
-                                        file.string(),
-                                        part,
-                                        state.clock.time);
-          grids += named(entry.get_xdmf_content(1, dealii::ReferenceCells::get_hypercube<dim>()),
-                         part.name);
-        }
+        grids += write_part(part, state.clock);
+      if (context->models.particles)
+        grids +=
+          write_part(particle_patches(*context->models.particles, state.particles), state.clock);
       records->add(state.clock.time, at_time(state.clock.time, grids));
     }
 
   private:
+    /// Returns its description for `solution.xdmf`.
+    template <int n, int spacedim>
+    std::string
+    write_part(const Patches<n, spacedim> &part, const Clock &clock) const
+    {
+      const auto file  = solution_file(part.name, clock, "h5");
+      const auto entry = write_hdf5(
+        context->communicator, context->directory / file, file.string(), part, clock.time);
+      return named(entry.get_xdmf_content(1, dealii::ReferenceCells::get_hypercube<n>()),
+                   part.name);
+    }
+
     std::unique_ptr<const OutputContext<dim>> context;
     std::unique_ptr<TimeRecords>              records;
   };

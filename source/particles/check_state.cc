@@ -56,7 +56,7 @@ namespace undine::particles
       const bool is_body = static_cast<std::size_t>(state.identities[i]) < setup.reference.size();
       if ((tag.kind() == Kind::solid) != is_body ||
           (is_body && tag.material() != setup.body_of[state.identities[i]] + 1) ||
-          (!is_body && tag.material() != 0))
+          (!is_body && tag.material() != 0 && tag.material() != inflow_material))
         throw InputError(name_of(state, i) + " does not belong to the body that its tag says.");
     }
 

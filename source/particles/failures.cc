@@ -29,6 +29,8 @@ namespace undine::particles
       text << "particles crowd: one has more neighbours than the list can hold. ";
     if (has(control, Failure::matrix_indices))
       text << "neighbours are too far apart in memory. ";
+    if (has(control, Failure::no_reserve))
+      text << "more particles flow in than there is room for. ";
     text << "The fastest particle moved at " << control.fastest
          << " m/s. Try a smaller 'Speed share', smaller particles, a more viscous fluid or a "
             "stiffer body.";

@@ -15,21 +15,20 @@ namespace undine::particles
     void
     set_materials(Constants<dim, Real> &constants, const Setup<dim> &setup)
     {
-      const std::size_t most = Constants<dim, Real>::max_materials - 1;
+      const std::size_t most = inflow_material - 1;
       if (setup.bodies.size() > most)
         throw InputError("the scene has " + std::to_string(setup.bodies.size()) +
                          " elastic bodies; at most " + std::to_string(most) + " are possible.");
       constants.densities[0] = static_cast<Real>(setup.fluid_density);
       constants.compressibilities[0] =
         setup.fluid_bulk_modulus > 0 ? static_cast<Real>(1 / setup.fluid_bulk_modulus) : Real(0);
+      constants.densities[inflow_material]         = constants.densities[0];
+      constants.compressibilities[inflow_material] = constants.compressibilities[0];
       for (std::size_t b = 0; b < setup.bodies.size(); ++b)
         {
-          const auto  &body = setup.bodies[b];
-          const double nu   = body.poissons_ratio;
-          const double bulk = // lambda + 2 mu / dim
-            body.youngs_modulus * (nu / ((1 + nu) * (1 - 2 * nu)) + 1 / (dim * (1 + nu)));
+          const auto &body                   = setup.bodies[b];
           constants.densities[b + 1]         = static_cast<Real>(body.density);
-          constants.compressibilities[b + 1] = static_cast<Real>(1 / bulk);
+          constants.compressibilities[b + 1] = Real(0);
         }
     }
   } // namespace
@@ -51,14 +50,20 @@ namespace undine::particles
     constants.number_density = static_cast<Real>(lattice.number_density);
     constants.spread         = static_cast<Real>(lattice.spread * l0 * l0);
     for (int axis = 0; axis < dim; ++axis)
-      constants.gravity[axis] = static_cast<Real>(setup.gravity[axis]);
-    constants.viscosity = static_cast<Real>(setup.fluid_viscosity);
+      {
+        constants.force.gravity[axis] = static_cast<Real>(setup.gravity[axis]);
+        constants.force.centre[axis]  = static_cast<Real>(setup.centre[axis]);
+      }
+    constants.force.attraction = static_cast<Real>(setup.attraction);
+    constants.viscosity        = static_cast<Real>(setup.fluid_viscosity);
     set_materials(constants, setup);
     constants.source        = numerics.source;
     constants.density_share = static_cast<Real>(numerics.density_share);
     const double gravity    = std::sqrt(norm_square(setup.gravity));
     constants.relaxation_time =
       gravity > 0 ? static_cast<Real>(numerics.relaxation_time * std::sqrt(l0 / gravity)) : Real(0);
+    constants.crowd_excess          = static_cast<Real>(numerics.crowd_excess);
+    constants.crowd_share           = static_cast<Real>(numerics.crowd_share);
     constants.surface_density       = static_cast<Real>(numerics.surface_density);
     constants.one_sided_density     = static_cast<Real>(numerics.one_sided_density);
     constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);
@@ -66,9 +71,37 @@ namespace undine::particles
     constants.collision_distance    = static_cast<Real>(numerics.collision_distance * l0);
     constants.restitution           = static_cast<Real>(numerics.restitution);
     constants.pair_force            = numerics.pair_force;
+    constants.coupling              = numerics.coupling;
     constants.shifting              = static_cast<Real>(numerics.shifting);
     constants.shifting_limit        = static_cast<Real>(numerics.shifting_limit * l0);
     return constants;
+  }
+
+
+  template <int dim, class Real>
+  OpenBoundaries<dim, Real>
+  make_open_boundaries(const Setup<dim> &setup)
+  {
+    OpenBoundaries<dim, Real> open{};
+    if (setup.open_sides.size() > OpenBoundaries<dim, Real>::most)
+      throw InputError("the scene has " + std::to_string(setup.open_sides.size()) +
+                       " inflows and outflows; at most " +
+                       std::to_string(OpenBoundaries<dim, Real>::most) + " are possible.");
+    for (const auto &side : setup.open_sides)
+      open.boundaries[open.n++] = {side.axis,
+                                   static_cast<Real>(side.plane),
+                                   static_cast<Real>(side.inward),
+                                   static_cast<Real>(side.depth),
+                                   side.is_inflow};
+    return open;
+  }
+
+
+  double
+  bulk_modulus(const BodySetup &body, const int dim)
+  {
+    const double nu = body.poissons_ratio;
+    return body.youngs_modulus * (nu / ((1 + nu) * (1 - 2 * nu)) + 1 / (dim * (1 + nu)));
   }
 
 
@@ -87,12 +120,21 @@ namespace undine::particles
       bounds.waves = numerics.wave_share * l0 / std::sqrt(gravity * setup.depth);
     if (setup.fluid_viscosity > 0)
       bounds.viscosity = spread / (4 * dim * setup.fluid_viscosity); // half of what is stable
-    bounds.speed_share = numerics.speed_share * l0;
-    bounds.elastic     = elastic;
+    bounds.speed_share        = numerics.speed_share * l0;
+    bounds.elastic            = elastic;
+    bounds.most_elastic_steps = numerics.most_elastic_steps;
     return bounds;
   }
 
 
+  template OpenBoundaries<2, float>
+  make_open_boundaries(const Setup<2> &);
+  template OpenBoundaries<2, double>
+  make_open_boundaries(const Setup<2> &);
+  template OpenBoundaries<3, float>
+  make_open_boundaries(const Setup<3> &);
+  template OpenBoundaries<3, double>
+  make_open_boundaries(const Setup<3> &);
   template Constants<2, float>
   make_constants(const Setup<2> &);
   template Constants<2, double>

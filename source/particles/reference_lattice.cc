@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/particles/lattice.h>
+#include <undine/particles/make_constants.h>
 #include <undine/particles/reference_lattice.h>
 
 #include <algorithm>
@@ -22,6 +23,7 @@ namespace undine::particles
               static_cast<Real>(body.density),
               static_cast<Real>(body.hourglass),
               static_cast<Real>(body.damping),
+              static_cast<Real>(body.bulk_damping),
               static_cast<Real>(contact * std::pow(spacing, dim - 2))};
     }
 
@@ -86,6 +88,7 @@ namespace undine::particles
     inside.assign(n, 0);
     indices.assign(list_slot((n + 31) / 32 * 32, 0, capacity), 0);
     inverse_moments.resize(n);
+    inverse_means.resize(n);
     for (int i = 0; i < n; ++i)
       {
         auto   moment = Matrix<dim, double>::diagonal(0);
@@ -110,7 +113,11 @@ namespace undine::particles
                 moment.add_outer_product(weight, X, X);
               }
           }
-        inside[i]          = sum > 0.97 * full ? 1 : 0;
+        inside[i]    = sum > 0.97 * full ? 1 : 0;
+        double trace = 0;
+        for (int axis = 0; axis < dim; ++axis)
+          trace += moment[axis][axis];
+        inverse_means[i]   = static_cast<Real>(trace > 0 ? dim / trace : 0.);
         const auto inverse = inverse_of_moment(moment);
         for (int a = 0; a < dim; ++a)
           for (int b = 0; b < dim; ++b)
@@ -125,8 +132,10 @@ namespace undine::particles
   {
     double fastest = 0;
     for (const auto &material : materials)
-      fastest =
-        std::max(fastest, std::sqrt(double(material.lambda + 2 * material.mu) / material.density));
+      {
+        fastest = std::max(fastest,
+                           std::sqrt(double(material.lambda + 2 * material.mu) / material.density));
+      }
     return fastest > 0 ? share * spacing / fastest : 0.;
   }
 

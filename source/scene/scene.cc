@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/boundary_condition.h>
 #include <undine/fluid/fluid_quantities.h>
+#include <undine/scene/other_schemes.h>
 #include <undine/scene/scene.h>
 
 #include <algorithm>
@@ -73,7 +74,9 @@ namespace undine
                                                       scene.models.solid.get(),
                                                       scene.models.surface != nullptr,
                                                       scene.effect_names,
-                                                      {}};
+                                                      {},
+                                                      scene.models.particles &&
+                                                        scene.models.particles->has_fluid()};
       for (const auto &effect : scene.models.effects)
         for (const auto &scalar : effect->scalars())
           surroundings.scalars.push_back(scalar);
@@ -186,6 +189,48 @@ namespace undine
       read_probes(scene, options);
       return scene;
     }
+
+
+    /// Nothing but particles: their model reads fluid, bodies and obstacles itself.
+    template <int dim>
+    void
+    make_particles(Scene<dim> &scene, const Options &options, const MPI_Comm communicator)
+    {
+      refuse_keys_of_other_schemes(options);
+      scene.models.particles = std::make_unique<const ParticleModel<dim>>(
+        options, NamedEffects<dim>{scene.models.effects, scene.effect_names}, communicator);
+    }
+
+
+    /// A grid for the fluid and elements for the bodies.
+    template <int dim>
+    void
+    make_grid_and_elements(Scene<dim> &scene, const Options &options, const MPI_Comm communicator)
+    {
+      if (options.section("Particles").given())
+        throw options.error("Particles",
+                            "is a section of the scheme 'particle' only",
+                            "Remove it, or set 'Scheme = particle'.");
+      if (options.section("Bodies").given())
+        scene.models.solid = std::make_unique<const SolidModel<dim>>(options, communicator);
+      if (options.section("Fluid").given())
+        scene.models.fluid = std::make_unique<const FluidModel<dim>>(options, communicator);
+      const bool has_obstacles = options.section("Obstacles").given();
+      if (has_obstacles && !scene.models.fluid)
+        throw options.error("Obstacles",
+                            "obstacles stand in a fluid, but the scene has none",
+                            "Try: add a subsection 'Fluid' or remove the obstacles.");
+      if (scene.models.fluid && (scene.models.solid || has_obstacles))
+        {
+          scene.models.surface = std::make_unique<const ImmersedSurface<dim>>(
+            options, scene.models.solid.get(), scene.models.fluid->grid());
+          const auto &fluid = *scene.models.fluid;
+          auto        voids =
+            std::make_unique<const VoidRegions<dim>>(options, fluid.grid(), fluid.boundaries());
+          if (!voids->empty())
+            scene.models.void_regions = std::move(voids);
+        }
+    }
   } // namespace
 
 
@@ -203,29 +248,14 @@ namespace undine
   read_scene(const Options &options, const MPI_Comm communicator)
   {
     auto scene = read_without_models<dim>(options);
-    if (options.section("Bodies").given())
-      scene.models.solid = std::make_unique<const SolidModel<dim>>(options, communicator);
-    if (options.section("Fluid").given())
-      scene.models.fluid = std::make_unique<const FluidModel<dim>>(options, communicator);
-    if (!scene.models.solid && !scene.models.fluid)
+    if (!options.section("Bodies").given() && !options.section("Fluid").given())
       throw options.error("",
                           "the scene has neither a fluid nor a body",
                           "Try: add a subsection 'Fluid' or a subsection 'Bodies'.");
-    const bool has_obstacles = options.section("Obstacles").given();
-    if (has_obstacles && !scene.models.fluid)
-      throw options.error("Obstacles",
-                          "obstacles stand in a fluid, but the scene has none",
-                          "Try: add a subsection 'Fluid' or remove the obstacles.");
-    if (scene.models.fluid && (scene.models.solid || has_obstacles))
-      {
-        scene.models.surface = std::make_unique<const ImmersedSurface<dim>>(
-          options, scene.models.solid.get(), scene.models.fluid->grid());
-        const auto &fluid = *scene.models.fluid;
-        auto        voids =
-          std::make_unique<const VoidRegions<dim>>(options, fluid.grid(), fluid.boundaries());
-        if (!voids->empty())
-          scene.models.void_regions = std::move(voids);
-      }
+    if (scene.scheme->method() == Scheme<dim>::Method::particles)
+      make_particles(scene, options, communicator);
+    else
+      make_grid_and_elements(scene, options, communicator);
     options.assert_all_used();
     check_effects(scene, options);
     if (scene.models.fluid)

@@ -2,6 +2,7 @@
 #ifndef undine_coupled_models_h
 #define undine_coupled_models_h
 
+#include <undine/coupled/particle_model.h>
 #include <undine/effects/effect.h>
 #include <undine/fluid/fluid_model.h>
 #include <undine/interface/immersed_surface.h>
@@ -20,9 +21,21 @@ namespace undine
     std::unique_ptr<const FluidModel<dim>> fluid; ///< nullptr: no fluid
     Effects<dim>                           effects;
 
+    /// Of fluid and bodies, in place of the two models above; nullptr: there are none.
+    std::unique_ptr<const ParticleModel<dim>> particles;
+
     /// Of everything that stands in the fluid; nullptr: nothing does.
     std::unique_ptr<const ImmersedSurface<dim>> surface;
     std::unique_ptr<const VoidRegions<dim>>     void_regions; ///< nullptr: there are none
+
+    /// All ranks that compute the scene.
+    MPI_Comm
+    communicator() const
+    {
+      if (particles)
+        return particles->communicator();
+      return solid ? solid->communicator() : fluid->grid().communicator();
+    }
 
     /// What the effects do to the bodies.
     SolidEnvironment<dim>

@@ -19,6 +19,10 @@ namespace undine
     std::string  note;                 ///< what was unusual; empty if nothing was
     Columns      columns;              ///< energies, forces, fluxes, ... of the new state
   };
+
+  /// Throws SolveError naming the first quantity that is no finite number.
+  void
+  assert_finite(const Columns &columns);
 } // namespace undine
 
 #endif

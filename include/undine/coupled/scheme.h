@@ -20,6 +20,19 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
+    /// What fluid and bodies are made of: which models the scheme works with.
+    enum class Method
+    {
+      grid_and_elements,
+      particles
+    };
+
+    virtual Method
+    method() const
+    {
+      return Method::grid_and_elements;
+    }
+
     /// Bring an empty state to t = 0; the report holds the columns of that state. The references
     /// must outlive the scheme.
     virtual Report

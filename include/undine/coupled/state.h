@@ -4,6 +4,7 @@
 
 #include <undine/base/core/clock.h>
 #include <undine/fluid/fluid_state.h>
+#include <undine/particles/particle_state.h>
 #include <undine/solid/solid_state.h>
 
 #include <deal.II/base/point.h>
@@ -20,6 +21,8 @@ namespace undine
     Clock           clock;
     SolidState      solid;
     FluidState<dim> fluid;
+
+    particles::ParticleState<dim> particles;
 
     /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].
     std::vector<dealii::Point<dim>> surface_positions;

@@ -5,6 +5,7 @@
 #include <undine/base/core/column.h>
 #include <undine/base/options/options.h>
 #include <undine/fluid/fluid_step.h>
+#include <undine/particles/setup.h>
 #include <undine/solid/solid_environment.h>
 
 #include <memory>
@@ -31,6 +32,7 @@ namespace undine
       bool                     has_obstacles; ///< something stands in the fluid
       std::vector<std::string> effects;       ///< names of those that the scene calls for
       std::vector<std::string> scalars;       ///< names of the scalar fields that are carried
+      bool                     has_fluid_particles = false; ///< a fluid, but not on a grid
     };
 
     virtual ~Effect() = default;
@@ -73,6 +75,10 @@ namespace undine
     /// Say what the effect does to the bodies.
     virtual void
     affect(SolidEnvironment<dim> &environment) const;
+
+    /// Say what the effect does to particles. Returns false if they do not know it.
+    virtual bool
+    affect_particles(particles::Setup<dim> &setup) const;
 
     /// What the effect adds to the file `statistics`.
     virtual Columns

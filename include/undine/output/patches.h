@@ -31,7 +31,7 @@ namespace undine
       discontinuous
     };
 
-    std::string                                            name; ///< "bodies", "fluid"
+    std::string                                            name; ///< "bodies", "fluid", ...
     std::vector<dealii::DataOutBase::Patch<dim, spacedim>> patches;
     std::vector<std::string>           components; ///< names, as rows of patch.data
     Ranges                             vectors;    ///< components that form vectors
@@ -59,13 +59,13 @@ namespace undine
   /// and one for every field, vectors padded to three components. Returns the XDMF description of
   /// `path` at `time` [s], of the same content on all ranks; it names the file `shown_as`.
   /// Collective. Throws FileError.
-  template <int dim>
+  template <int dim, int spacedim>
   dealii::XDMFEntry
-  write_hdf5(MPI_Comm                     communicator,
-             const std::filesystem::path &path,
-             const std::string           &shown_as,
-             const Patches<dim>          &patches,
-             double                       time);
+  write_hdf5(MPI_Comm                      communicator,
+             const std::filesystem::path  &path,
+             const std::string            &shown_as,
+             const Patches<dim, spacedim> &patches,
+             double                        time);
 } // namespace undine
 
 #endif

@@ -12,7 +12,8 @@ namespace undine::particles
   /// rho_f lambda n0 / (2 dim): what div(grad P / rho) is multiplied with in the pressure equation
   /// [kg/m^(dim-2)].
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   pressure_scale(const Constants<dim, Real> &constants)
   {
     return constants.densities[0] * constants.spread * constants.number_density / (2 * dim);
@@ -20,7 +21,8 @@ namespace undine::particles
 
   /// The pair's coefficient in the pressure equation, k_ij [1].
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   pressure_coefficient(const Constants<dim, Real> &constants,
                        const Tag                   tag,
                        const Pair<dim, Real>      &pair)
@@ -47,7 +49,8 @@ namespace undine::particles
     Vector<dim, Real>          *gaps;           ///< right-hand side of the potentials
     StepControl                *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       matrix.counts[i] = 0;
@@ -62,7 +65,8 @@ namespace undine::particles
     }
 
   private:
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     fill_row(const int i) const
     {
       const Tag  tag     = neighbours.places[i].tag;
@@ -99,7 +103,8 @@ namespace undine::particles
         }
     }
 
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     air(const int i, const Tag tag) const
     {
       if (neighbourhood.is_covered[i] || tag.kind() == Kind::solid)
@@ -108,7 +113,8 @@ namespace undine::particles
              maximum(Real(0), constants.number_density - neighbourhood.densities[i]);
     }
 
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     compressibility(const Tag tag) const
     {
       const Real dt = static_cast<Real>(control->dt);
@@ -117,9 +123,11 @@ namespace undine::particles
   };
 
 
-  /// The right-hand side of the pressure equation, rho_f lambda n0 / (2 dim) s with
+  /// The right-hand side of the pressure equation, rho_f lambda n0 / (2 dim) s; runs after the
+  /// potentials are known. In the fluid
   ///     s = -div v* / dt + gamma (n* - n0) / (n0 dt^2)  [1/s^2]
-  /// or one of the other sources. Runs after the potentials are known.
+  /// or one of the other sources; none in bodies: pressure takes them along as if they were fluid
+  /// of another density, and elasticity keeps their volume.
   template <int dim, class Real>
   struct MeasureSource
   {
@@ -132,7 +140,8 @@ namespace undine::particles
     Real                    *guess; ///< of the pressures
     const StepControl       *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       right_hand_side[i] = 0;
@@ -141,31 +150,68 @@ namespace undine::particles
         return;
       guess[i]      = motions[i].pressure;
       const Tag tag = neighbours.places[i].tag;
-      if (tag.kind() == Kind::solid)
-        return; // elasticity keeps the bodies' volumes
-      const Real dt    = static_cast<Real>(control->dt);
-      const Real n0    = constants.number_density;
-      const Real error = (neighbourhood.densities[i] - n0) / (n0 * dt * dt);
-      Real       s     = share(dt) * error;
-      if (constants.source == Source::divergence)
-        s -= divergence(i, tag) / dt;
-      right_hand_side[i] = pressure_scale(constants) * s;
+      if (tag.kind() != Kind::solid)
+        right_hand_side[i] =
+          given_pressures(i, tag) +
+          pressure_scale(constants) * fluid_source(i, tag, static_cast<Real>(control->dt));
     }
 
   private:
+    /// What neighbours contribute whose pressure is given, sum k_ij P_j: bodies, in one of the ways
+    /// to couple them.
+    UNDINE_HOST_DEVICE
+    Real
+    given_pressures(const int i, const Tag tag) const
+    {
+      if (constants.coupling == Coupling::simultaneous)
+        return 0;
+      Real sum = 0;
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        if (pair.tag.kind() == Kind::solid)
+          sum += pressure_coefficient(constants, tag, pair) * motions[j].pressure;
+      });
+      return sum;
+    }
+
+    UNDINE_HOST_DEVICE
+    Real
+    fluid_source(const int i, const Tag tag, const Real dt) const
+    {
+      const Real n0    = constants.number_density;
+      const Real error = (neighbourhood.densities[i] - n0) / (n0 * dt * dt);
+      switch (constants.source)
+        {
+          case Source::density:
+            return error;
+          case Source::relaxed:
+            return constants.density_share * error;
+          default:
+            return share(dt) * error + crowding(i) / (dt * dt) - divergence(i, tag) / dt;
+        }
+    }
+
+    /// Where particles crowd, as between a body and a wall, much more of the error is removed at
+    /// once.
+    UNDINE_HOST_DEVICE
+    Real
+    crowding(const int i) const
+    {
+      const Real excess = neighbourhood.densities[i] / constants.number_density - 1;
+      return constants.crowd_share * maximum(Real(0), excess - constants.crowd_excess);
+    }
+
     /// gamma
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     share(const Real dt) const
     {
-      if (constants.source == Source::density)
-        return 1;
-      if (constants.source == Source::divergence && constants.relaxation_time > 0)
-        return minimum(Real(1), dt / constants.relaxation_time);
-      return constants.density_share;
+      return constants.relaxation_time > 0 ? minimum(Real(1), dt / constants.relaxation_time)
+                                           : constants.density_share;
     }
 
     /// By the same faces as the forces of pressures, where faces close.
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     divergence(const int i, const Tag tag) const
     {
       const auto v = motions[i].v;

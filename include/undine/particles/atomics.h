@@ -13,7 +13,8 @@ namespace undine::particles
   /// @{
 
   /// Add to a counter; the value before is any that is free.
-  UNDINE_HOST_DEVICE int
+  UNDINE_HOST_DEVICE
+  int
   atomic_add(int *counter, const int value)
   {
 #ifdef __CUDA_ARCH__
@@ -23,7 +24,8 @@ namespace undine::particles
 #endif
   }
 
-  UNDINE_HOST_DEVICE void
+  UNDINE_HOST_DEVICE
+  void
   atomic_or(unsigned int *flags, const unsigned int value)
   {
 #ifdef __CUDA_ARCH__
@@ -35,7 +37,8 @@ namespace undine::particles
 
   /// Raise `*largest` to `value`. Both stand for numbers that are not negative, by their bits,
   /// whose order is the same; not-a-number is above all.
-  UNDINE_HOST_DEVICE void
+  UNDINE_HOST_DEVICE
+  void
   atomic_maximum(std::uint32_t *largest, const float value)
   {
 #ifdef __CUDA_ARCH__
@@ -50,7 +53,8 @@ namespace undine::particles
 #endif
   }
 
-  UNDINE_HOST_DEVICE float
+  UNDINE_HOST_DEVICE
+  float
   number_of_bits(const std::uint32_t bits)
   {
     float value;

@@ -21,7 +21,8 @@ namespace undine::particles
     int               strides[dim]; ///< of cell numbers along each axis
     int               along;        ///< the axis along which they follow each other
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     n_cells() const
     {
       int product = 1;
@@ -31,8 +32,9 @@ namespace undine::particles
     }
 
     /// The shortest vector to x from y across periodic boundaries [m].
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       difference(const Vector<dim, Real> &x, const Vector<dim, Real> &y) const
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    difference(const Vector<dim, Real> &x, const Vector<dim, Real> &y) const
     {
       Vector<dim, Real> result = x - y;
       for (int axis = 0; axis < dim; ++axis)
@@ -47,8 +49,9 @@ namespace undine::particles
     }
 
     /// Back into the box across periodic boundaries.
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       wrapped(Vector<dim, Real> x) const
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    wrapped(Vector<dim, Real> x) const
     {
       for (int axis = 0; axis < dim; ++axis)
         if (periodic[axis])
@@ -61,7 +64,8 @@ namespace undine::particles
       return x;
     }
 
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     contains(const Vector<dim, Real> &x) const
     {
       bool inside = true;
@@ -71,14 +75,16 @@ namespace undine::particles
     }
 
     /// Along one axis; what is outside counts to the outermost cells.
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     coordinate(const Vector<dim, Real> &x, const int axis) const
     {
       const int cell = static_cast<int>((x[axis] - lower[axis]) * inverse_cell[axis]);
       return minimum(maximum(cell, 0), cells[axis] - 1);
     }
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     index(const int (&coordinates)[dim]) const
     {
       int result = 0;
@@ -87,7 +93,8 @@ namespace undine::particles
       return result;
     }
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     cell_of(const Vector<dim, Real> &x) const
     {
       int coordinates[dim];
@@ -100,7 +107,8 @@ namespace undine::particles
     /// around it, each once, in a fixed order. Seen from there, across periodic boundaries, x is at
     /// y.
     template <class Function>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     for_each_run_around(const Vector<dim, Real> &x, const Function &f) const
     {
       int  rows = 1, here = 0, length = 0;

@@ -8,7 +8,8 @@
 
 namespace undine::particles
 {
-  /// Count the particles of each cell.
+  /// Count the particles of each cell; those that are parked have one of their own after all
+  /// others.
   template <int dim, class Real>
   struct CountCells
   {
@@ -17,10 +18,11 @@ namespace undine::particles
     int                    *cells;
     int                    *counts;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
-      cells[i] = grid.cell_of(places[i].x);
+      cells[i] = places[i].tag.is_parked() ? grid.n_cells() : grid.cell_of(places[i].x);
       atomic_add(counts + cells[i], 1);
     }
   };
@@ -33,7 +35,8 @@ namespace undine::particles
     int       *counts;
     int       *order;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       order[starts[cells[i]] + atomic_add(counts + cells[i], -1) - 1] = i;
@@ -51,7 +54,8 @@ namespace undine::particles
     int                 *where; ///< of the identities below n_solid; nullptr if there are none
     int                  n_solid;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int slot) const
     {
       const int i        = order[slot];
@@ -80,8 +84,8 @@ namespace undine::particles
       , grid(grid)
       , cells(executor, n)
       , order(executor, n)
-      , counts(executor, grid.n_cells() + 1)
-      , starts(executor, grid.n_cells() + 1)
+      , counts(executor, grid.n_cells() + 2)
+      , starts(executor, grid.n_cells() + 2)
     {
     }
 
@@ -95,7 +99,7 @@ namespace undine::particles
       counts.clear();
       executor.for_each(from.n,
                         CountCells<dim, Real>{grid, from.places, cells.data(), counts.data()});
-      executor.exclusive_scan(grid.n_cells() + 1, counts.data(), starts.data());
+      executor.exclusive_scan(grid.n_cells() + 2, counts.data(), starts.data());
       executor.for_each(from.n,
                         FillCells{cells.data(), starts.data(), counts.data(), order.data()});
       executor.for_each(
@@ -103,7 +107,14 @@ namespace undine::particles
         MoveSorted<dim, Real>{cells.data(), starts.data(), order.data(), from, to, where, n_solid});
     }
 
-    /// First particle of each cell, and of one past the last.
+    /// Where the sorted place of the first parked particle is.
+    const int *
+    first_parked() const
+    {
+      return starts.data() + grid.n_cells();
+    }
+
+    /// First particle of each cell, first parked one, number of all.
     const int *
     cell_starts() const
     {

@@ -21,7 +21,8 @@ namespace undine::particles
   {
     static constexpr int count = 1;
 
-    UNDINE_HOST_DEVICE static Real &
+    UNDINE_HOST_DEVICE
+    static Real &
     of(Real &value, const int)
     {
       return value;
@@ -33,7 +34,8 @@ namespace undine::particles
   {
     static constexpr int count = dim;
 
-    UNDINE_HOST_DEVICE static Real &
+    UNDINE_HOST_DEVICE
+    static Real &
     of(Vector<dim, Real> &value, const int k)
     {
       return value[k];
@@ -51,7 +53,8 @@ namespace undine::particles
     const Value                *right_hand_side;
     Value                      *solution; ///< first the guess
 
-    UNDINE_HOST_DEVICE Value
+    UNDINE_HOST_DEVICE
+    Value
     row_times(const int i, const Value *x) const
     {
       return diagonal[i] * x[i] - matrix.row_times(i, x);
@@ -82,7 +85,8 @@ namespace undine::particles
     using Products             = Sums<2 * count>;
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(Team &team) const
     {
       if (control->done())
@@ -119,7 +123,8 @@ namespace undine::particles
     }
 
     /// Adds a solve to the record; by one worker.
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     report(const int iterations, const double residual) const
     {
       SolverRecord &result = control->*record;
@@ -134,13 +139,15 @@ namespace undine::particles
   private:
     using Part = Components<Value>;
 
-    UNDINE_HOST_DEVICE static double
+    UNDINE_HOST_DEVICE
+    static double
     quotient(const double a, const double b)
     {
       return b == 0 ? 0 : a / b;
     }
 
-    UNDINE_HOST_DEVICE static double
+    UNDINE_HOST_DEVICE
+    static double
     total(const Products &products)
     {
       double sum = 0;
@@ -149,7 +156,8 @@ namespace undine::particles
       return sum;
     }
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     begin(const int i, Products &sums) const
     {
       const Real inverse = 1 / system.diagonal[i];
@@ -162,7 +170,8 @@ namespace undine::particles
       vectors.p[i] = vectors.s[i] = Value();
     }
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     multiply(const int i, Products &sums) const
     {
       Value r = vectors.r[i], u = vectors.u[i], w = system.row_times(i, vectors.u);
@@ -174,7 +183,8 @@ namespace undine::particles
         }
     }
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     update(const int i, const double *alpha, const double *beta) const
     {
       Value p = vectors.p[i], s = vectors.s[i], u = vectors.u[i], w = vectors.w[i],

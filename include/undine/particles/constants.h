@@ -2,6 +2,7 @@
 #ifndef undine_particles_constants_h
 #define undine_particles_constants_h
 
+#include <undine/particles/body_force.h>
 #include <undine/particles/cell_grid.h>
 #include <undine/particles/particle.h>
 
@@ -24,6 +25,13 @@ namespace undine::particles
     conserving ///< P_i + P_j: equal and opposite, but stiff under high pressure
   };
 
+  /// How bodies take part in the pressure equation.
+  enum class Coupling
+  {
+    simultaneous,    ///< as fluid of another density: all their particles are unknowns
+    surface_pressure ///< with the pressure of their elasticity, the source's equation 7
+  };
+
   /// The numbers of a scene that passes need, constant during a run; in the unit system of the
   /// scene.
   template <int dim, class Real>
@@ -38,15 +46,18 @@ namespace undine::particles
     Real                number_density; ///< n0 [1]
     Real                spread;         ///< lambda [m^2]
 
-    Vector<dim, Real> gravity;                  ///< [m/s^2]
-    Real              viscosity;                ///< kinematic, of the fluid [m^2/s]
-    Real              densities[max_materials]; ///< [kg/m^3]; material 0 is the fluid
+    BodyForce<dim, Real> force;
+    Real                 viscosity;                ///< kinematic, of the fluid [m^2/s]
+    Real                 densities[max_materials]; ///< [kg/m^3]; material 0 is the fluid
     /// 1 / K of the materials' volumes in the pressure equation [1/Pa]; 0: incompressible.
     Real compressibilities[max_materials];
 
     Source source;
     Real   density_share;   ///< gamma of Source::relaxed, and of divergence without the next [1]
     Real   relaxation_time; ///< tau: gamma = dt / tau [s]; 0: density_share
+
+    Real crowd_excess; ///< of n* over n0 from which on particles crowd [1]
+    Real crowd_share;  ///< of the excess beyond that, removed in a sub-step [1]
 
     Real surface_density;       ///< n* < this * n0: at the free surface
     Real one_sided_density;     ///< n* < this * n0 and
@@ -57,12 +68,14 @@ namespace undine::particles
     Real restitution;        ///< [1]
 
     PairForce pair_force;
+    Coupling  coupling;
     Real      shifting;       ///< strength [1]
     Real      shifting_limit; ///< [m] per sub-step
 
     /// Density at the middle between two particles, at which pressure gradients accelerate. Walls
     /// count as fluid.
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     mean_density(const Tag a, const Tag b) const
     {
       return (densities[a.material()] + densities[b.material()]) / 2;

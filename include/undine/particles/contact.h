@@ -20,8 +20,9 @@ namespace undine::particles
     Real                     volume;
 
     /// [m/s^2]
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       acceleration(const int identity) const
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    acceleration(const int identity) const
     {
       const auto &properties = bodies.materials[bodies.bodies[identity]];
       const auto  x          = bodies.x[identity];
@@ -53,7 +54,8 @@ namespace undine::particles
 
   private:
     /// Were they neighbours in the reference?
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     are_bonded(const int a, const int b) const
     {
       return bodies.bodies[a] == bodies.bodies[b] &&

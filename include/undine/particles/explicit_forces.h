@@ -25,7 +25,8 @@ namespace undine::particles
     Vector<dim, Real>       *solid_velocities; ///< by identity [m/s]
     const StepControl       *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       Place<dim, Real>  place  = neighbours.places[i];
@@ -35,7 +36,8 @@ namespace undine::particles
           const Real dt = static_cast<Real>(control->dt);
           if (place.tag.kind() == Kind::fluid)
             {
-              motion.v += velocity_change(i, place.tag, motion.v, dt) + dt * constants.gravity;
+              motion.v += velocity_change(i, place.tag, motion.v, dt) +
+                          dt * constants.force.acceleration(place.x);
               place.x = constants.grid.wrapped(place.x + dt * motion.v);
             }
           else if (place.tag.kind() == Kind::solid)
@@ -47,7 +49,8 @@ namespace undine::particles
     }
 
   private:
-    UNDINE_HOST_DEVICE Vector<dim, Real>
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
     velocity_change(const int i, const Tag tag, const Vector<dim, Real> &v, const Real dt) const
     {
       const Real density  = constants.densities[tag.material()];

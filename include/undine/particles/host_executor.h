@@ -164,7 +164,7 @@ namespace undine::particles
     allocate(const std::size_t n) const
     {
       auto memory = ::operator new(n * sizeof(T), std::align_val_t(64));
-      std::memset(memory, 0, n * sizeof(T));
+      std::memset(static_cast<void *>(memory), 0, n * sizeof(T));
       return static_cast<T *>(memory);
     }
 
@@ -194,7 +194,7 @@ namespace undine::particles
     void
     clear(T *memory, const std::size_t n) const
     {
-      std::memset(memory, 0, n * sizeof(T));
+      std::memset(static_cast<void *>(memory), 0, n * sizeof(T));
     }
 
     /// Within the host.

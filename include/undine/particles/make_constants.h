@@ -3,6 +3,7 @@
 #define undine_particles_make_constants_h
 
 #include <undine/particles/constants.h>
+#include <undine/particles/open_boundaries.h>
 #include <undine/particles/setup.h>
 #include <undine/particles/step_control.h>
 
@@ -13,6 +14,15 @@ namespace undine::particles
   template <int dim, class Real>
   Constants<dim, Real>
   make_constants(const Setup<dim> &setup);
+
+  /// Throws InputError if there are too many.
+  template <int dim, class Real>
+  OpenBoundaries<dim, Real>
+  make_open_boundaries(const Setup<dim> &setup);
+
+  /// lambda + 2 mu / dim [Pa]; in 2D of plane strain.
+  double
+  bulk_modulus(const BodySetup &body, int dim);
 
   /// Bounds on the sub-steps of a frame [s]. `elastic` is the explicit step of the bodies.
   template <int dim>

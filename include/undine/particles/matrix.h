@@ -12,19 +12,22 @@ namespace undine::particles
   {
     Real entries[dim][dim];
 
-    UNDINE_HOST_DEVICE Real *
+    UNDINE_HOST_DEVICE
+    Real *
     operator[](const int row)
     {
       return entries[row];
     }
 
-    UNDINE_HOST_DEVICE const Real *
+    UNDINE_HOST_DEVICE
+    const Real *
     operator[](const int row) const
     {
       return entries[row];
     }
 
-    UNDINE_HOST_DEVICE static Matrix
+    UNDINE_HOST_DEVICE
+    static Matrix
     diagonal(const Real value)
     {
       Matrix result;
@@ -35,7 +38,8 @@ namespace undine::particles
     }
 
     /// Add factor * a b^T.
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     add_outer_product(const Real factor, const Vector<dim, Real> &a, const Vector<dim, Real> &b)
     {
       for (int i = 0; i < dim; ++i)
@@ -45,8 +49,9 @@ namespace undine::particles
   };
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Vector<dim, Real>
-                     operator*(const Matrix<dim, Real> &m, const Vector<dim, Real> &v)
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  operator*(const Matrix<dim, Real> &m, const Vector<dim, Real> &v)
   {
     Vector<dim, Real> result = Vector<dim, Real>::zero();
     for (int i = 0; i < dim; ++i)
@@ -56,8 +61,9 @@ namespace undine::particles
   }
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Matrix<dim, Real>
-                     operator*(const Matrix<dim, Real> &a, const Matrix<dim, Real> &b)
+  UNDINE_HOST_DEVICE
+  Matrix<dim, Real>
+  operator*(const Matrix<dim, Real> &a, const Matrix<dim, Real> &b)
   {
     Matrix<dim, Real> result = Matrix<dim, Real>::diagonal(0);
     for (int i = 0; i < dim; ++i)
@@ -69,7 +75,8 @@ namespace undine::particles
 
   /// a : b
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   double_contraction(const Matrix<dim, Real> &a, const Matrix<dim, Real> &b)
   {
     Real sum = 0;
@@ -81,15 +88,17 @@ namespace undine::particles
 
   /// det(m) m^{-T}, which exists for singular m too. @{
   template <class Real>
-  UNDINE_HOST_DEVICE Matrix<2, Real>
-                     cofactors(const Matrix<2, Real> &m)
+  UNDINE_HOST_DEVICE
+  Matrix<2, Real>
+  cofactors(const Matrix<2, Real> &m)
   {
     return {{{m[1][1], -m[1][0]}, {-m[0][1], m[0][0]}}};
   }
 
   template <class Real>
-  UNDINE_HOST_DEVICE Matrix<3, Real>
-                     cofactors(const Matrix<3, Real> &m)
+  UNDINE_HOST_DEVICE
+  Matrix<3, Real>
+  cofactors(const Matrix<3, Real> &m)
   {
     Matrix<3, Real> result;
     for (int i = 0; i < 3; ++i)
@@ -103,7 +112,8 @@ namespace undine::particles
   /// @}
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   determinant(const Matrix<dim, Real> &m)
   {
     const auto cofactor = cofactors(m);
@@ -115,8 +125,9 @@ namespace undine::particles
 
   /// m^{-T}; m must be regular.
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Matrix<dim, Real>
-                     inverse_transpose(const Matrix<dim, Real> &m)
+  UNDINE_HOST_DEVICE
+  Matrix<dim, Real>
+  inverse_transpose(const Matrix<dim, Real> &m)
   {
     Matrix<dim, Real> result = cofactors(m);
     Real              det    = 0;
@@ -136,13 +147,15 @@ namespace undine::particles
 
     Real entries[size];
 
-    UNDINE_HOST_DEVICE static int
+    UNDINE_HOST_DEVICE
+    static int
     index(const int i, const int j)
     {
       return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i;
     }
 
-    UNDINE_HOST_DEVICE static SymmetricMatrix
+    UNDINE_HOST_DEVICE
+    static SymmetricMatrix
     diagonal(const Real value)
     {
       SymmetricMatrix result;
@@ -153,7 +166,8 @@ namespace undine::particles
     }
 
     /// Add factor * a a^T.
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     add_square(const Real factor, const Vector<dim, Real> &a)
     {
       for (int i = 0; i < dim; ++i)
@@ -161,8 +175,9 @@ namespace undine::particles
           entries[index(i, j)] += factor * a[i] * a[j];
     }
 
-    UNDINE_HOST_DEVICE Matrix<dim, Real>
-                       full() const
+    UNDINE_HOST_DEVICE
+    Matrix<dim, Real>
+    full() const
     {
       Matrix<dim, Real> result;
       for (int i = 0; i < dim; ++i)
@@ -172,7 +187,8 @@ namespace undine::particles
     }
 
     /// The lower triangle of a matrix that is symmetric.
-    UNDINE_HOST_DEVICE static SymmetricMatrix
+    UNDINE_HOST_DEVICE
+    static SymmetricMatrix
     of(const Matrix<dim, Real> &m)
     {
       SymmetricMatrix result;
@@ -184,8 +200,9 @@ namespace undine::particles
   };
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Vector<dim, Real>
-                     operator*(const SymmetricMatrix<dim, Real> &m, const Vector<dim, Real> &v)
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  operator*(const SymmetricMatrix<dim, Real> &m, const Vector<dim, Real> &v)
   {
     Vector<dim, Real> result = Vector<dim, Real>::zero();
     for (int i = 0; i < dim; ++i)
@@ -198,7 +215,8 @@ namespace undine::particles
   /// [Higham 1986]. A deformation that is nearly flat or inverted has no useful rotation: it keeps
   /// `last`.
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Matrix<dim, Real>
+  UNDINE_HOST_DEVICE
+  Matrix<dim, Real>
   rotation_of(const Matrix<dim, Real> &deformation, const Matrix<dim, Real> &last)
   {
     const Real enough = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-14);

@@ -19,7 +19,8 @@ namespace undine::particles
     Particles<dim, Real> particles;
     StepControl         *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       if (particles.places[i].tag.is_free())
@@ -41,7 +42,8 @@ namespace undine::particles
     Sums<count>         *result;
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(Team &team) const
     {
       const auto sums = team.template sum<count>(particles.n, [&](const int i, Sums<count> &sums) {
@@ -51,15 +53,14 @@ namespace undine::particles
         const double mass =
           static_cast<double>(constants.densities[place.tag.material()]) * constants.volume;
         const auto v      = particles.motions[i].v;
-        double     square = 0, height = 0;
+        double     square = 0;
         for (int axis = 0; axis < dim; ++axis)
           {
             square += static_cast<double>(v[axis]) * v[axis];
-            height -= static_cast<double>(constants.gravity[axis]) * place.x[axis];
             sums[3 + axis] += mass * v[axis];
           }
         sums[place.tag.kind() == Kind::fluid ? 0 : 1] += mass * square / 2;
-        sums[2] += mass * height;
+        sums[2] += mass * constants.force.potential(place.x);
       });
       if (team.is_first())
         *result = sums;
@@ -79,7 +80,8 @@ namespace undine::particles
     Sums<count>             *result;
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(Team &team) const
     {
       const auto sums = team.template sum<count>(bodies.n, [&](const int i, Sums<count> &sums) {

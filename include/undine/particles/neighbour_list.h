@@ -22,12 +22,13 @@ namespace undine::particles
     int                    *indices;
     StepControl            *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       const Place<dim, Real> place = places[i];
       int                    count = 0;
-      if (place.tag.kind() != Kind::dummy)
+      if (place.tag.kind() != Kind::dummy && !place.tag.is_parked())
         grid.for_each_run_around(
           place.x, [&](const int first_cell, const int end_cell, const Vector<dim, Real> &x) {
             collect(i, x, starts[first_cell], starts[end_cell], count);
@@ -39,7 +40,8 @@ namespace undine::particles
 
   private:
     /// Among the particles begin ... end-1, seen from x.
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     collect(
       const int i, const Vector<dim, Real> &x, const int begin, const int end, int &count) const
     {

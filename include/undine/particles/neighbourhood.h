@@ -28,11 +28,12 @@ namespace undine::particles
     Constants<dim, Real>     constants;
     Neighbours<dim, Real>    neighbours;
     const int               *identities;
-    const unsigned char     *inside_body; ///< by identity: never at a free surface
+    const unsigned char     *inside_body; ///< by identity: has its own body all around
     Neighbourhood<dim, Real> result;
     const StepControl       *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       const Tag tag         = neighbours.places[i].tag;
@@ -55,12 +56,13 @@ namespace undine::particles
       result.densities[i]  = n;
       result.is_covered[i] = covered ? 1 : 0;
       result.is_unknown[i] = has_pressure(tag, n, covered) ? 1 : 0;
-      if (covered)
+      if (covered || tag.kind() == Kind::solid)
         result.corrections[i] = correction(moment);
     }
 
   private:
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     is_covered(const Tag tag, const int identity, const Real n, const Vector<dim, Real> &side) const
     {
       if (tag.kind() == Kind::solid && inside_body[identity])
@@ -74,9 +76,12 @@ namespace undine::particles
 
     /// With air, pressures at the free surface are unknown too; only drops that fly alone have
     /// none.
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     has_pressure(const Tag tag, const Real n, const bool covered) const
     {
+      if (tag.kind() == Kind::solid && constants.coupling == Coupling::surface_pressure)
+        return false;
       if (covered || constants.air <= 0 || tag.kind() == Kind::solid)
         return covered;
       const Real least = tag.kind() == Kind::wall ? Real(0.2) : Real(0.1);
@@ -85,8 +90,9 @@ namespace undine::particles
 
     /// The inverse of (dim / n0) sum w r r^T / r^2; the identity where neighbours do not span
     /// space.
-    UNDINE_HOST_DEVICE SymmetricMatrix<dim, Real>
-                       correction(const SymmetricMatrix<dim, Real> &moment) const
+    UNDINE_HOST_DEVICE
+    SymmetricMatrix<dim, Real>
+    correction(const SymmetricMatrix<dim, Real> &moment) const
     {
       auto scaled = moment.full();
       for (int i = 0; i < dim; ++i)

@@ -9,8 +9,9 @@ namespace undine::particles
 {
   /// Where the k-th entry of row i of a list with `capacity` entries a row lies: rows in groups of
   /// 32, which the device reads together, entries of a group next to each other.
-  UNDINE_HOST_DEVICE std::size_t
-                     list_slot(const int i, const int k, const int capacity)
+  UNDINE_HOST_DEVICE
+  std::size_t
+  list_slot(const int i, const int k, const int capacity)
   {
     return (static_cast<std::size_t>(i >> 5) * capacity + k) * 32 + (i & 31);
   }
@@ -39,7 +40,8 @@ namespace undine::particles
 
     /// Call f(j, pair) for all neighbours of i at present places.
     template <class Function>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     for_each(const int i, const Function &f) const
     {
       constexpr int           together = 4; // their places are on the way at the same time

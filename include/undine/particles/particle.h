@@ -17,32 +17,56 @@ namespace undine::particles
     dummy = 3  ///< deeper layers, which only fill the neighbourhood of wall and fluid
   };
 
+  /// Materials beyond those of bodies. @{
+  constexpr int inflow_material = 14; ///< of the layers behind inflows
+  constexpr int parked_material = 15; ///< of what waits outside of space to flow in
+  /// @}
+
   /// Kind and material of a particle in one number.
   struct Tag
   {
     std::int32_t code;
 
-    UNDINE_HOST_DEVICE static Tag
+    UNDINE_HOST_DEVICE
+    static Tag
     of(const Kind kind, const int material)
     {
       return {static_cast<std::int32_t>(kind) + 4 * material};
     }
 
-    UNDINE_HOST_DEVICE Kind
+    /// Of a particle that waits outside of space to flow in.
+    UNDINE_HOST_DEVICE
+    static Tag
+    parked()
+    {
+      return of(Kind::dummy, parked_material);
+    }
+
+    UNDINE_HOST_DEVICE
+    bool
+    is_parked() const
+    {
+      return code == parked().code;
+    }
+
+    UNDINE_HOST_DEVICE
+    Kind
     kind() const
     {
       return static_cast<Kind>(code & 3);
     }
 
     /// Which entry of Constants::densities is its.
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     material() const
     {
       return code >> 2;
     }
 
     /// Does it move as forces tell it?
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     is_free() const
     {
       return (code & 2) == 0;

@@ -31,21 +31,14 @@ namespace undine::particles
     {
       check_state(new_setup, state);
       setup = new_setup;
-      executor->set_threads(setup.numerics.threads);
-      n = static_cast<int>(state.positions.size());
-      snapshot.reset();
-      scratch.reset();
-      system.reset();
-      wide.reset();
-      system   = std::make_unique<System<Entry>>(*executor, setup, lattice(), n);
-      snapshot = std::make_unique<Snapshot<Executor, dim, Real>>(*executor, n, system->elastic().n);
-      scratch  = std::make_unique<Buffer<Executor, StepControl>>(*executor, 1);
-      take_state(system->arrays(), system->elastic(), state);
+      measure_inflows(state);
+      load(state, frames_in_reserve * entering(0));
     }
 
     StepControl
     advance(const double length) override
     {
+      make_room(length);
       if (system != nullptr)
         {
           snapshot->save(system->arrays(), system->elastic());
@@ -63,7 +56,7 @@ namespace undine::particles
     void
     fetch(ParticleState<dim> &state) const override
     {
-      with_system([&](auto &present) { give_state(state, present.arrays()); });
+      with_system([&](auto &present) { give_state(state, present.arrays(), present.elastic()); });
     }
 
     Balance<dim>
@@ -119,6 +112,63 @@ namespace undine::particles
     lattice() const
     {
       return ReferenceLattice<dim, Real>(setup);
+    }
+
+    /// Take up a state and park `n_parked` particles.
+    void
+    load(const ParticleState<dim> &state, const int n_parked)
+    {
+      executor->set_threads(setup.numerics.threads);
+      n = static_cast<int>(state.positions.size()) + n_parked;
+      snapshot.reset();
+      scratch.reset();
+      system.reset();
+      wide.reset();
+      system   = std::make_unique<System<Entry>>(*executor, setup, lattice(), n);
+      snapshot = std::make_unique<Snapshot<Executor, dim, Real>>(
+        *executor, n, system->elastic().n, static_cast<int>(setup.bodies.size()));
+      scratch = std::make_unique<Buffer<Executor, StepControl>>(*executor, 1);
+      take_state(system->arrays(), system->elastic(), state);
+    }
+
+    /// How many particles can flow in during a frame, at most.
+    int
+    entering(const double frame) const
+    {
+      double depth = 0;
+      for (const auto &side : setup.open_sides)
+        if (side.is_inflow)
+          depth = depth > 0 ? std::min(depth, side.depth) : side.depth;
+      return n_waiting == 0 ? 0 : static_cast<int>(n_waiting * (2 + inflow_speed * frame / depth));
+    }
+
+    /// Look at the layers behind inflows.
+    void
+    measure_inflows(const ParticleState<dim> &state)
+    {
+      n_waiting    = 0;
+      inflow_speed = 0;
+      for (std::size_t i = 0; i < state.tags.size(); ++i)
+        if (state.tags[i].material() == inflow_material)
+          {
+            ++n_waiting;
+            inflow_speed = std::max(inflow_speed, std::sqrt(norm_square(state.velocities[i])));
+          }
+    }
+
+    /// Park more particles if those that wait might not last for a frame.
+    void
+    make_room(const double frame)
+    {
+      if (n_waiting == 0)
+        return;
+      int parked = 0;
+      with_system([&](auto &present) { parked = present.count_parked(); });
+      if (parked >= entering(frame))
+        return;
+      ParticleState<dim> state;
+      fetch(state);
+      load(state, frames_in_reserve * entering(frame));
     }
 
     static bool
@@ -177,14 +227,17 @@ namespace undine::particles
       throw SolveError(reason_of_failure(control));
     }
 
-    static constexpr int most_in_a_batch = 64;
+    static constexpr int most_in_a_batch   = 64;
+    static constexpr int frames_in_reserve = 8;
 
-    std::unique_ptr<Executor>                      executor;
-    Setup<dim>                                     setup;
-    int                                            n        = 0;
-    int                                            expected = 1; ///< sub-steps of the next frame
-    std::unique_ptr<System<Entry>>                 system;
-    std::unique_ptr<System<Wide>>                  wide; ///< instead of `system`
+    std::unique_ptr<Executor>      executor;
+    Setup<dim>                     setup;
+    int                            n            = 0;
+    int                            expected     = 1; ///< sub-steps of the next frame
+    int                            n_waiting    = 0; ///< particles behind inflows
+    double                         inflow_speed = 0; ///< of the fastest of them [m/s]
+    std::unique_ptr<System<Entry>> system;
+    std::unique_ptr<System<Wide>>  wide; ///< instead of `system`
     std::unique_ptr<Snapshot<Executor, dim, Real>> snapshot;
     std::unique_ptr<Buffer<Executor, StepControl>> scratch;
   };

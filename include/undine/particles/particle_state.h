@@ -20,7 +20,8 @@ namespace undine::particles
     /// and the walls.
     std::vector<int> identities;
 
-    /// Vectors that the method keeps to start its solvers from; may be empty.
+    /// What the method remembers besides, in an order of its own: guesses for its solvers, and what
+    /// elastic bodies carry. May be empty.
     std::vector<double> guesses;
   };
 } // namespace undine::particles

@@ -11,6 +11,7 @@
 #include <undine/particles/multigrid_arrays.h>
 #include <undine/particles/multigrid_gradients.h>
 #include <undine/particles/neighbour_list.h>
+#include <undine/particles/open_boundaries.h>
 #include <undine/particles/particle_arrays.h>
 #include <undine/particles/phases.h>
 #include <undine/particles/pressure_forces.h>
@@ -31,6 +32,7 @@ namespace undine::particles
       : executor(executor)
       , numerics(setup.numerics)
       , constants(make_constants<dim, Real>(setup))
+      , has_fluid(setup.has_fluid)
       , bounds(make_bounds(setup, lattice.explicit_step(setup.numerics.elastic_share)))
       , n(n)
       , now(executor, n)
@@ -51,6 +53,9 @@ namespace undine::particles
       , pressures(executor, n)
       , faces_diagonal(executor, n)
       , gaps(executor, n)
+      , open(make_open_boundaries<dim, Real>(setup))
+      , crossed(executor, open.n > 0 ? n : 0)
+      , crossed_before(executor, open.n > 0 ? n : 0)
       , numbers(executor, 5 * n)
       , vectors(executor, 5 * n)
     {
@@ -83,6 +88,21 @@ namespace undine::particles
       list.find(now.view(), cells.cell_starts(), control.data());
     }
 
+    const Constants<dim, Real> &
+    consts() const
+    {
+      return constants;
+    }
+
+    /// Particles that wait to flow in; knows what the last sort left.
+    int
+    count_parked() const
+    {
+      int first;
+      executor.download(&first, cells.first_parked(), 1);
+      return n - first;
+    }
+
     StepControl
     read_control() const
     {
@@ -102,9 +122,13 @@ namespace undine::particles
       executor.enter(Phase::forces);
       executor.for_each(1, ChooseStep{control.data(), bounds});
       move_without_pressure();
+      if (open.n > 0)
+        cross_boundaries();
       sort();
       executor.enter(Phase::neighbours);
       list.find(now.view(), cells.cell_starts(), control.data());
+      if (!has_fluid)
+        return;
       solve_pressure();
       move_by_pressure();
     }
@@ -124,7 +148,29 @@ namespace undine::particles
                                                   control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
-      move_bodies(nullptr);
+      move_bodies(has_fluid ? ElasticRun::attempt : ElasticRun::alone);
+    }
+
+    void
+    cross_boundaries()
+    {
+      executor.for_each(n,
+                        CrossBoundaries<dim, Real>{open,
+                                                   constants.spacing,
+                                                   now.places.data(),
+                                                   now.motions.data(),
+                                                   crossed.data(),
+                                                   control.data()});
+      executor.exclusive_scan(n, crossed.data(), crossed_before.data());
+      executor.for_each(n,
+                        RefillInflows<dim, Real>{open,
+                                                 n,
+                                                 now.places.data(),
+                                                 now.motions.data(),
+                                                 crossed.data(),
+                                                 crossed_before.data(),
+                                                 cells.first_parked(),
+                                                 control.data()});
     }
 
     void
@@ -139,6 +185,10 @@ namespace undine::particles
     solve_pressure()
     {
       executor.enter(Phase::assembly);
+      if (constants.coupling == Coupling::surface_pressure)
+        executor.for_each(
+          bodies.n,
+          GiveSurfacePressures<dim, Real>{bodies.view(), now.motions.data(), bodies.where.data()});
       executor.for_each(n,
                         MeasureNeighbourhood<dim, Real>{constants,
                                                         list.view(now.view()),
@@ -186,8 +236,12 @@ namespace undine::particles
               numerics.tolerance,
               &StepControl::pressure);
       executor.for_each(n,
-                        TakePressures<dim, Real>{
-                          is_unknown.data(), pressures.data(), now.motions.data(), control.data()});
+                        TakePressures<dim, Real>{is_unknown.data(),
+                                                 pressures.data(),
+                                                 now.places.data(),
+                                                 now.motions.data(),
+                                                 constants.coupling == Coupling::surface_pressure,
+                                                 control.data()});
     }
 
     void
@@ -204,36 +258,46 @@ namespace undine::particles
                                                   next.places.data(),
                                                   next.motions.data(),
                                                   bodies.accelerations.data(),
+                                                  bodies.surfaces.data(),
+                                                  bodies.surface_moments.data(),
                                                   control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
-      move_bodies(bodies.accelerations.data());
+      move_bodies(ElasticRun::final);
     }
 
     void
-    move_bodies(const Vector<dim, Real> *pressure_accelerations)
+    move_bodies(const ElasticRun purpose)
     {
       if (bodies.n == 0)
         return;
       executor.enter(Phase::bodies);
       const auto view = bodies.view();
-      executor.run(bodies.n,
-                   ElasticStep<dim, Real>{{constants.grid, constants.reach, constants.volume, view},
-                                          {constants.spacing,
-                                           view,
-                                           list.view(now.view()),
-                                           now.identities.data(),
-                                           bodies.where.data(),
-                                           constants.volume},
-                                          constants.gravity,
-                                          bodies.x_start.data(),
-                                          bodies.v_start.data(),
-                                          bodies.x_next.data(),
-                                          bodies.v_next.data(),
-                                          pressure_accelerations,
-                                          now.places.data(),
-                                          now.motions.data(),
-                                          control.data()});
+      executor.run(
+        bodies.n,
+        ElasticStep<dim, Real>{purpose,
+                               {constants.grid, constants.spacing, constants.reach, view, true},
+                               {constants.spacing,
+                                view,
+                                list.view(now.view()),
+                                now.identities.data(),
+                                bodies.where.data(),
+                                constants.volume},
+                               constants.force,
+                               bodies.x_start.data(),
+                               bodies.v_start.data(),
+                               bodies.x_next.data(),
+                               bodies.v_next.data(),
+                               bodies.implicit_vectors(),
+                               bodies.accelerations.data(),
+                               static_cast<int>(bodies.carried.size()),
+                               bodies.carried.data(),
+                               constants.coupling == Coupling::simultaneous
+                                 ? static_cast<Real>(numerics.carry_share)
+                                 : Real(0),
+                               now.places.data(),
+                               now.motions.data(),
+                               control.data()});
     }
 
     template <class Value>
@@ -306,6 +370,7 @@ namespace undine::particles
     Executor            &executor;
     Numerics             numerics;
     Constants<dim, Real> constants;
+    bool                 has_fluid;
     StepBounds           bounds;
     int                  n;
 
@@ -322,6 +387,8 @@ namespace undine::particles
     Buffer<Executor, Entry>                      entries;
     Buffer<Executor, Real>              diagonal, right_hand_side, pressures, faces_diagonal;
     Buffer<Executor, Vector<dim, Real>> gaps;
+    OpenBoundaries<dim, Real>           open;
+    Buffer<Executor, int>               crossed, crossed_before;
     Buffer<Executor, Real>              numbers; ///< of the pressure solver
     Buffer<Executor, Vector<dim, Real>> vectors; ///< of the faces' solver
 

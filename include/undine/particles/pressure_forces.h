@@ -3,23 +3,50 @@
 #define undine_particles_pressure_forces_h
 
 #include <undine/particles/assemble_pressure.h>
+#include <undine/particles/elastic_bodies.h>
 
 namespace undine::particles
 {
+  /// Gives the bodies' particles the pressure of their elasticity, P_s = -lambda tr(e), on the
+  /// surface that it pushes (the source's equation 7, whose divergence is that of the printed
+  /// units).
+  template <int dim, class Real>
+  struct GiveSurfacePressures
+  {
+    ElasticBodies<dim, Real> bodies;
+    Motion<dim, Real>       *motions;
+    const int               *where;
+
+    UNDINE_HOST_DEVICE
+    void
+    operator()(const int identity) const
+    {
+      const Real strain =
+        double_contraction(bodies.rotations[identity], bodies.deformations[identity]) - dim;
+      const Real lambda                 = bodies.materials[bodies.bodies[identity]].lambda;
+      motions[where[identity]].pressure = maximum(-lambda * strain, Real(0));
+    }
+  };
+
+
   /// Gives the particles their pressures, which do not pull.
   template <int dim, class Real>
   struct TakePressures
   {
-    const int         *is_unknown;
-    const Real        *solution;
-    Motion<dim, Real> *motions;
-    const StepControl *control;
+    const int              *is_unknown;
+    const Real             *solution;
+    const Place<dim, Real> *places;
+    Motion<dim, Real>      *motions;
+    bool                    keeps_solids; ///< whose pressures are given
+    const StepControl      *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
-      if (!control->done())
-        motions[i].pressure = is_unknown[i] ? maximum(solution[i], Real(0)) : Real(0);
+      if (control->done() || (keeps_solids && places[i].tag.kind() == Kind::solid))
+        return;
+      motions[i].pressure = is_unknown[i] ? maximum(solution[i], Real(0)) : Real(0);
     }
   };
 
@@ -41,30 +68,35 @@ namespace undine::particles
     const int               *identities;
     Place<dim, Real>        *new_places;
     Motion<dim, Real>       *new_motions;
-    Vector<dim, Real>       *solid_accelerations; ///< by identity [m/s^2]
+    Vector<dim, Real>       *solid_accelerations;   ///< by identity [m/s^2]
+    Vector<dim, Real>       *solid_surfaces;        ///< of ElasticBodies
+    Matrix<dim, Real>       *solid_surface_moments; ///< of ElasticBodies
     StepControl             *control;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       Place<dim, Real>  place  = neighbours.places[i];
       Motion<dim, Real> motion = motions[i];
       if (!control->done() && place.tag.is_free())
         {
-          auto       shift        = Vector<dim, Real>::zero();
-          const auto acceleration = this->acceleration(i, place.tag, motion.pressure, shift);
+          const Sum sum = this->sum(i, place.tag, motion.pressure);
           if (place.tag.kind() == Kind::solid)
-            solid_accelerations[identities[i]] = acceleration;
+            {
+              const int identity              = identities[i];
+              solid_accelerations[identity]   = sum.acceleration;
+              solid_surfaces[identity]        = sum.surface;
+              solid_surface_moments[identity] = sum.surface_moment;
+            }
           else
             {
-              const Real dt = static_cast<Real>(control->dt);
-              motion.v += dt * acceleration;
-              place.x += (dt * dt) * acceleration;
+              move(place, motion, sum.acceleration);
               if (neighbourhood.is_covered[i])
-                place.x += limited(shift);
+                place.x += shift(sum.crowd);
               place.x = constants.grid.wrapped(place.x);
-              atomic_maximum(&control->largest_speed,
-                             static_cast<float>(sqrt(norm_square(motion.v))));
+              if (!constants.grid.contains(place.x))
+                atomic_or(&control->failures, static_cast<unsigned int>(Failure::outside));
             }
         }
       new_places[i]  = place;
@@ -72,53 +104,75 @@ namespace undine::particles
     }
 
   private:
-    /// [m/s^2]; also what points away from the neighbours, sum_j w r / r^2 [1/m].
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-    acceleration(const int i, const Tag tag, const Real P, Vector<dim, Real> &crowd) const
+    /// Over the neighbours of a particle.
+    struct Sum
+    {
+      Vector<dim, Real> acceleration = Vector<dim, Real>::zero(); ///< [m/s^2]
+      Vector<dim, Real> crowd        = Vector<dim, Real>::zero(); ///< sum w r / r^2 [1/m]
+
+      /// What the faces within the body leave open, for ElasticBodies.
+      Vector<dim, Real> surface        = Vector<dim, Real>::zero();
+      Matrix<dim, Real> surface_moment = Matrix<dim, Real>::diagonal(1);
+    };
+
+    UNDINE_HOST_DEVICE
+    Sum
+    sum(const int i, const Tag tag, const Real P) const
     {
       const auto M = neighbourhood.corrections[i];
       const auto L = faces.potentials != nullptr ? faces.potentials[i] : Vector<dim, Real>::zero();
       const Real density = constants.densities[tag.material()];
       const Real least =
         constants.pair_force == PairForce::minimum ? least_pressure(i, P) : Real(0);
-      auto force = Vector<dim, Real>::zero();
+      Sum sum;
       neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
         const Vector<dim, Real> plain = (pair.weight / pair.square) * pair.r;
-        crowd += plain;
-        if (pair.tag.kind() == Kind::dummy)
+        sum.crowd += plain;
+        if (pair.tag.kind() == Kind::dummy || is_left_to_elasticity(tag, pair.tag))
           return;
-        const Real P_j   = motions[j].pressure;
-        const Real other = constants.densities[pair.tag.material()];
-        const Real twice = 2 * (other * P + density * P_j) / (density + other);
-        switch (constants.pair_force)
+        auto face  = faces.factor * plain;
+        Real value = twice_pressure(tag, pair.tag, P, motions[j].pressure);
+        if (constants.pair_force == PairForce::balanced)
+          face = faces.closed(M, L, j, pressure_coefficient(constants, tag, pair), pair);
+        else if (constants.pair_force == PairForce::corrected)
           {
-            case PairForce::balanced:
-              {
-                const Real k = pressure_coefficient(constants, tag, pair);
-                force += twice * faces.closed(M, L, j, k, pair);
-                break;
-              }
-            case PairForce::corrected:
-              {
-                force += ((twice - 2 * P) * faces.factor) * (M * plain);
-                break;
-              }
-            case PairForce::minimum:
-              {
-                force += ((P_j - least) * faces.factor) * plain;
-                break;
-              }
-            case PairForce::conserving:
-              {
-                force += (twice * faces.factor) * plain;
-                break;
-              }
+            face = faces.factor * (M * plain);
+            value -= 2 * P;
+          }
+        else if (constants.pair_force == PairForce::minimum)
+          value = motions[j].pressure - least;
+        sum.acceleration += (-value / density) * face;
+        if (tag.kind() == Kind::solid && pair.tag.code == tag.code)
+          {
+            sum.surface -= (2 / density) * face;
+            sum.surface_moment.add_outer_product(Real(-1), face, pair.r);
           }
       });
-      return (-1 / density) * force;
+      return sum;
     }
 
-    UNDINE_HOST_DEVICE Real
+    /// With surface pressures a body's particles count neighbours of the fluid only (the source's
+    /// equation 8).
+    UNDINE_HOST_DEVICE
+    bool
+    is_left_to_elasticity(const Tag tag, const Tag other) const
+    {
+      return constants.coupling == Coupling::surface_pressure && tag.kind() == Kind::solid &&
+             tag.code == other.code;
+    }
+
+    /// 2 P_ij. A body and something else press but do not pull each other.
+    UNDINE_HOST_DEVICE
+    Real
+    twice_pressure(const Tag tag, const Tag other, const Real P_i, const Real P_j) const
+    {
+      const Real a = constants.densities[tag.material()], b = constants.densities[other.material()];
+      const Real value = 2 * (b * P_i + a * P_j) / (a + b);
+      return tag.code == other.code ? value : maximum(value, Real(0));
+    }
+
+    UNDINE_HOST_DEVICE
+    Real
     least_pressure(const int i, Real least) const
     {
       neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
@@ -128,16 +182,30 @@ namespace undine::particles
       return least;
     }
 
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       limited(const Vector<dim, Real> &crowd) const
+    UNDINE_HOST_DEVICE
+    void
+    move(Place<dim, Real>        &place,
+         Motion<dim, Real>       &motion,
+         const Vector<dim, Real> &acceleration) const
     {
-      auto shift =
+      const Real dt = static_cast<Real>(control->dt);
+      motion.v += dt * acceleration;
+      place.x += (dt * dt) * acceleration;
+      atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(motion.v))));
+    }
+
+    /// Away from where neighbours crowd [m].
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    shift(const Vector<dim, Real> &crowd) const
+    {
+      auto result =
         (-constants.shifting * constants.spacing * constants.spacing * faces.factor) * crowd;
-      const Real square = norm_square(shift);
+      const Real square = norm_square(result);
       const Real limit  = constants.shifting_limit;
       if (square > limit * limit)
-        shift *= limit * inverse_square_root(square);
-      return shift;
+        result *= limit * inverse_square_root(square);
+      return result;
     }
   };
 } // namespace undine::particles

@@ -21,7 +21,8 @@ namespace undine::particles
     static constexpr int reach       = 1 << (31 - weight_bits); ///< of column - row
 
     template <class Real>
-    UNDINE_HOST_DEVICE static PackedEntry
+    UNDINE_HOST_DEVICE
+    static PackedEntry
     of(const int difference, const Real coefficient, const Real scale)
     {
       const Real root = coefficient * inverse_square_root(coefficient * scale) * largest;
@@ -30,21 +31,24 @@ namespace undine::particles
               static_cast<std::uint32_t>(code)};
     }
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     difference() const
     {
       return static_cast<std::int32_t>(bits) >> weight_bits;
     }
 
     template <class Real>
-    UNDINE_HOST_DEVICE Real
+    UNDINE_HOST_DEVICE
+    Real
     coefficient(const Real scale) const
     {
       const Real code = static_cast<Real>(bits & largest);
       return code * code * (scale / (Real(largest) * Real(largest)));
     }
 
-    UNDINE_HOST_DEVICE static bool
+    UNDINE_HOST_DEVICE
+    static bool
     can_reach(const int difference)
     {
       return difference >= -reach && difference < reach;
@@ -58,25 +62,29 @@ namespace undine::particles
     int    column_difference;
     Number value;
 
-    UNDINE_HOST_DEVICE static WideEntry
+    UNDINE_HOST_DEVICE
+    static WideEntry
     of(const int difference, const Number coefficient, const Number)
     {
       return {difference, coefficient};
     }
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     difference() const
     {
       return column_difference;
     }
 
-    UNDINE_HOST_DEVICE Number
+    UNDINE_HOST_DEVICE
+    Number
     coefficient(const Number) const
     {
       return value;
     }
 
-    UNDINE_HOST_DEVICE static bool
+    UNDINE_HOST_DEVICE
+    static bool
     can_reach(const int)
     {
       return true;
@@ -98,7 +106,8 @@ namespace undine::particles
 
     /// sum_j k_ij x_j, for numbers or vectors x_j
     template <class Value>
-    UNDINE_HOST_DEVICE Value
+    UNDINE_HOST_DEVICE
+    Value
     row_times(const int row, const Value *x) const
     {
       constexpr int together = 8; // on the way at the same time

@@ -23,8 +23,10 @@ namespace undine::particles
     int                            capacity;
     std::vector<int>               counts, indices;
     std::vector<Matrix<dim, Real>> inverse_moments;
+    std::vector<Real>              inverse_means;
 
-    /// Largest stable explicit step of the fastest body, times `share` [s]; 0 without bodies.
+    /// The step of the fastest body in which a wave crosses `share` of the spacing [s]; 0 without
+    /// bodies.
     double
     explicit_step(double share) const;
 

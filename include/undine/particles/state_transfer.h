@@ -6,6 +6,10 @@
 #include <undine/particles/particle_arrays.h>
 #include <undine/particles/particle_state.h>
 
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
 namespace undine::particles
 {
   template <int dim, class To, class From>
@@ -18,19 +22,52 @@ namespace undine::particles
     return to;
   }
 
-  /// Fill arrays where an executor works with a state.
+  /// What elastic bodies remember besides places and velocities. Calls f(buffer) for each array.
+  template <class Executor, int dim, class Real, class Function>
+  void
+  for_each_memory(ElasticArrays<Executor, dim, Real> &bodies, const Function &f)
+  {
+    f(bodies.rotations);
+    f(bodies.carried);
+    f(bodies.surfaces);
+    f(bodies.surface_moments);
+  }
+
+  /// The numbers in an array of numbers, vectors or matrices.
+  template <class Real, class T>
+  std::vector<double>
+  flattened(const std::vector<T> &values)
+  {
+    std::vector<Real> numbers(values.size() * sizeof(T) / sizeof(Real));
+    std::memcpy(numbers.data(), values.data(), numbers.size() * sizeof(Real));
+    return {numbers.begin(), numbers.end()};
+  }
+
+  /// Take an array of `values.size()` objects from the front of `numbers`, at `position`.
+  template <class Real, class T>
+  void
+  unflatten(std::vector<T> &values, const std::vector<double> &numbers, std::size_t &position)
+  {
+    std::vector<Real> part(values.size() * sizeof(T) / sizeof(Real));
+    for (Real &number : part)
+      number = static_cast<Real>(numbers[position++]);
+    std::memcpy(values.data(), part.data(), part.size() * sizeof(Real));
+  }
+
+
+  /// Fill arrays where an executor works with a state; places beyond those of the state are parked.
   template <class Executor, int dim, class Real>
   void
   take_state(ParticleArrays<Executor, dim, Real> &arrays,
              ElasticArrays<Executor, dim, Real>  &bodies,
              const ParticleState<dim>            &state)
   {
-    const std::size_t              n = state.positions.size();
-    std::vector<Place<dim, Real>>  places(n);
-    std::vector<Motion<dim, Real>> motions(n);
-    std::vector<Vector<dim, Real>> potentials(n, Vector<dim, Real>::zero());
+    const std::size_t              n_state = state.positions.size(), n = arrays.places.size();
+    std::vector<Place<dim, Real>>  places(n, {Vector<dim, Real>::zero(), Tag::parked()});
+    std::vector<Motion<dim, Real>> motions(n, {Vector<dim, Real>::zero(), Real(0)});
     std::vector<Vector<dim, Real>> x(bodies.n), v(bodies.n);
-    for (std::size_t i = 0; i < n; ++i)
+    std::vector<int>               identities = state.identities;
+    for (std::size_t i = 0; i < n_state; ++i)
       {
         places[i]  = {converted<dim, Real>(state.positions[i]), state.tags[i]};
         motions[i] = {converted<dim, Real>(state.velocities[i]),
@@ -40,45 +77,65 @@ namespace undine::particles
             x[state.identities[i]] = places[i].x;
             v[state.identities[i]] = motions[i].v;
           }
-        if (state.guesses.size() == n * dim)
-          for (int axis = 0; axis < dim; ++axis)
-            potentials[i][axis] = static_cast<Real>(state.guesses[i * dim + axis]);
       }
+    int next = n_state == 0 ? 0 : *std::max_element(identities.begin(), identities.end()) + 1;
+    while (identities.size() < n)
+      identities.push_back(next++);
     arrays.places.set(places);
     arrays.motions.set(motions);
-    arrays.identities.set(state.identities);
-    arrays.potentials.set(potentials);
+    arrays.identities.set(identities);
     bodies.x.set(x);
     bodies.v.set(v);
     bodies.deformations.set(
       std::vector<Matrix<dim, Real>>(bodies.n, Matrix<dim, Real>::diagonal(1)));
+    if (state.guesses.empty())
+      return;
+    std::size_t position = 0;
+    const auto  take     = [&](auto &buffer) {
+      auto values = buffer.values();
+      unflatten<Real>(values, state.guesses, position);
+      buffer.set(values);
+    };
+    std::vector<Vector<dim, Real>> potentials(n_state);
+    unflatten<Real>(potentials, state.guesses, position);
+    arrays.potentials.set(potentials);
+    for_each_memory(bodies, take);
   }
 
 
   /// Copy arrays where an executor works into a state.
   template <class Executor, int dim, class Real>
   void
-  give_state(ParticleState<dim> &state, const ParticleArrays<Executor, dim, Real> &arrays)
+  give_state(ParticleState<dim>                        &state,
+             const ParticleArrays<Executor, dim, Real> &arrays,
+             ElasticArrays<Executor, dim, Real>        &bodies)
   {
-    const auto        places     = arrays.places.values();
-    const auto        motions    = arrays.motions.values();
-    const auto        potentials = arrays.potentials.values();
-    const std::size_t n          = places.size();
-    state.identities             = arrays.identities.values();
+    const auto places = arrays.places.values();
+    // Parked particles are the last ones.
+    const std::size_t n = std::find_if(places.begin(),
+                                       places.end(),
+                                       [](const auto &place) { return place.tag.is_parked(); }) -
+                          places.begin();
+    const auto motions = arrays.motions.values();
+    state.identities   = arrays.identities.values();
+    state.identities.resize(n);
     state.positions.resize(n);
     state.velocities.resize(n);
     state.pressures.resize(n);
     state.tags.resize(n);
-    state.guesses.resize(n * dim);
     for (std::size_t i = 0; i < n; ++i)
       {
         state.positions[i]  = converted<dim, double>(places[i].x);
         state.velocities[i] = converted<dim, double>(motions[i].v);
         state.pressures[i]  = motions[i].pressure;
         state.tags[i]       = places[i].tag;
-        for (int axis = 0; axis < dim; ++axis)
-          state.guesses[i * dim + axis] = potentials[i][axis];
       }
+    state.guesses = flattened<Real>(arrays.potentials.values());
+    state.guesses.resize(n * dim);
+    for_each_memory(bodies, [&](auto &buffer) {
+      const auto more = flattened<Real>(buffer.values());
+      state.guesses.insert(state.guesses.end(), more.begin(), more.end());
+    });
   }
 
 
@@ -87,12 +144,15 @@ namespace undine::particles
   class Snapshot
   {
   public:
-    Snapshot(Executor &executor, const int n, const int n_solid)
+    Snapshot(Executor &executor, const int n, const int n_solid, const int n_bodies)
       : executor(executor)
       , particles(executor, n)
       , x(executor, n_solid)
       , v(executor, n_solid)
       , rotations(executor, n_solid)
+      , carried(executor, n_bodies)
+      , surfaces(executor, n_solid)
+      , surface_moments(executor, n_solid)
     {
     }
 
@@ -104,6 +164,9 @@ namespace undine::particles
       copy(x, bodies.x);
       copy(v, bodies.v);
       copy(rotations, bodies.rotations);
+      copy(carried, bodies.carried);
+      copy(surfaces, bodies.surfaces);
+      copy(surface_moments, bodies.surface_moments);
     }
 
     void
@@ -114,6 +177,9 @@ namespace undine::particles
       copy(bodies.x, x);
       copy(bodies.v, v);
       copy(bodies.rotations, rotations);
+      copy(bodies.carried, carried);
+      copy(bodies.surfaces, surfaces);
+      copy(bodies.surface_moments, surface_moments);
     }
 
   private:
@@ -138,6 +204,9 @@ namespace undine::particles
     ParticleArrays<Executor, dim, Real> particles;
     Buffer<Executor, Vector<dim, Real>> x, v;
     Buffer<Executor, Matrix<dim, Real>> rotations;
+    Buffer<Executor, Real>              carried;
+    Buffer<Executor, Vector<dim, Real>> surfaces;
+    Buffer<Executor, Matrix<dim, Real>> surface_moments;
   };
 } // namespace undine::particles
 

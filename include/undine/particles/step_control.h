@@ -25,17 +25,19 @@ namespace undine::particles
     not_a_number   = 1, ///< a speed is
     neighbours     = 2, ///< a particle has more neighbours than the list can hold
     outside        = 4, ///< a particle left the box
-    matrix_indices = 8  ///< neighbours are too far apart in memory for packed matrix entries
+    matrix_indices = 8, ///< neighbours are too far apart in memory for packed matrix entries
+    no_reserve     = 16 ///< more particles flow in than wait to
   };
 
   /// Bounds on sub-steps [s], constant.
   struct StepBounds
   {
-    double asked       = 0; ///< largest
-    double waves       = 0; ///< share of l0 / sqrt(g H); 0: none
-    double viscosity   = 0; ///< share of l0^2 / nu; 0: none
-    double speed_share = 0; ///< of l0 that the fastest particle may cross [m]
-    double elastic     = 0; ///< largest explicit step of the elastic bodies; 0: no bodies
+    double asked           = 0; ///< largest
+    double waves           = 0; ///< share of l0 / sqrt(g H); 0: none
+    double viscosity       = 0; ///< share of l0^2 / nu; 0: none
+    double speed_share     = 0; ///< of l0 that the fastest particle may cross [m]
+    double elastic         = 0; ///< largest explicit step of the elastic bodies; 0: no bodies
+    int most_elastic_steps = 0; ///< explicit ones in a sub-step; else one implicit; 0: any number
   };
 
   /// How a solver did in a frame.
@@ -52,10 +54,11 @@ namespace undine::particles
   /// passes read the step from here. After the end of the frame `dt` is zero and they do nothing.
   struct StepControl
   {
-    double frame         = 0; ///< length of the frame [s]
-    double elapsed       = 0; ///< of it at the end of the present sub-step [s]
-    double dt            = 0; ///< present sub-step [s]
-    int    elastic_steps = 0; ///< of the bodies within it
+    double frame               = 0;     ///< length of the frame [s]
+    double elapsed             = 0;     ///< of it at the end of the present sub-step [s]
+    double dt                  = 0;     ///< present sub-step [s]
+    int    elastic_steps       = 0;     ///< of the bodies within it
+    bool   elastic_is_implicit = false; ///< then it is one
 
     std::uint32_t largest_speed = 0; ///< in the last sub-step, bits of a float [m/s]
     unsigned int  failures      = 0; ///< bits of Failure
@@ -67,7 +70,8 @@ namespace undine::particles
     double       fastest                                    = 0; ///< [m/s]
     SolverRecord pressure, faces;
 
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     done() const
     {
       return dt <= 0;
@@ -80,7 +84,8 @@ namespace undine::particles
     StepControl *control;
     StepBounds   bounds;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int) const
     {
       StepControl &c     = *control;
@@ -104,11 +109,16 @@ namespace undine::particles
       ++c.bounded_by[static_cast<int>(bound)];
       ++c.sub_steps;
       c.elastic_steps = bounds.elastic > 0 ? static_cast<int>(ceil(c.dt / bounds.elastic)) : 0;
+      c.elastic_is_implicit =
+        bounds.most_elastic_steps > 0 && c.elastic_steps > bounds.most_elastic_steps;
+      if (c.elastic_is_implicit)
+        c.elastic_steps = 1;
       c.elastic_steps_total += c.elastic_steps;
     }
 
   private:
-    UNDINE_HOST_DEVICE double
+    UNDINE_HOST_DEVICE
+    double
     largest(const double speed, Bound &bound) const
     {
       double dt = bounds.asked;
@@ -119,7 +129,8 @@ namespace undine::particles
       return dt;
     }
 
-    UNDINE_HOST_DEVICE static void
+    UNDINE_HOST_DEVICE
+    static void
     lower(double &dt, Bound &bound, const double candidate, const Bound name)
     {
       if (candidate > 0 && candidate < dt)

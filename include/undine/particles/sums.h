@@ -12,19 +12,22 @@ namespace undine::particles
   {
     double values[count] = {};
 
-    UNDINE_HOST_DEVICE double &
+    UNDINE_HOST_DEVICE
+    double &
     operator[](const int k)
     {
       return values[k];
     }
 
-    UNDINE_HOST_DEVICE double
+    UNDINE_HOST_DEVICE
+    double
     operator[](const int k) const
     {
       return values[k];
     }
 
-    UNDINE_HOST_DEVICE Sums &
+    UNDINE_HOST_DEVICE
+    Sums &
     operator+=(const Sums &other)
     {
       for (int k = 0; k < count; ++k)

@@ -9,7 +9,8 @@
 namespace undine::particles
 {
   /// 1 / sqrt(x), by the device's instruction where there is one.
-  UNDINE_HOST_DEVICE float
+  UNDINE_HOST_DEVICE
+  float
   inverse_square_root(const float x)
   {
 #ifdef __CUDA_ARCH__
@@ -19,21 +20,24 @@ namespace undine::particles
 #endif
   }
 
-  UNDINE_HOST_DEVICE double
+  UNDINE_HOST_DEVICE
+  double
   inverse_square_root(const double x)
   {
     return 1 / sqrt(x);
   }
 
   template <class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   minimum(const Real a, const Real b)
   {
     return b < a ? b : a;
   }
 
   template <class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   maximum(const Real a, const Real b)
   {
     return a < b ? b : a;
@@ -46,19 +50,22 @@ namespace undine::particles
   {
     Real entries[dim];
 
-    UNDINE_HOST_DEVICE Real &
+    UNDINE_HOST_DEVICE
+    Real &
     operator[](const int axis)
     {
       return entries[axis];
     }
 
-    UNDINE_HOST_DEVICE const Real &
+    UNDINE_HOST_DEVICE
+    const Real &
     operator[](const int axis) const
     {
       return entries[axis];
     }
 
-    UNDINE_HOST_DEVICE Vector &
+    UNDINE_HOST_DEVICE
+    Vector &
     operator+=(const Vector &other)
     {
       for (int axis = 0; axis < dim; ++axis)
@@ -66,7 +73,8 @@ namespace undine::particles
       return *this;
     }
 
-    UNDINE_HOST_DEVICE Vector &
+    UNDINE_HOST_DEVICE
+    Vector &
     operator-=(const Vector &other)
     {
       for (int axis = 0; axis < dim; ++axis)
@@ -74,7 +82,8 @@ namespace undine::particles
       return *this;
     }
 
-    UNDINE_HOST_DEVICE Vector &
+    UNDINE_HOST_DEVICE
+    Vector &
     operator*=(const Real factor)
     {
       for (int axis = 0; axis < dim; ++axis)
@@ -82,7 +91,8 @@ namespace undine::particles
       return *this;
     }
 
-    UNDINE_HOST_DEVICE static Vector
+    UNDINE_HOST_DEVICE
+    static Vector
     zero()
     {
       Vector result;
@@ -93,29 +103,33 @@ namespace undine::particles
   };
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Vector<dim, Real>
-                     operator+(Vector<dim, Real> a, const Vector<dim, Real> &b)
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  operator+(Vector<dim, Real> a, const Vector<dim, Real> &b)
   {
     return a += b;
   }
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Vector<dim, Real>
-                     operator-(Vector<dim, Real> a, const Vector<dim, Real> &b)
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  operator-(Vector<dim, Real> a, const Vector<dim, Real> &b)
   {
     return a -= b;
   }
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Vector<dim, Real>
-                     operator*(const Real factor, Vector<dim, Real> a)
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  operator*(const Real factor, Vector<dim, Real> a)
   {
     return a *= factor;
   }
 
   /// The scalar product.
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   operator*(const Vector<dim, Real> &a, const Vector<dim, Real> &b)
   {
     Real sum = 0;
@@ -125,7 +139,8 @@ namespace undine::particles
   }
 
   template <int dim, class Real>
-  UNDINE_HOST_DEVICE Real
+  UNDINE_HOST_DEVICE
+  Real
   norm_square(const Vector<dim, Real> &a)
   {
     return a * a;

@@ -24,19 +24,21 @@ namespace undine::particles
     const Vector<dim, Real>          *potentials;  ///< L; nullptr: all zero
 
     /// The part without potentials.
-    UNDINE_HOST_DEVICE Vector<dim, Real>
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
     open(const SymmetricMatrix<dim, Real> &M_i, const int j, const Pair<dim, Real> &pair) const
     {
       return (factor * pair.weight / (2 * pair.square)) * (M_i * pair.r + corrections[j] * pair.r);
     }
 
     /// `k` is the pair's coefficient in the pressure equation.
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       closed(const SymmetricMatrix<dim, Real> &M_i,
-                              const Vector<dim, Real>          &L_i,
-                              const int                         j,
-                              const Real                        k,
-                              const Pair<dim, Real>            &pair) const
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    closed(const SymmetricMatrix<dim, Real> &M_i,
+           const Vector<dim, Real>          &L_i,
+           const int                         j,
+           const Real                        k,
+           const Pair<dim, Real>            &pair) const
     {
       return open(M_i, j, pair) + k * (L_i - potentials[j]);
     }

@@ -68,6 +68,15 @@ namespace undine
   }
 
 
+  void
+  TimingTree::add(const std::string &name, const double seconds)
+  {
+    auto *phase = child(*current, name);
+    phase->seconds += seconds;
+    ++phase->calls;
+  }
+
+
   const TimingTree::Node &
   TimingTree::root() const
   {

@@ -21,7 +21,9 @@ namespace undine
     {
       name = probe_name;
       if (!models.fluid)
-        throw options.error("Kind", "the scene has no fluid", "Try: remove the probe.");
+        throw options.error("Kind",
+                            "the scene has no fluid on a grid",
+                            "Try: remove the probe; particles have 'wall pressure' and 'front'.");
       check_in_domain(options, "Point", point, models.fluid->grid());
     }
 

@@ -44,6 +44,10 @@ namespace undine
     Section
     section(const std::string &name);
 
+    /// Add what was measured elsewhere to the phase `name` of the present section.
+    void
+    add(const std::string &name, const double seconds);
+
     const Node &
     root() const;
 

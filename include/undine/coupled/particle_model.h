@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_particle_model_h
+#define undine_coupled_particle_model_h
+
+#include <undine/coupled/particle_body.h>
+#include <undine/coupled/particle_domain.h>
+#include <undine/coupled/particle_fluid.h>
+#include <undine/coupled/particle_numerics.h>
+#include <undine/coupled/particle_walls.h>
+#include <undine/coupled/point_grid.h>
+#include <undine/effects/effect.h>
+#include <undine/particles/particle_state.h>
+#include <undine/particles/setup.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// The effects of a scene, with their names.
+  template <int dim>
+  struct NamedEffects
+  {
+    const Effects<dim>             &effects;
+    const std::vector<std::string> &names;
+  };
+
+  /// A scene of particles: what does not change during a run, and how it begins. The bridge from
+  /// the parameter file to `particles`, which knows neither of it nor of deal.II.
+  template <int dim>
+  class ParticleModel
+  {
+  public:
+    /// Read the sections `Particles`, `Domain`, `Fluid`, `Bodies`, `Obstacles` and `Output`, and
+    /// place all particles. Throws InputError, also if there is more than one rank.
+    ParticleModel(const Options &scene, const NamedEffects<dim> &effects, MPI_Comm communicator);
+
+    /// Declare the keys without building anything.
+    static void
+    declare(const Options &scene);
+
+    const particles::Setup<dim> &
+    setup() const
+    {
+      return constants;
+    }
+
+    const particles::ParticleState<dim> &
+    initial_state() const
+    {
+      return start;
+    }
+
+    const ParticleNumerics &
+    numerics() const
+    {
+      return particle_numerics;
+    }
+
+    const ParticleDomain<dim> &
+    domain() const
+    {
+      return box;
+    }
+
+    const std::vector<std::string> &
+    body_names() const
+    {
+      return names;
+    }
+
+    bool
+    has_fluid() const
+    {
+      return n_fluid > 0;
+    }
+
+    /// Whether pictures contain the particles of walls.
+    bool
+    shows_walls() const
+    {
+      return walls_are_shown;
+    }
+
+    MPI_Comm
+    communicator() const
+    {
+      return ranks;
+    }
+
+    /// How many particles of which kind there are, in words.
+    std::string
+    counts() const;
+
+    /// What the user may not expect; one sentence each.
+    const std::vector<std::string> &
+    notes() const
+    {
+      return remarks;
+    }
+
+  private:
+    void
+    apply(const NamedEffects<dim> &effects, const Options &scene);
+    void
+    place_bodies(std::vector<ParticleBody<dim>> &bodies, const ParticleObstacles<dim> &obstacles);
+    void
+    add_body(const ParticleBody<dim> &body);
+    std::vector<WallParticle<dim>>
+    place_walls(const std::vector<ParticleBody<dim>> &bodies,
+                const ParticleObstacles<dim>         &obstacles);
+    void
+    add_walls(const std::vector<WallParticle<dim>> &walls);
+    void
+    add(const dealii::Point<dim>     &place,
+        const dealii::Tensor<1, dim> &velocity,
+        const particles::Tag          tag);
+
+    MPI_Comm                      ranks;
+    ParticleNumerics              particle_numerics;
+    ParticleDomain<dim>           box;
+    particles::Setup<dim>         constants;
+    particles::ParticleState<dim> start;
+    std::vector<std::string>      names; ///< of the bodies
+    std::size_t                   n_fluid = 0, n_wall = 0;
+    bool                          walls_are_shown = false;
+    std::vector<std::string>      remarks;
+    PointGrid<dim>                occupied; ///< by bodies, then also by walls
+  };
+} // namespace undine
+
+#endif

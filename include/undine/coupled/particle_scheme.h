@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_particle_scheme_h
+#define undine_coupled_particle_scheme_h
+
+#include <undine/coupled/scheme.h>
+#include <undine/particles/engine.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace undine
+{
+  /// Fluid and bodies as particles: a step is a frame, which the engine makes in sub-steps that it
+  /// chooses. The engine keeps the particles between frames; the state is a copy of them.
+  template <int dim>
+  class ParticleScheme : public Scheme<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override;
+
+    typename Scheme<dim>::Method
+    method() const override
+    {
+      return Scheme<dim>::Method::particles;
+    }
+
+    Report
+    initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) override;
+
+    double
+    choose_dt(const State<dim> &state) const override;
+
+    Report
+    step(State<dim> &state, double dt) override;
+
+  private:
+    /// Give the state to the engine, unless it is what the engine holds.
+    void
+    load(const State<dim> &state);
+
+    /// What the engine says about its particles.
+    void
+    measure(Report &report, const particles::StepControl &control) const;
+
+    /// Seconds by phase since the last call.
+    void
+    collect_seconds();
+
+    double                                  frame  = 0.01; ///< [s]
+    const ParticleModel<dim>               *model  = nullptr;
+    TimingTree                             *timing = nullptr;
+    std::unique_ptr<particles::Engine<dim>> engine;
+    bool                                    is_loaded   = false;
+    double                                  loaded_time = 0; ///< of the engine's particles [s]
+    std::map<std::string, double>           seconds;         ///< so far
+  };
+
+  /// The columns of the file `statistics`.
+  template <int dim>
+  Columns
+  particle_columns(const ParticleModel<dim>      &model,
+                   const particles::StepControl  &control,
+                   const particles::Balance<dim> &balance);
+} // namespace undine
+
+#endif

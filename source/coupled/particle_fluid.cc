@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/particle_fluid.h>
+#include <undine/interface/surface_distance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace undine
+{
+  namespace
+  {
+    constexpr double rounding = 1e-6; // [spacings]
+
+
+    template <int dim>
+    using Distances = std::vector<std::unique_ptr<const SurfaceDistance<dim>>>;
+
+
+    /// Boundaries of the shapes, which must be in the domain: fluid beyond it would be left out.
+    template <int dim>
+    Distances<dim>
+    build(const std::vector<ShapeDescription<dim>> &shapes, const ParticleDomain<dim> &domain)
+    {
+      Distances<dim> result;
+      for (const auto &shape : shapes)
+        {
+          const auto boundary = make_shape_boundary(shape);
+          const auto surface  = boundary.surface(shape.name);
+          check_closed(surface, boundary.nodes);
+          for (const auto &node : boundary.nodes)
+            for (unsigned int axis = 0; axis < dim; ++axis)
+              if (node[axis] < domain.lower[axis] - rounding * domain.spacing ||
+                  node[axis] > domain.upper[axis] + rounding * domain.spacing)
+                throw shape.options.error("",
+                                          "the fluid reaches out of the domain, to (" +
+                                            write_value(node) + ")",
+                                          "Allowed: from (" + write_value(domain.lower) + ") to (" +
+                                            write_value(domain.upper) + ") [m]");
+          result.push_back(std::make_unique<const SurfaceDistance<dim>>(surface, boundary.nodes));
+        }
+      return result;
+    }
+
+
+    template <int dim>
+    bool
+    is_in_one(const Distances<dim>     &distances,
+              const dealii::Point<dim> &place,
+              const double              spacing)
+    {
+      return std::any_of(distances.begin(), distances.end(), [&](const auto &distance) {
+        return distance->box().point_inside(place) &&
+               distance->nearest(place).distance < -rounding * spacing;
+      });
+    }
+
+
+    template <int dim>
+    InputError
+    no_number(const Options &options, const std::string &key, const dealii::Point<dim> &place)
+    {
+      return options.error(key,
+                           "is not a number at (" + write_value(place) + ")",
+                           "Try: an expression that is finite in the whole domain.");
+    }
+  } // namespace
+
+
+  template <int dim>
+  ParticleFluid<dim>::ParticleFluid(const Options &scene)
+    : options(scene.section("Fluid"))
+    , region("1")
+  {
+    options.require("Density", density, "kg/m^3", Allowed::positive(), "Mass per volume at rest.");
+    options.add("Bulk modulus",
+                bulk_modulus,
+                "Pa",
+                Allowed::not_negative(),
+                "Pressure per relative loss of volume. 0: incompressible.");
+    options.add("Region",
+                region,
+                "",
+                Allowed::anything(),
+                "There is fluid at the start where this is positive, in particles' centres, and no "
+                "body or obstacle; by default in the whole domain.");
+    options.add("Initial velocity", velocity, "m/s", Allowed::anything(), "At the start.");
+    const auto section = options.section("Shapes");
+    for (const auto &name : section.named_sections("column"))
+      shapes.emplace_back(name, section.section(name));
+  }
+
+
+  template <int dim>
+  void
+  ParticleFluid<dim>::fill(const ParticleDomain<dim>                             &domain,
+                           const std::function<bool(const dealii::Point<dim> &)> &taken)
+  {
+    const auto distances = build(shapes, domain);
+    domain.for_each_cell([&](const dealii::Point<dim> &place) {
+      const double inside = region.value(place, 0.);
+      if (!std::isfinite(inside))
+        throw no_number(options, "Region", place);
+      if (!(inside > 0) || (!shapes.empty() && !is_in_one(distances, place, domain.spacing)) ||
+          taken(place))
+        return;
+      places.push_back(place);
+      velocities.push_back(velocity.vector(place, 0.));
+      if (!std::isfinite(velocities.back().norm()))
+        throw no_number(options, "Initial velocity", place);
+    });
+    if (places.empty())
+      throw options.error(
+        "Region",
+        shapes.empty() ? "leaves no fluid" : "and the 'Shapes' together leave no fluid",
+        "Try: another region, or a smaller 'Particles / Spacing'; a scene without "
+        "fluid has no section 'Fluid'.");
+  }
+
+
+  template <int dim>
+  double
+  ParticleFluid<dim>::depth(const dealii::Tensor<1, dim> &gravity, const double spacing) const
+  {
+    const double strength = gravity.norm();
+    if (strength == 0 || places.empty())
+      return 0;
+    double highest = -std::numeric_limits<double>::infinity(), lowest = -highest;
+    for (const auto &place : places)
+      {
+        const double height = -(place * gravity) / strength;
+        highest             = std::max(highest, height);
+        lowest              = std::min(lowest, height);
+      }
+    return highest - lowest + spacing;
+  }
+
+
+  template struct ParticleFluid<2>;
+  template struct ParticleFluid<3>;
+} // namespace undine

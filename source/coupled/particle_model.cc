@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/particle_model.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  namespace
+  {
+    constexpr double apart   = 0.9;  // from other kinds of particles at the start [spacings]
+    constexpr double overlap = 0.55; // nearer bodies lie on each other [spacings]
+    constexpr double inside  = 0.25; // deeper in another body is on it [spacings]
+
+
+    const Options &
+    only_one_rank(const Options &scene, const MPI_Comm communicator)
+    {
+      const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+      if (n_ranks > 1 && !scene.is_reference())
+        throw scene.error(
+          "Scheme",
+          fmt::format("particles are computed by one rank, but {} were started", n_ranks),
+          "Try: start it without mpirun; it uses all cores by threads, see "
+          "'Particles / Threads'.");
+      return scene;
+    }
+
+
+    template <int dim>
+    particles::Vector<dim, double>
+    plain(const dealii::Tensor<1, dim> &vector)
+    {
+      particles::Vector<dim, double> result;
+      for (int axis = 0; axis < dim; ++axis)
+        result[axis] = vector[axis];
+      return result;
+    }
+
+
+    bool
+    read_shows_walls(const Options &scene)
+    {
+      bool result = false;
+      scene.section("Output").add("Walls",
+                                  result,
+                                  "",
+                                  Allowed::anything(),
+                                  "Whether pictures contain the particles of walls.");
+      return result;
+    }
+
+
+    template <int dim>
+    void
+    check_place(const ParticleBody<dim>      &body,
+                const std::size_t             k,
+                const ParticleDomain<dim>    &box,
+                const ParticleObstacles<dim> &obstacles)
+    {
+      const double outside = box.distance_outside(body.places[k]);
+      const auto   place   = "(" + write_value(body.places[k]) + ")";
+      if (outside > (body.held[k] ? box.layers * box.spacing : 0.))
+        throw body.options.error(
+          "",
+          "the body is outside the domain at " + place,
+          "Try: a larger domain; what is held may reach into walls, at most " +
+            write_value(box.layers * box.spacing) + " m.");
+      if (!body.held[k] && obstacles.contain(body.places[k]))
+        throw body.options.error("",
+                                 "the body is in an obstacle at " + place,
+                                 "Try: move one of them; only what is held may be in obstacles.");
+    }
+
+
+    template <int dim>
+    std::string
+    volume_remark(const ParticleBody<dim> &body, const double spacing)
+    {
+      const double particles = body.places.size() * std::pow(spacing, dim);
+      if (std::abs(particles / body.volume - 1) < 0.02)
+        return "";
+      return fmt::format("body '{}' has a volume of {:.4g} m^{}, its {} particles have {:.1f} % of "
+                         "it; lengths that are whole numbers of spacings fit exactly",
+                         body.name,
+                         body.volume,
+                         dim,
+                         body.places.size(),
+                         100 * particles / body.volume);
+    }
+  } // namespace
+
+
+  template <int dim>
+  ParticleModel<dim>::ParticleModel(const Options           &scene,
+                                    const NamedEffects<dim> &effects,
+                                    const MPI_Comm           communicator)
+    : ranks(communicator)
+    , particle_numerics(only_one_rank(scene, communicator))
+    , box(scene, particle_numerics.spacing, particle_numerics.numerics.reach)
+    , walls_are_shown(read_shows_walls(scene))
+    , occupied(particle_numerics.spacing)
+  {
+    auto                              bodies = read_particle_bodies<dim>(scene);
+    std::optional<ParticleFluid<dim>> fluid;
+    if (scene.section("Fluid").given())
+      fluid.emplace(scene);
+    const auto obstacles = read_particle_obstacles(scene, box);
+
+    constants.spacing  = box.spacing;
+    constants.lower    = plain<dim>(box.outermost_lower());
+    constants.upper    = plain<dim>(box.outermost_upper());
+    constants.numerics = particle_numerics.numerics;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      constants.periodic[axis] = box.periodic(axis);
+    constants.has_fluid = fluid.has_value();
+    if (fluid)
+      {
+        constants.fluid_density      = fluid->density;
+        constants.fluid_bulk_modulus = fluid->bulk_modulus;
+      }
+    apply(effects, scene);
+
+    if (bodies.size() >= particles::Constants<dim, double>::max_materials)
+      throw scene.error(
+        "Bodies",
+        fmt::format("there are {} bodies", bodies.size()),
+        fmt::format("Allowed: at most {}.", particles::Constants<dim, double>::max_materials - 1));
+    place_bodies(bodies, obstacles);
+    const auto walls = place_walls(bodies, obstacles);
+    if (fluid)
+      {
+        fluid->fill(box, [&](const dealii::Point<dim> &place) {
+          return occupied.any_near(place, apart * box.spacing) || obstacles.contain(place);
+        });
+        dealii::Tensor<1, dim> gravity;
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          gravity[axis] = constants.gravity[axis];
+        constants.depth = fluid->depth(gravity, box.spacing);
+        n_fluid         = fluid->places.size();
+        for (std::size_t k = 0; k < n_fluid; ++k)
+          add(
+            fluid->places[k], fluid->velocities[k], particles::Tag::of(particles::Kind::fluid, 0));
+      }
+    add_walls(walls);
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::declare(const Options &scene)
+  {
+    const ParticleNumerics numerics(scene);
+    ParticleDomain<dim>(scene, numerics.spacing, numerics.numerics.reach);
+    read_shows_walls(scene);
+    read_particle_bodies<dim>(scene);
+    ParticleFluid<dim>{scene};
+    declare_particle_obstacles<dim>(scene);
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::apply(const NamedEffects<dim> &effects, const Options &scene)
+  {
+    for (unsigned int e = 0; e < effects.effects.size(); ++e)
+      if (!effects.effects[e]->affect_particles(constants))
+        throw scene.section("Effects")
+          .section(effects.names[e])
+          .error("",
+                 "this effect is one of fluids on a grid or of bodies of finite elements",
+                 "Remove the section: particles know 'gravity' and 'viscosity', and always carry "
+                 "their momentum.");
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::place_bodies(std::vector<ParticleBody<dim>> &bodies,
+                                   const ParticleObstacles<dim>   &obstacles)
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        auto &body = bodies[b];
+        body.fill(box.spacing);
+        for (std::size_t k = 0; k < body.places.size(); ++k)
+          {
+            const auto &place = body.places[k];
+            check_place(body, k, box, obstacles);
+            occupied.for_each_near(place, overlap * box.spacing, [&](const std::size_t other) {
+              throw body.options.error("",
+                                       "the body lies on the body '" +
+                                         names[constants.body_of[other]] + "' at (" +
+                                         write_value(place) + ")",
+                                       "Try: move them apart.");
+            });
+            for (unsigned int other = 0; other < b; ++other)
+              if (bodies[other].surface->nearest(place).distance < -inside * box.spacing)
+                throw body.options.error("",
+                                         "the body is in the body '" + names[other] + "' at (" +
+                                           write_value(place) + ")",
+                                         "Try: move them apart.");
+          }
+        add_body(body);
+      }
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::add_body(const ParticleBody<dim> &body)
+  {
+    const int number = names.size();
+    names.push_back(body.name);
+    constants.bodies.push_back(body.setup);
+    for (std::size_t k = 0; k < body.places.size(); ++k)
+      {
+        occupied.add(body.places[k]);
+        constants.reference.push_back(plain<dim>(body.places[k]));
+        constants.body_of.push_back(number);
+        constants.held.push_back(body.held[k]);
+        add(body.places[k],
+            body.velocities[k],
+            particles::Tag::of(particles::Kind::solid, number + 1));
+      }
+    const auto remark = volume_remark(body, box.spacing);
+    if (!remark.empty())
+      remarks.push_back(remark);
+  }
+
+
+  template <int dim>
+  std::vector<WallParticle<dim>>
+  ParticleModel<dim>::place_walls(const std::vector<ParticleBody<dim>> &bodies,
+                                  const ParticleObstacles<dim>         &obstacles)
+  {
+    auto walls = box.wall_particles();
+    walls.insert(walls.end(), obstacles.particles.begin(), obstacles.particles.end());
+    std::vector<WallParticle<dim>> result;
+    for (const auto &wall : walls)
+      {
+        bool room = true; // what is held in a wall takes its place
+        occupied.for_each_near(wall.place, apart * box.spacing, [&](const std::size_t k) {
+          room = room && !constants.held[k];
+        });
+        if (!room)
+          continue;
+        result.push_back(wall);
+        occupied.for_each_near(wall.place, overlap * box.spacing, [&](const std::size_t k) {
+          const auto &body = bodies[constants.body_of[k]];
+          throw body.options.error("",
+                                   "the body reaches into a wall at (" + write_value(occupied[k]) +
+                                     ")",
+                                   "Try: move it away by a spacing, or hold it there.");
+        });
+      }
+    for (const auto &wall : result)
+      occupied.add(wall.place);
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::add_walls(const std::vector<WallParticle<dim>> &walls)
+  {
+    using particles::Kind;
+    n_wall = walls.size();
+    for (const auto &wall : walls)
+      add(wall.place,
+          dealii::Tensor<1, dim>(),
+          particles::Tag::of(wall.layer == 0 ? Kind::wall : Kind::dummy, 0));
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::add(const dealii::Point<dim>     &place,
+                          const dealii::Tensor<1, dim> &velocity,
+                          const particles::Tag          tag)
+  {
+    start.identities.push_back(start.positions.size());
+    start.positions.push_back(plain<dim>(place));
+    start.velocities.push_back(plain(velocity));
+    start.pressures.push_back(0);
+    start.tags.push_back(tag);
+  }
+
+
+  template <int dim>
+  std::string
+  ParticleModel<dim>::counts() const
+  {
+    return fmt::format("{} of fluid, {} of {} bodies, {} of walls; {:.4g} m apart",
+                       n_fluid,
+                       constants.reference.size(),
+                       names.size(),
+                       n_wall,
+                       box.spacing);
+  }
+
+
+  template class ParticleModel<2>;
+  template class ParticleModel<3>;
+} // namespace undine

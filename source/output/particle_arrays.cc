@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/particle_arrays.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  namespace
+  {
+    const std::string guesses_name = "particles/guesses";
+
+
+    StateArray
+    array_of(const std::string &name, const std::vector<double> &values, const hsize_t columns)
+    {
+      const hsize_t rows = values.size() / columns;
+      return {name, {{rows, columns}, {0, 0}, {rows, columns}}, values};
+    }
+
+
+    template <int dim>
+    std::vector<double>
+    components(const std::vector<particles::Vector<dim, double>> &vectors)
+    {
+      std::vector<double> result;
+      for (const auto &vector : vectors)
+        result.insert(result.end(), vector.entries, vector.entries + dim);
+      return result;
+    }
+
+
+    template <int dim>
+    void
+    set_components(std::vector<particles::Vector<dim, double>> &vectors,
+                   const std::vector<double>                   &values)
+    {
+      for (std::size_t k = 0; k < values.size(); ++k)
+        vectors[k / dim][k % dim] = values[k];
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<StateArray>
+  pack_particles(const particles::ParticleState<dim> &state)
+  {
+    std::vector<double> tags;
+    for (const auto tag : state.tags)
+      tags.push_back(tag.code);
+    std::vector<StateArray> result{
+      array_of("particles/positions", components(state.positions), dim),
+      array_of("particles/velocities", components(state.velocities), dim),
+      array_of("particles/pressures", state.pressures, 1),
+      array_of("particles/tags", tags, 1),
+      array_of("particles/identities",
+               std::vector<double>(state.identities.begin(), state.identities.end()),
+               1)};
+    if (!state.guesses.empty())
+      result.push_back(array_of(guesses_name, state.guesses, 1));
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  unpack_particles(particles::ParticleState<dim> &state, const std::vector<StateArray> &arrays)
+  {
+    auto array = arrays.begin();
+    set_components(state.positions, (array++)->values);
+    set_components(state.velocities, (array++)->values);
+    state.pressures = (array++)->values;
+    std::transform(array->values.begin(),
+                   array->values.end(),
+                   state.tags.begin(),
+                   [](const double code) { return particles::Tag{static_cast<int>(code)}; });
+    ++array;
+    state.identities.assign(array->values.begin(), array->values.end());
+    ++array;
+    if (!state.guesses.empty())
+      state.guesses = array->values;
+  }
+
+
+  template <int dim>
+  void
+  resize_guesses(particles::ParticleState<dim> &state, const HDF5Reader &file)
+  {
+    state.guesses.resize(file.contains(guesses_name) ? file.size(guesses_name)[0] : 0);
+  }
+
+
+  template std::vector<StateArray>
+  pack_particles(const particles::ParticleState<2> &);
+  template std::vector<StateArray>
+  pack_particles(const particles::ParticleState<3> &);
+  template void
+  unpack_particles(particles::ParticleState<2> &, const std::vector<StateArray> &);
+  template void
+  unpack_particles(particles::ParticleState<3> &, const std::vector<StateArray> &);
+  template void
+  resize_guesses(particles::ParticleState<2> &, const HDF5Reader &);
+  template void
+  resize_guesses(particles::ParticleState<3> &, const HDF5Reader &);
+} // namespace undine

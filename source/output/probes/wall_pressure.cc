@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/probe.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  /// The pressure of particles on a disc of a wall, averaged [Pa].
+  template <int dim>
+  class WallPressure : public Probe<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override
+    {
+      options.require("Point", point, "m", Allowed::anything(), "Centre of the disc, on a wall.");
+      options.add("Radius",
+                  radius,
+                  "m",
+                  Allowed::not_negative(),
+                  "Of the disc; at least the particles within half a spacing of its centre count.");
+    }
+
+    void
+    start(const std::string &probe_name, const Options &options, const Models<dim> &models) override
+    {
+      name = probe_name;
+      if (!models.particles)
+        throw options.error("Kind",
+                            "measures walls of particles, but the scene has none",
+                            "Try: 'fluid point', or 'Scheme = particle'.");
+      identities = particles_on_disc(*models.particles);
+      if (identities.empty())
+        throw options.error("Point",
+                            "there is no wall at (" + write_value(point) + ")",
+                            "Try: a point on a side of the domain or of an obstacle, and a radius "
+                            "above the spacing.");
+    }
+
+    Columns
+    columns(const Models<dim> &, const State<dim> &state) const override
+    {
+      const auto &particles = state.particles;
+      double      sum       = 0;
+      for (std::size_t k = 0; k < particles.identities.size(); ++k)
+        if (std::binary_search(identities.begin(), identities.end(), particles.identities[k]))
+          sum += particles.pressures[k];
+      return {{name + " pressure", "Pa", sum / identities.size()}};
+    }
+
+  private:
+    /// Ascending. The first layer of a wall is half a spacing behind its surface.
+    std::vector<int>
+    particles_on_disc(const ParticleModel<dim> &model) const
+    {
+      const auto  &start   = model.initial_state();
+      const double spacing = model.domain().spacing;
+      const double along   = std::max(radius, spacing * std::sqrt(dim - 1.) / 2);
+      const double reach   = (1 + 1e-6) * std::hypot(along, spacing / 2);
+
+      std::vector<int> result;
+      for (std::size_t k = 0; k < start.tags.size(); ++k)
+        if (start.tags[k].kind() == particles::Kind::wall)
+          {
+            double square = 0;
+            for (unsigned int axis = 0; axis < dim; ++axis)
+              square += std::pow(start.positions[k][axis] - point[axis], 2);
+            if (square <= reach * reach)
+              result.push_back(start.identities[k]);
+          }
+      std::sort(result.begin(), result.end());
+      return result;
+    }
+
+    std::string        name;
+    dealii::Point<dim> point;
+    double             radius = 0; ///< [m]
+    std::vector<int>   identities;
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Probe, WallPressure>
+      wall_pressure("wall pressure", "mean pressure of particles on a disc of a wall");
+  }
+} // namespace undine

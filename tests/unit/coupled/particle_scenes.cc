@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <catch2/catch.hpp>
+
+#include "particle_scene.h"
+
+#include <cmath>
+#include <set>
+
+using namespace undine_tests;
+using particles::Kind;
+
+namespace
+{
+  const std::string water = section("Fluid", "set Density = 1000");
+
+  std::size_t
+  power(const std::size_t base, const int exponent)
+  {
+    std::size_t result = 1;
+    for (int k = 0; k < exponent; ++k)
+      result *= base;
+    return result;
+  }
+
+
+  /// A body of water's density with these keys.
+  std::string
+  body(const std::string &name, const std::string &keys)
+  {
+    return section("Bodies",
+                   section(name,
+                           "set Density = 1000\n set Young's modulus = 1e5\n "
+                           "set Poisson's ratio = 0.3\n" +
+                             keys));
+  }
+
+
+  template <int dim>
+  double
+  least_distance(const particles::ParticleState<dim> &state)
+  {
+    double least = 1e100;
+    for (std::size_t i = 0; i < state.positions.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        least = std::min(least, norm_square(state.positions[i] - state.positions[j]));
+    return std::sqrt(least);
+  }
+} // namespace
+
+
+TEMPLATE_TEST_CASE_SIG(
+  "particles: a full box is a lattice with three layers of walls", "", ((int dim), dim), 2, 3)
+{
+  const auto  model = read_particles<dim>(particle_box<dim>(4) + water);
+  const auto &state = model.initial_state();
+  CHECK(count(model, Kind::fluid) == power(4, dim));
+  CHECK(count(model, Kind::wall) == power(6, dim) - power(4, dim));
+  CHECK(count(model, Kind::dummy) == power(10, dim) - power(6, dim));
+  CHECK(least_distance(state) == Approx(1).epsilon(1e-12));
+  std::set<int> identities(state.identities.begin(), state.identities.end());
+  CHECK(identities.size() == state.positions.size());
+  CHECK(*identities.rbegin() + 1 == int(state.positions.size()));
+  for (std::size_t k = 0; k < state.positions.size(); ++k)
+    for (int axis = 0; axis < dim; ++axis)
+      {
+        CHECK(state.positions[k][axis] - std::floor(state.positions[k][axis]) == Approx(0.5));
+        CHECK(state.positions[k][axis] > model.setup().lower[axis]);
+        CHECK(state.positions[k][axis] < model.setup().upper[axis]);
+      }
+}
+
+
+TEST_CASE("particles: open and periodic sides have no walls")
+{
+  const auto model = read_particles<2>(
+    particle_box<2>(10, "set Open sides = top\n set Periodic sides = left, right") + water);
+  CHECK(count(model, Kind::fluid) == 100);
+  CHECK(count(model, Kind::wall) == 10);
+  CHECK(count(model, Kind::dummy) == 20);
+  const auto &setup = model.setup();
+  CHECK(setup.periodic[0]);
+  CHECK_FALSE(setup.periodic[1]);
+  CHECK(setup.lower[0] == 0);
+  CHECK(setup.upper[0] == 10);
+  CHECK(setup.upper[1] > 19);
+}
+
+
+TEST_CASE("particles: region, initial velocity, gravity, viscosity and depth")
+{
+  const auto model = read_particles<2>(
+    particle_box<2>(10) +
+    section("Fluid", "set Density = 500\n set Region = 4 - y\n set Initial velocity = y; 2") +
+    section("Effects",
+            section("gravity", "set Acceleration = 0, -9.81") +
+              section("viscosity", "set Dynamic viscosity = 2")));
+  CHECK(count(model, Kind::fluid) == 40);
+  CHECK(model.setup().gravity[1] == -9.81);
+  CHECK(model.setup().fluid_viscosity == Approx(2. / 500));
+  CHECK(model.setup().depth == Approx(4));
+  const auto &state = model.initial_state();
+  for (std::size_t k = 0; k < state.tags.size(); ++k)
+    if (state.tags[k].kind() == Kind::fluid)
+      {
+        CHECK(state.velocities[k][0] == Approx(state.positions[k][1]));
+        CHECK(state.velocities[k][1] == 2);
+      }
+}
+
+
+TEST_CASE("particles: fluid fills shapes")
+{
+  const auto model = read_particles<2>(
+    particle_box<2>(10) +
+    section("Fluid",
+            "set Density = 1000\n set Region = 5 - x\n" +
+              section("Shapes",
+                      section("low", "set Lower corner = 0, 0\n set Upper corner = 10, 2") +
+                        section("high", "set Lower corner = 4, 6\n set Upper corner = 10, 7"))));
+  CHECK(count(model, Kind::fluid) == 11);
+}
+
+
+TEMPLATE_TEST_CASE_SIG(
+  "particles: a box of whole spacings is filled wherever it is", "", ((int dim), dim), 2, 3)
+{
+  const std::string shifted = dim == 2 ? "4.3, 5.2" : "4.3, 5.2, 4.9";
+  const std::string size    = dim == 2 ? "3, 2" : "3, 2, 4";
+  const auto        model =
+    read_particles<dim>(particle_box<dim>(10) + water +
+                        body("block",
+                             "set Centre = " + shifted + "\n set Size = " + size +
+                               "\n set Initial velocity = " + (dim == 2 ? "x; 0" : "x; 0; 0") +
+                               "\n" + section("Boundaries", section("left", "set Sides = left"))));
+  const auto  &setup = model.setup();
+  const auto  &state = model.initial_state();
+  const size_t n     = dim == 2 ? 6 : 24;
+  REQUIRE(setup.reference.size() == n);
+  CHECK(count(model, Kind::solid) == n);
+  CHECK(model.notes().empty());
+  for (std::size_t k = 0; k < n; ++k)
+    {
+      CHECK(state.identities[k] == int(k));
+      CHECK(state.tags[k].material() == 1);
+      CHECK(setup.held[k] == (setup.reference[k][0] < 4.3 - 0.9));
+      CHECK(state.velocities[k][0] == Approx(setup.held[k] ? 0. : setup.reference[k][0]));
+    }
+  for (std::size_t k = n; k < state.positions.size(); ++k)
+    if (state.tags[k].kind() == Kind::fluid)
+      for (std::size_t j = 0; j < n; ++j)
+        CHECK(norm_square(state.positions[k] - state.positions[j]) >= 0.9 * 0.9);
+}
+
+
+TEMPLATE_TEST_CASE_SIG("particles: a ball has its volume", "", ((int dim), dim), 2, 3)
+{
+  const auto model = read_particles<dim>(
+    particle_box<dim>(20) + body("ball",
+                                 dim == 2 ? "set Shape = ball\n set Centre = 10, 10\n "
+                                            "set Radius = 8"
+                                          : "set Shape = ball\n set Centre = 10, 10, 10\n "
+                                            "set Radius = 8"));
+  const double volume = dim == 2 ? M_PI * 64 : 4. / 3 * M_PI * 512;
+  CHECK(model.setup().reference.size() == Approx(volume).epsilon(0.04));
+}
+
+
+TEST_CASE("particles: what is held in a wall takes the place of the wall's particles")
+{
+  const auto with = read_particles<2>(
+    particle_box<2>(10) + body("plate",
+                               "set Lower corner = 4, -3\n set Upper corner = 6, 5\n" +
+                                 section("Boundaries", section("root", "set Where = -y"))));
+  const auto without = read_particles<2>(particle_box<2>(10) + water);
+  CHECK(count(with, Kind::solid) == 16);
+  CHECK(count(without, Kind::wall) - count(with, Kind::wall) == 2);
+  CHECK(count(without, Kind::dummy) - count(with, Kind::dummy) == 4);
+  const auto &setup = with.setup();
+  for (std::size_t k = 0; k < setup.reference.size(); ++k)
+    CHECK(setup.held[k] == (setup.reference[k][1] < 0));
+  CHECK(least_distance(with.initial_state()) == Approx(1));
+}
+
+
+TEST_CASE("particles: two bodies have materials of their own")
+{
+  const std::string material =
+    "set Density = 700\n set Young's modulus = 2e5\n set Poisson's ratio = 0.4\n";
+  const auto model =
+    read_particles<2>(particle_box<2>(10) +
+                      section("Bodies",
+                              section("one", material + "set Centre = 2, 2\n set Size = 2, 2") +
+                                section("two", material + "set Centre = 7, 2\n set Size = 2, 4")));
+  CHECK(model.body_names() == std::vector<std::string>{"one", "two"});
+  REQUIRE(model.setup().bodies.size() == 2);
+  CHECK(model.setup().bodies[1].density == 700);
+  CHECK(model.setup().bodies[1].youngs_modulus == 2e5);
+  CHECK(model.setup().body_of == std::vector<int>{0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1});
+  CHECK(model.initial_state().tags[4].material() == 2);
+}

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/checkpoint.h>
+#include <undine/output/particle_patches.h>
+#include <undine/output/particle_queries.h>
+#include <undine/output/probe.h>
+
+#include <catch2/catch.hpp>
+#include <message_of.h>
+
+#include <algorithm>
+
+#include "sample_scene.h"
+
+using namespace undine_tests;
+using particles::Kind;
+
+namespace
+{
+  const std::string scene_text =
+    "subsection Particles\n set Spacing = 1\nend\n"
+    "subsection Domain\n set Lower corner = 0, 0\n set Upper corner = 8, 8\nend\n"
+    "subsection Fluid\n set Density = 1000\n set Region = 3 - y\nend\n"
+    "subsection Bodies\n subsection block\n  set Lower corner = 2, 5\n  set Upper corner = 4, 7\n"
+    "  set Density = 500\n  set Young's modulus = 1e5\n  set Poisson's ratio = 0.3\n end\nend\n";
+
+
+  Models<2>
+  sample_models(const std::string &more = "")
+  {
+    Models<2>                      models;
+    const Effects<2>               effects;
+    const std::vector<std::string> names;
+    models.particles = std::make_unique<const ParticleModel<2>>(
+      options_of(scene_text + more), NamedEffects<2>{effects, names}, MPI_COMM_SELF);
+    return models;
+  }
+
+
+  /// The initial state with other numbers everywhere, and in another order.
+  State<2>
+  sample_state(const Models<2> &models)
+  {
+    State<2> state;
+    state.particles    = models.particles->initial_state();
+    auto      &all     = state.particles;
+    const auto reverse = [](auto &values) { std::reverse(values.begin(), values.end()); };
+    reverse(all.positions);
+    reverse(all.velocities);
+    reverse(all.tags);
+    reverse(all.identities);
+    for (std::size_t k = 0; k < all.positions.size(); ++k)
+      {
+        all.positions[k][0] += 0.25;
+        all.velocities[k][1] = 0.1 * k;
+        all.pressures[k]     = 3. + k;
+      }
+    all.guesses      = {1.5, 2.5, -1};
+    state.clock.step = 7;
+    state.clock.time = 0.25;
+    return state;
+  }
+
+
+  Columns
+  measured(const Models<2>   &models,
+           const State<2>    &state,
+           const std::string &kind,
+           const std::string &keys)
+  {
+    const auto options =
+      options_of("subsection Probes\n subsection here\n" + keys + "\n end\nend\n")
+        .section("Probes")
+        .section("here");
+    auto probe = Registry<Probe<2>>::instance().make(kind);
+    probe->add_options(options);
+    probe->start("here", options, models);
+    return probe->columns(models, state);
+  }
+} // namespace
+
+
+TEST_CASE("particles: a checkpoint read back is what was written")
+{
+  const TemporaryFolder folder;
+  const auto            models = sample_models();
+  const auto            state  = sample_state(models);
+  write_checkpoint(folder.path, models, state);
+  State<2> other;
+  other.particles = models.particles->initial_state();
+  read_checkpoint(folder.path, models, other);
+  const auto &a = state.particles, &b = other.particles;
+  CHECK(other.clock.step == 7);
+  CHECK(a.identities == b.identities);
+  CHECK(a.pressures == b.pressures);
+  CHECK(a.guesses == b.guesses);
+  for (std::size_t k = 0; k < a.positions.size(); ++k)
+    {
+      CHECK(a.tags[k].code == b.tags[k].code);
+      for (int axis = 0; axis < 2; ++axis)
+        {
+          CHECK(a.positions[k][axis] == b.positions[k][axis]);
+          CHECK(a.velocities[k][axis] == b.velocities[k][axis]);
+        }
+    }
+}
+
+
+TEST_CASE("particles: a checkpoint of another scene is refused")
+{
+  const TemporaryFolder folder;
+  const auto            models = sample_models();
+  write_checkpoint(folder.path, models, sample_state(models));
+  const auto more =
+    sample_models("subsection Obstacles\n subsection rock\n  set Lower corner = 5, 3\n"
+                  "  set Upper corner = 7, 5\n end\nend\n");
+  State<2> other;
+  other.particles = more.particles->initial_state();
+  CHECK_THAT(message_of([&] { read_checkpoint(folder.path, more, other); }),
+             Catch::Matchers::Contains("particles/positions"));
+}
+
+
+TEST_CASE("particles: pictures have points with their numbers, walls on request")
+{
+  const auto models = sample_models();
+  const auto state  = sample_state(models);
+  const auto part   = particle_patches(*models.particles, state.particles);
+  CHECK(part.patches.size() == 24 + 4);
+  CHECK(part.components.size() == 8);
+  for (const auto &patch : part.patches)
+    {
+      const auto k = place_of_identity(state.particles, int(patch.data(7, 0)));
+      CHECK(patch.vertices[0][0] == state.particles.positions[k][0]);
+      CHECK(patch.data(1, 0) == Approx(state.particles.velocities[k][1]));
+      CHECK(patch.data(4, 0) == Approx(state.particles.pressures[k]));
+      const bool of_body = patch.data(5, 0) == 1;
+      CHECK(patch.data(6, 0) == (of_body ? 0 : -1));
+      CHECK(patch.data(2, 0) == Approx(of_body ? 0.25 : 0.));
+    }
+  const auto with_walls = sample_models("subsection Output\n set Walls = true\nend\n");
+  CHECK(particle_patches(*with_walls.particles, state.particles).patches.size() ==
+        state.particles.positions.size());
+}
+
+
+TEST_CASE("particles: probes of the body, the wall and the front")
+{
+  const auto models = sample_models();
+  auto       state  = sample_state(models);
+
+  const auto body =
+    measured(models, state, "body point", "set Body = block\n set Point = 2.4, 5.6");
+  CHECK(body[0].value == Approx(0.25));
+  CHECK(body[1].value == Approx(0).margin(1e-12));
+  const auto k = place_of_identity(state.particles, 0);
+  CHECK(body[3].value == Approx(state.particles.velocities[k][1]));
+
+  for (std::size_t p = 0; p < state.particles.tags.size(); ++p)
+    state.particles.pressures[p] =
+      state.particles.tags[p].kind() == Kind::wall ? state.particles.positions[p][0] : 1e9;
+  const auto wall = measured(models, state, "wall pressure", "set Point = 4, 0\n set Radius = 1.6");
+  CHECK(wall[0].value == Approx(4 + 0.25));
+
+  CHECK(measured(models, state, "front", "set Direction = y")[0].value == Approx(3));
+  // A drop that has come off does not count.
+  for (std::size_t p = 0; p < state.particles.tags.size(); ++p)
+    if (state.particles.tags[p].kind() == Kind::fluid)
+      {
+        state.particles.positions[p][1] += 20;
+        break;
+      }
+  CHECK(measured(models, state, "front", "set Direction = y")[0].value == Approx(3));
+  CHECK(measured(models, state, "front", "set Direction = -x")[0].value == Approx(0.25));
+}
+
+
+TEST_CASE("particles: probes that see nothing are refused")
+{
+  const auto models = sample_models();
+  const auto state  = sample_state(models);
+  const auto wrong  = [&](const std::string &kind, const std::string &keys) {
+    return message_of([&] { measured(models, state, kind, keys); });
+  };
+  CHECK_THAT(wrong("body point", "set Body = block\n set Point = 7, 7"),
+             Catch::Matchers::Contains("farther than a spacing"));
+  CHECK_THAT(wrong("body point", "set Body = rock\n set Point = 7, 7"),
+             Catch::Matchers::Contains("Allowed: block"));
+  CHECK_THAT(wrong("wall pressure", "set Point = 4, 4"), Catch::Matchers::Contains("no wall"));
+  CHECK_THAT(wrong("fluid point", "set Point = 4, 4"), Catch::Matchers::Contains("wall pressure"));
+}
