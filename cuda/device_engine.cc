@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "device_engine.h"
+#include "find_device.h"
 
 namespace undine::particles
 {
@@ -8,6 +9,12 @@ namespace undine::particles
   class DeviceEngineFactory : public EngineFactory<dim>
   {
   public:
+    std::string
+    reason_not_available() const
+    {
+      return reason_without_device();
+    }
+
     std::unique_ptr<Engine<dim>>
     make(const Precision precision) const override
     {

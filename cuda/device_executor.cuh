@@ -5,7 +5,8 @@
 #include "device_error.cuh"
 #include "device_stopwatch.cuh"
 #include "device_team.cuh"
-#include "resident_gradients.cuh"
+#include "find_device.h"
+#include "resident_kernel.cuh"
 
 #include <cub/device/device_scan.cuh>
 
@@ -19,7 +20,8 @@ namespace undine::particles
   namespace kernels
   {
     constexpr int for_each_threads = 128;
-    constexpr int team_threads     = 512; ///< at most
+    constexpr int team_threads     = 512; ///< of a large team, at most
+    constexpr int few_threads      = 64;  ///< of a small team, each with many registers
 
     template <class Function>
     __global__ void
@@ -30,9 +32,9 @@ namespace undine::particles
         f(i);
     }
 
-    template <class Function>
+    template <class Function, int threads, int blocks>
     __global__ void
-    __launch_bounds__(team_threads, 2)
+    __launch_bounds__(threads, blocks)
       run(const __grid_constant__ Function f, const DeviceTeam::Workspace workspace)
     {
       __shared__ Sums<DeviceTeam::most_sums> of_warps[DeviceTeam::most_warps];
@@ -55,16 +57,10 @@ namespace undine::particles
     /// Throws InputError if there is no device.
     DeviceExecutor()
     {
-      int  n      = 0;
-      auto status = cudaGetDeviceCount(&n);
-      if (status == cudaSuccess && n == 0)
-        status = cudaErrorNoDevice;
-      if (status == cudaSuccess)
-        status = cudaGetDeviceProperties(&properties, 0);
-      if (status != cudaSuccess)
-        throw InputError(std::string("the executor 'device' needs an NVIDIA graphics processor "
-                                     "with its driver, and there is none here (") +
-                         cudaGetErrorString(status) + "). Choose the executor 'host'.");
+      const std::string reason = reason_without_device();
+      if (!reason.empty())
+        throw InputError(reason);
+      check_device(cudaGetDeviceProperties(&properties, 0), "to describe itself");
       check_device(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "to start");
       workspace.counter = allocate<unsigned int>(1);
       for (auto &partial : workspace.partial)
@@ -181,8 +177,10 @@ namespace undine::particles
     void
     run_team(const int n, const Function &f)
     {
-      const auto kernel  = kernels::run<Function>;
       const int  threads = team_threads(n);
+      const auto kernel  = threads > kernels::few_threads
+                             ? kernels::run<Function, kernels::team_threads, 2>
+                             : kernels::run<Function, kernels::few_threads, 1>;
       int        blocks  = 0;
       check_device(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
                    "to plan a pass");
@@ -335,7 +333,7 @@ namespace undine::particles
     team_threads(const int n) const
     {
       const int each = (n + properties.multiProcessorCount - 1) / properties.multiProcessorCount;
-      return std::clamp((each + 31) / 32 * 32, 64, kernels::team_threads);
+      return std::clamp((each + 31) / 32 * 32, 32, kernels::team_threads);
     }
 
     static constexpr int most_resident_rows  = 400000;

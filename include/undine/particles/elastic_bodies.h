@@ -72,15 +72,32 @@ namespace undine::particles
     void
     for_each_bond(const int i, const Function &f) const
     {
+      constexpr int           together = 4; // on the way at the same time
       const Vector<dim, Real> X = bodies.reference[i], x = bodies.x[i];
-      for (int k = 0; k < bodies.counts[i]; ++k)
+      const int               count = bodies.counts[i];
+      for (int first = 0; first < count; first += together)
         {
-          const int               j    = bodies.indices[list_slot(i, k, bodies.capacity)];
-          const Vector<dim, Real> X_ij = bodies.reference[j] - X;
-          f(j,
-            X_ij,
-            grid.difference(bodies.x[j], x),
-            reach * inverse_square_root(norm_square(X_ij)) - 1);
+          int               j[together];
+          Vector<dim, Real> X_j[together], x_j[together];
+          UNDINE_UNROLL
+          for (int k = 0; k < together; ++k)
+            j[k] = bodies.indices[list_slot(i, minimum(first + k, count - 1), bodies.capacity)];
+          UNDINE_UNROLL
+          for (int k = 0; k < together; ++k)
+            {
+              X_j[k] = bodies.reference[j[k]];
+              x_j[k] = bodies.x[j[k]];
+            }
+          UNDINE_UNROLL
+          for (int k = 0; k < together; ++k)
+            if (first + k < count)
+              {
+                const auto X_ij = X_j[k] - X;
+                f(j[k],
+                  X_ij,
+                  grid.difference(x_j[k], x),
+                  reach * inverse_square_root(norm_square(X_ij)) - 1);
+              }
         }
     }
 

@@ -140,7 +140,7 @@ namespace undine::particles
     /// Particles.
     static constexpr int multigrid_pays_from = 100000;
 
-    /// `threads` = 0: all cores.
+    /// `threads` = 0: as many as OpenMP gives, all cores unless OMP_NUM_THREADS says otherwise.
     explicit HostExecutor(const int threads)
     {
       set_threads(threads);
@@ -149,7 +149,7 @@ namespace undine::particles
     void
     set_threads(const int number)
     {
-      threads = number > 0 ? number : omp_get_num_procs();
+      threads = number > 0 ? number : omp_get_max_threads();
     }
 
     std::string

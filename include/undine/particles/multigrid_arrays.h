@@ -2,7 +2,7 @@
 #ifndef undine_particles_multigrid_arrays_h
 #define undine_particles_multigrid_arrays_h
 
-#include <undine/particles/multigrid.h>
+#include <undine/particles/multigrid_gradients.h>
 
 #include <vector>
 
@@ -63,16 +63,12 @@ namespace undine::particles
                           CoarsenMatrix<dim, Real>{cycle.levels[k], cycle.levels[k + 1]});
     }
 
-    const MultigridCycle<dim, Real> &
-    view() const
+    /// Conjugate gradients with what build() has made of the same system.
+    template <class Entry>
+    void
+    solve(const ConjugateGradients<Real, Entry, Real> &base, const int *starts) const
     {
-      return cycle;
-    }
-
-    const int *
-    cells_of_particles() const
-    {
-      return cell_of.data();
+      executor.run(n, MultigridGradients<dim, Real, Entry>{base, cycle, cell_of.data(), starts});
     }
 
   private:

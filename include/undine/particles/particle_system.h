@@ -9,7 +9,6 @@
 #include <undine/particles/explicit_forces.h>
 #include <undine/particles/make_constants.h>
 #include <undine/particles/multigrid_arrays.h>
-#include <undine/particles/multigrid_gradients.h>
 #include <undine/particles/neighbour_list.h>
 #include <undine/particles/open_boundaries.h>
 #include <undine/particles/particle_arrays.h>
@@ -86,12 +85,6 @@ namespace undine::particles
     {
       sort();
       list.find(now.view(), cells.cell_starts(), control.data());
-    }
-
-    const Constants<dim, Real> &
-    consts() const
-    {
-      return constants;
     }
 
     /// Particles that wait to flow in; knows what the last sort left.
@@ -225,16 +218,7 @@ namespace undine::particles
                                                  right_hand_side.data(),
                                                  pressures.data(),
                                                  control.data()});
-      executor.enter(Phase::pressure);
-      if (multigrid != nullptr)
-        solve_by_multigrid();
-      else
-        solve(diagonal,
-              right_hand_side,
-              pressures,
-              numbers,
-              numerics.tolerance,
-              &StepControl::pressure);
+      solve_pressure_equation();
       executor.for_each(n,
                         TakePressures<dim, Real>{is_unknown.data(),
                                                  pressures.data(),
@@ -300,6 +284,21 @@ namespace undine::particles
                                control.data()});
     }
 
+    void
+    solve_pressure_equation()
+    {
+      executor.enter(Phase::pressure);
+      if (multigrid != nullptr)
+        solve_by_multigrid();
+      else
+        solve(diagonal,
+              right_hand_side,
+              pressures,
+              numbers,
+              numerics.tolerance,
+              &StepControl::pressure);
+    }
+
     template <class Value>
     void
     solve(const Buffer<Executor, Real>  &system_diagonal,
@@ -309,14 +308,24 @@ namespace undine::particles
           const double                   tolerance,
           SolverRecord StepControl::*record)
     {
-      Value *const w = work.data();
-      executor.run(n,
-                   ConjugateGradients<Real, Entry, Value>{
-                     {matrix(), system_diagonal.data(), b.data(), x.data()},
-                     {w, w + n, w + 2 * n, w + 3 * n, w + 4 * n},
-                     {tolerance, numerics.max_iterations},
-                     control.data(),
-                     record});
+      executor.run(n, system(system_diagonal, b, x, work.data(), tolerance, record));
+    }
+
+    /// `w` has room for five numbers a particle.
+    template <class Value>
+    ConjugateGradients<Real, Entry, Value>
+    system(const Buffer<Executor, Real>  &system_diagonal,
+           const Buffer<Executor, Value> &b,
+           Buffer<Executor, Value>       &x,
+           Value                         *w,
+           const double                   tolerance,
+           SolverRecord StepControl::*record) const
+    {
+      return {{matrix(), system_diagonal.data(), b.data(), x.data()},
+              {w, w + n, w + 2 * n, w + 3 * n, w + 4 * n},
+              {tolerance, numerics.max_iterations},
+              control.data(),
+              record};
     }
 
     void
@@ -326,17 +335,13 @@ namespace undine::particles
       multigrid->build(
         now.places.data(), is_unknown.data(), matrix(), diagonal.data(), cells.cell_starts());
       executor.enter(Phase::pressure);
-      Real *const w = numbers.data();
-      executor.run(n,
-                   MultigridGradients<dim, Real, Entry>{
-                     {{matrix(), diagonal.data(), right_hand_side.data(), pressures.data()},
-                      {w, w + n, w + 2 * n, w + 3 * n, w + 4 * n},
-                      {numerics.tolerance, numerics.max_iterations},
-                      control.data(),
-                      &StepControl::pressure},
-                     multigrid->view(),
-                     multigrid->cells_of_particles(),
-                     cells.cell_starts()});
+      multigrid->solve(system(diagonal,
+                              right_hand_side,
+                              pressures,
+                              numbers.data(),
+                              numerics.tolerance,
+                              &StepControl::pressure),
+                       cells.cell_starts());
     }
 
     Neighbourhood<dim, Real>

@@ -6,26 +6,37 @@
 
 namespace undine::particles
 {
+  template <int dim>
+  struct StencilGrid;
+
+  template <>
+  struct StencilGrid<0>
+  {
+    static constexpr int size = 1;
+  };
+
   /// A grid of cells, of which each knows those around it: one level of the multigrid method. The
   /// finest has the cells of CellGrid, numbered in the same way.
   template <int dim>
   struct StencilGrid
   {
-    static constexpr int size = dim == 2 ? 9 : 27; ///< of a stencil: 3^dim
+    static constexpr int size = 3 * StencilGrid<dim - 1>::size; ///< of a stencil
 
     int  cells[dim];
     int  strides[dim];
     bool periodic[dim];
     int  n;
 
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     coordinate(const int cell, const int axis) const
     {
       return cell / strides[axis] % cells[axis];
     }
 
     /// Difference of coordinates, -1, 0 or 1, of cells that touch.
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     difference(const int a, const int b, const int axis) const
     {
       const int d = a - b;
@@ -33,7 +44,8 @@ namespace undine::particles
     }
 
     /// For the coordinate c of a cell: that of its neighbour, or its own where there is none.
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     next_to(const int c, const int step, const int axis) const
     {
       const int other = c + step;
@@ -46,7 +58,8 @@ namespace undine::particles
   /// f(entry of the stencil, cell, its parent in the coarser grid), for all cells around one. Where
   /// there is no neighbour the cell itself stands in: the stencil is zero there.
   template <int dim, class Function>
-  UNDINE_HOST_DEVICE void
+  UNDINE_HOST_DEVICE
+  void
   for_each_around(const StencilGrid<dim> &grid,
                   const StencilGrid<dim> &coarser,
                   const int               cell,

@@ -47,17 +47,21 @@ namespace
     double start, half_radius;
   };
 
-  template <int dim>
-  Travel
-  released(const double density_ratio)
+  BodySetup
+  stiff_body(const double density_ratio)
   {
-    const int    size   = dim == 2 ? 50 : 24;
-    const double radius = dim == 2 ? 5 : 4.5;
-    BodySetup    body;
+    BodySetup body;
     body.density        = 1000 * density_ratio;
     body.youngs_modulus = 1e6;
     body.poissons_ratio = .49;
-    const auto   scene  = ball_in_tank<dim>(size, radius, body);
+    return body;
+  }
+
+
+  template <int dim>
+  Travel
+  released(const double density_ratio, const ParticleScene<dim> &scene, const int size)
+  {
     const auto   engine = scene.engine();
     const double volume = scene.setup.reference.size() * std::pow(l0, dim);
     const double R      = dim == 2 ? std::sqrt(volume / M_PI) : std::cbrt(3 * volume / (4 * M_PI));
@@ -87,11 +91,38 @@ TEST_CASE("A cylinder released in water accelerates with its added mass", "[part
 {
   for (const double ratio : {.1, .5, 2., 8.})
     {
-      const auto travel = released<2>(ratio);
+      const auto travel = released<2>(ratio, ball_in_tank<2>(50, 5, stiff_body(ratio)), 50);
       INFO("density ratio " << ratio << ": " << travel.start << ", " << travel.half_radius);
       CHECK(travel.start == Approx(1).epsilon(.1));
       CHECK(travel.half_radius == Approx(1).epsilon(.15));
     }
+}
+
+
+TEST_CASE("A very stiff cylinder takes implicit steps and accelerates alike", "[particles]")
+{
+  auto body           = stiff_body(2);
+  body.youngs_modulus = 1e9;
+  auto scene          = ball_in_tank<2>(50, 5, body);
+
+  scene.setup.numerics.most_elastic_steps = 20;
+  CHECK(scene.engine()->advance(.002).elastic_steps_total == 2);
+  const auto travel = released<2>(2, scene, 50);
+  CHECK(travel.start == Approx(1).epsilon(.1));
+  CHECK(travel.half_radius == Approx(1).epsilon(.15));
+}
+
+
+TEST_CASE("With surface pressures a cylinder in water is stable, but not accurate", "[particles]")
+{
+  auto scene = ball_in_tank<2>(40, 5, stiff_body(2));
+
+  scene.setup.numerics.coupling = Coupling::surface_pressure;
+  const auto engine             = scene.engine();
+  for (int frame = 0; frame < 10; ++frame)
+    engine->advance(.01);
+  CHECK(engine->balance().body_velocities[0][1] < 0);
+  CHECK(engine->balance().body_volumes[0] == Approx(1).epsilon(.01));
 }
 
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "find_device.h"
+
+#include <cuda_runtime_api.h>
+
+namespace undine::particles
+{
+  std::string
+  reason_without_device()
+  {
+    int  n      = 0;
+    auto status = cudaGetDeviceCount(&n);
+    if (status == cudaSuccess && n == 0)
+      status = cudaErrorNoDevice;
+    if (status == cudaSuccess)
+      return "";
+    return std::string("the executor 'device' needs an NVIDIA graphics processor with its driver, "
+                       "and there is none here (") +
+           cudaGetErrorString(status) + "). Choose the executor 'host'.";
+  }
+} // namespace undine::particles

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The device computes what the host computes. Where there is no device, the host stands in for it,
+// so that at least the comparisons themselves are tried.
+#include "particle_scene.h"
+
+#include <catch2/catch.hpp>
+
+using namespace particle_tests;
+
+namespace
+{
+  template <int dim>
+  std::unique_ptr<Engine<dim>>
+  device_engine(const ParticleScene<dim> &scene)
+  {
+    const auto &registry = Registry<EngineFactory<dim>>::instance();
+    const auto  make     = [&](const std::string &name) {
+      return registry.make(name)->make(Precision::single_precision);
+    };
+    std::unique_ptr<Engine<dim>> engine;
+    try
+      {
+        engine = make("device");
+      }
+    catch (const InputError &)
+      {
+        engine = make("host");
+      }
+    engine->load(scene.setup, scene.state);
+    return engine;
+  }
+
+  template <int dim>
+  ParticleState<dim>
+  state_of(const Engine<dim> &engine)
+  {
+    ParticleState<dim> state;
+    engine.fetch(state);
+    return state;
+  }
+
+  /// The state of each identity.
+  template <int dim>
+  std::vector<std::size_t>
+  places_by_identity(const ParticleState<dim> &state)
+  {
+    std::vector<std::size_t> result(state.identities.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[state.identities[i]] = i;
+    return result;
+  }
+
+  /// Largest distance of a particle from itself in another state [m].
+  template <int dim>
+  double
+  largest_distance(const ParticleState<dim> &a, const ParticleState<dim> &b)
+  {
+    const auto at = places_by_identity(a), bt = places_by_identity(b);
+    double     largest = 0;
+    for (std::size_t identity = 0; identity < at.size(); ++identity)
+      largest =
+        std::max(largest, norm_square(a.positions[at[identity]] - b.positions[bt[identity]]));
+    return std::sqrt(largest);
+  }
+
+  /// A tank with water that covers a part of its floor, `length` of 12 spacings, and a ball above.
+  template <int dim>
+  ParticleScene<dim>
+  tank(const int length, const int depth)
+  {
+    ParticleScene<dim>   scene(0.02);
+    std::array<int, dim> size = cube<dim>(12), end = cube<dim>(12), none = cube<dim>(0);
+    end[0]       = length;
+    end[dim - 1] = depth;
+    BodySetup ball;
+    ball.density        = 500;
+    ball.youngs_modulus = 1e5;
+    const int body      = scene.add_body(ball);
+    auto      centre    = along<dim>(dim - 1, (depth + 5.5) * scene.setup.spacing);
+    for (int axis = 0; axis < dim - 1; ++axis)
+      centre[axis] = 6 * scene.setup.spacing;
+    std::array<int, dim> above = cube<dim>(12);
+    above[dim - 1]             = depth + 12;
+    scene.for_each_point(none, above, [&](const Point<dim> &x) {
+      if (norm_square(x - centre) < 9 * scene.setup.spacing * scene.setup.spacing)
+        scene.add(x, Kind::solid, body + 1, Point<dim>::zero());
+    });
+    scene.add_tank(size, 30);
+    scene.for_each_point(
+      none, end, [&](const Point<dim> &x) { scene.add(x, Kind::fluid, 0, Point<dim>::zero()); });
+    scene.setup.gravity = along<dim>(dim - 1, -9.81);
+    scene.setup.depth   = depth * scene.setup.spacing;
+    return scene;
+  }
+
+  template <int dim>
+  double
+  energy(const Balance<dim> &balance)
+  {
+    return balance.kinetic_fluid + balance.kinetic_solid + balance.potential + balance.elastic;
+  }
+
+  template <int dim>
+  double
+  mean_pressure(const ParticleState<dim> &state)
+  {
+    return mean(state.tags.size(), [&](const std::size_t i) {
+      return state.tags[i].kind() == Kind::fluid ? state.pressures[i] : std::nan("");
+    });
+  }
+
+  template <int dim>
+  double
+  mean_advance(const ParticleState<dim> &state)
+  {
+    return mean(state.tags.size(), [&](const std::size_t i) {
+      return state.tags[i].kind() == Kind::fluid ? state.positions[i][0] : std::nan("");
+    });
+  }
+} // namespace
+
+
+TEMPLATE_TEST_CASE_SIG("One frame on the device is that on the host, particle by particle",
+                       "[particles]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  auto scene                     = tank<dim>(12, 8);
+  scene.setup.numerics.tolerance = 1e-6;
+  const auto host = scene.engine(Precision::single_precision), device = device_engine(scene),
+             exact = scene.engine(Precision::double_precision);
+  for (const auto *engine : {&host, &device, &exact})
+    (*engine)->advance(0.002);
+  const double l0 = scene.setup.spacing;
+  CHECK(largest_distance(state_of(*host), state_of(*device)) < 1e-4 * l0);
+  CHECK(largest_distance(state_of(*exact), state_of(*device)) < 1e-3 * l0);
+  CHECK(mean_pressure(state_of(*device)) == Approx(mean_pressure(state_of(*host))).epsilon(1e-4));
+}
+
+
+TEMPLATE_TEST_CASE_SIG("A splash on the device is that on the host: energy, front, mean pressure",
+                       "[particles]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  const auto   scene = tank<dim>(6, 10);
+  const auto   host = scene.engine(Precision::single_precision), device = device_engine(scene);
+  const double before = energy(device->balance());
+  for (int frame = 0; frame < 8; ++frame)
+    {
+      host->advance(0.01);
+      device->advance(0.01);
+    }
+  const double lost = before - energy(host->balance());
+  CHECK(before - energy(device->balance()) == Approx(lost).epsilon(0.05));
+  CHECK(mean_advance(state_of(*device)) == Approx(mean_advance(state_of(*host))).epsilon(0.01));
+  CHECK(mean_pressure(state_of(*device)) == Approx(mean_pressure(state_of(*host))).epsilon(0.1));
+}
+
+
+TEMPLATE_TEST_CASE_SIG(
+  "Two runs on the device give the same bits", "[particles]", ((int dim), dim), 2, 3)
+{
+  auto       scene = tank<dim>(6, 10);
+  const auto preconditioner =
+    GENERATE(Numerics::Preconditioner::jacobi, Numerics::Preconditioner::multigrid);
+  scene.setup.numerics.preconditioner = preconditioner;
+  const auto a = device_engine(scene), b = device_engine(scene);
+  for (int frame = 0; frame < 3; ++frame)
+    {
+      a->advance(0.01);
+      b->advance(0.01);
+    }
+  CHECK(largest_distance(state_of(*a), state_of(*b)) == 0);
+  CHECK(state_of(*a).pressures == state_of(*b).pressures);
+}
+
+
+TEMPLATE_TEST_CASE_SIG("Multigrid and Jacobi's method find the same pressures, one in fewer steps",
+                       "[particles]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  auto scene                     = tank<dim>(12, 10);
+  scene.setup.numerics.tolerance = 1e-6;
+  unsigned int       iterations[2];
+  ParticleState<dim> states[2];
+  for (const int k : {0, 1})
+    {
+      scene.setup.numerics.preconditioner =
+        k == 0 ? Numerics::Preconditioner::jacobi : Numerics::Preconditioner::multigrid;
+      const auto engine = device_engine(scene);
+      iterations[k]     = engine->advance(0.002).pressure.iterations;
+      states[k]         = state_of(*engine);
+    }
+  CHECK(iterations[1] < iterations[0]);
+  CHECK(largest_distance(states[0], states[1]) < 1e-3 * scene.setup.spacing);
+  CHECK(mean_pressure(states[1]) == Approx(mean_pressure(states[0])).epsilon(1e-4));
+}
