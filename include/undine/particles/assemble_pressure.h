@@ -31,6 +31,21 @@ namespace undine::particles
   }
 
 
+  /// The largest of them: that of the largest weight that a collision leaves, at the smallest mean
+  /// density.
+  template <int dim, class Real>
+  Real
+  largest_coefficient(const Constants<dim, Real> &constants)
+  {
+    Real lightest = constants.densities[0];
+    for (const Real density : constants.densities)
+      if (density > 0)
+        lightest = minimum(lightest, density);
+    const Real closest = constants.collision_distance / 2;
+    return (constants.reach / closest - 1) * constants.densities[0] / lightest;
+  }
+
+
   /// Fills the matrix of the pressure equation, its diagonal and that of the equation for the
   /// potentials of the virtual faces,
   ///     sum_j k_ij (L_i - L_j) = -sum_j a_ij of L = 0,

@@ -361,15 +361,11 @@ namespace undine::particles
     PressureMatrix<Real, Entry>
     matrix() const
     {
-      // The largest weight that a collision leaves, at the smallest mean density.
-      Real lightest = constants.densities[0];
-      for (const Real density : constants.densities)
-        if (density > 0)
-          lightest = minimum(lightest, density);
-      const Real closest = constants.collision_distance / 2;
-      const Real largest = (constants.reach / closest - 1) * constants.densities[0] / lightest;
-      return {
-        n, NeighbourList<Executor, dim, Real>::capacity, largest, counts.data(), entries.data()};
+      return {n,
+              NeighbourList<Executor, dim, Real>::capacity,
+              largest_coefficient(constants),
+              counts.data(),
+              entries.data()};
     }
 
     Executor            &executor;
