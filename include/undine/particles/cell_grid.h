@@ -159,8 +159,9 @@ namespace undine::particles
     }
 
   private:
-    UNDINE_HOST_DEVICE Vector<dim, Real>
-                       shifted_along(Vector<dim, Real> x, const Real distance) const
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    shifted_along(Vector<dim, Real> x, const Real distance) const
     {
       for (int axis = 0; axis < dim; ++axis)
         if (axis == along)

@@ -18,13 +18,14 @@ namespace undine::particles
   template <int dim>
   struct Balance
   {
-    double              kinetic_fluid = 0, kinetic_solid = 0;    ///< [J]
-    double              potential = 0;                           ///< of gravity [J]
-    double              elastic   = 0;                           ///< [J]
-    Vector<dim, double> momentum  = Vector<dim, double>::zero(); ///< of fluid and bodies [kg m/s]
-    std::vector<double> body_volumes;                            ///< over that at rest [1]
-    std::vector<Vector<dim, double>> body_centres;               ///< [m]
-    std::vector<Vector<dim, double>> body_velocities;            ///< [m/s]
+    double              kinetic_fluid = 0, kinetic_solid = 0; ///< [J]
+    double              potential       = 0;                  ///< of gravity [J]
+    double              elastic         = 0;                  ///< [J]
+    int                 fluid_in_bodies = 0; ///< particles of the fluid that have entered a body
+    Vector<dim, double> momentum = Vector<dim, double>::zero(); ///< of fluid and bodies [kg m/s]
+    std::vector<double> body_volumes;                           ///< over that at rest [1]
+    std::vector<Vector<dim, double>> body_centres;              ///< [m]
+    std::vector<Vector<dim, double>> body_velocities;           ///< [m/s]
   };
 
   /// Moves the particles of a scene; one for the host, one for the device.
@@ -76,6 +77,10 @@ namespace undine::particles
   {
   public:
     virtual ~EngineFactory() = default;
+
+    /// Why this program on this machine cannot make them; empty if it can.
+    virtual std::string
+    reason_not_available() const = 0;
 
     /// Throws InputError, with the reason, if this machine cannot.
     virtual std::unique_ptr<Engine<dim>>

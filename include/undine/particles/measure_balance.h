@@ -6,6 +6,7 @@
 #include <undine/particles/constants.h>
 #include <undine/particles/elastic_bodies.h>
 #include <undine/particles/engine.h>
+#include <undine/particles/fluid_in_bodies.h>
 #include <undine/particles/make_constants.h>
 #include <undine/particles/step_control.h>
 #include <undine/particles/sums.h>
@@ -68,30 +69,47 @@ namespace undine::particles
   };
 
 
-  /// Volume over that at rest as of the last elastic step, place and velocity, all summed over the
-  /// particles of one body.
+  /// Elasticity::deform() of a particle.
+  template <int dim, class Real>
+  struct DeformBodies
+  {
+    Elasticity<dim, Real> elasticity;
+
+    UNDINE_HOST_DEVICE
+    void
+    operator()(const int i) const
+    {
+      elasticity.deform(i);
+    }
+  };
+
+
+  /// Volume over that at rest, density of elastic energy, place and velocity, all summed over the
+  /// particles of one body, after deform() of all.
   template <int dim, class Real>
   struct MeasureBody
   {
-    static constexpr int count = 1 + 2 * dim;
+    static constexpr int count = 2 + 2 * dim;
 
-    ElasticBodies<dim, Real> bodies;
-    int                      body;
-    Sums<count>             *result;
+    Elasticity<dim, Real> elasticity;
+    int                   body;
+    Sums<count>          *result;
 
     template <class Team>
     UNDINE_HOST_DEVICE
     void
     operator()(Team &team) const
     {
-      const auto sums = team.template sum<count>(bodies.n, [&](const int i, Sums<count> &sums) {
+      const auto &bodies = elasticity.bodies;
+      const auto  sums   = team.template sum<count>(bodies.n, [&](const int i, Sums<count> &sums) {
         if (bodies.bodies[i] != body)
           return;
         sums[0] += determinant(bodies.deformations[i]);
+        sums[1] += elasticity.energy_density(i);
         for (int axis = 0; axis < dim; ++axis)
           {
-            sums[1 + axis] += bodies.x[i][axis];
-            sums[1 + dim + axis] += bodies.v[i][axis];
+            sums[2 + axis] += bodies.x[i][axis];
+            sums[2 + dim + axis] += bodies.v[i][axis];
           }
       });
       if (team.is_first())
@@ -125,24 +143,38 @@ namespace undine::particles
       result.potential     = sums[2];
       for (int axis = 0; axis < dim; ++axis)
         result.momentum[axis] = sums[3 + axis];
+      const Elasticity<dim, Real> elasticity{
+        constants.grid, constants.spacing, constants.reach, bodies, false};
+      executor.for_each(bodies.n, DeformBodies<dim, Real>{elasticity});
       for (std::size_t b = 0; b < body_sizes.size(); ++b)
-        add_body(result, b, bodies);
+        add_body(result, b, elasticity);
       return result;
+    }
+
+    int
+    count_fluid_in_bodies(const Neighbours<dim, Real> &neighbours, const int n)
+    {
+      if (body_sizes.empty())
+        return 0;
+      Buffer<Executor, int> count(executor, 1);
+      executor.for_each(n, CountFluidInBodies<dim, Real>{constants, neighbours, count.data()});
+      return count.values()[0];
     }
 
   private:
     void
-    add_body(Balance<dim> &result, const std::size_t b, const ElasticBodies<dim, Real> &bodies)
+    add_body(Balance<dim> &result, const std::size_t b, const Elasticity<dim, Real> &elasticity)
     {
-      const auto sums =
-        measured(MeasureBody<dim, Real>{bodies, static_cast<int>(b), nullptr}, bodies.n);
-      const double        share = 1. / body_sizes[b];
+      const auto   sums = measured(MeasureBody<dim, Real>{elasticity, static_cast<int>(b), nullptr},
+                                 elasticity.bodies.n);
+      const double share = 1. / body_sizes[b];
       Vector<dim, double> centre, velocity;
       for (int axis = 0; axis < dim; ++axis)
         {
-          centre[axis]   = share * sums[1 + axis];
-          velocity[axis] = share * sums[1 + dim + axis];
+          centre[axis]   = share * sums[2 + axis];
+          velocity[axis] = share * sums[2 + dim + axis];
         }
+      result.elastic += constants.volume * sums[1];
       result.body_volumes.push_back(share * sums[0]);
       result.body_centres.push_back(centre);
       result.body_velocities.push_back(velocity);

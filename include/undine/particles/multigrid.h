@@ -19,7 +19,8 @@ namespace undine::particles
     Real            *smooth; ///< omega D^{-1} r
     Real            *rest;   ///< r - A smooth
 
-    UNDINE_HOST_DEVICE bool
+    UNDINE_HOST_DEVICE
+    bool
     is_active(const int cell) const
     {
       return inverse_diagonal[cell] > 0;
@@ -40,7 +41,8 @@ namespace undine::particles
     int                        *cell_of; ///< of the particle; -1: has no unknown
     Real                       *sums;    ///< entry k of particle i at k n + i
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int i) const
     {
       constexpr int size = StencilGrid<dim>::size;
@@ -77,7 +79,8 @@ namespace undine::particles
     const Real               *sums;
     int                       n;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int place) const
     {
       const int entry = place / level.grid.n, cell = place % level.grid.n;
@@ -98,7 +101,8 @@ namespace undine::particles
   {
     MultigridLevel<dim, Real> fine, coarse;
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(const int cell) const
     {
       constexpr int size      = StencilGrid<dim>::size;
@@ -132,7 +136,8 @@ namespace undine::particles
 
   private:
     /// To which entry of the coarse cell's stencil an entry of a child's belongs.
-    UNDINE_HOST_DEVICE int
+    UNDINE_HOST_DEVICE
+    int
     entry_of(const int (&here)[dim], const int child, const int entry) const
     {
       int result = 0, factor = 1, rest = entry;
@@ -163,7 +168,8 @@ namespace undine::particles
 
     /// From r of the finest level to its x.
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(Team &team) const
     {
       for (int k = 0; k < n_large; ++k)
@@ -181,7 +187,8 @@ namespace undine::particles
     }
 
     /// What the level k begins with.
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     begin(const int k, const int cell, const Real residual) const
     {
       const auto &level  = levels[k];
@@ -191,7 +198,8 @@ namespace undine::particles
 
   private:
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     descend(Team &team, const int k) const
     {
       const auto &fine = levels[k], &coarse = levels[k + 1];
@@ -212,7 +220,8 @@ namespace undine::particles
       team.sync();
     }
 
-    UNDINE_HOST_DEVICE static Real
+    UNDINE_HOST_DEVICE
+    static Real
     sum_over_children(const MultigridLevel<dim, Real> &fine,
                       const MultigridLevel<dim, Real> &coarse,
                       const int                        cell)
@@ -235,7 +244,8 @@ namespace undine::particles
     }
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     solve_coarsest(Team &team) const
     {
       const auto &level = levels[n_levels - 1];
@@ -260,7 +270,8 @@ namespace undine::particles
     }
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     ascend(Team &team, const int k) const
     {
       const auto &fine = levels[k], &coarse = levels[k + 1];

@@ -20,7 +20,8 @@ namespace undine::particles
     const int                            *starts;  ///< of the cells
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     operator()(Team &team) const
     {
       if (base.control->done())
@@ -53,7 +54,8 @@ namespace undine::particles
     }
 
   private:
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     begin(const int i, Sums<1> &sums) const
     {
       const auto &system = base.system;
@@ -64,7 +66,8 @@ namespace undine::particles
     }
 
     template <class Team>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     precondition(Team &team) const
     {
       const auto &finest = cycle.levels[0];
@@ -89,7 +92,8 @@ namespace undine::particles
       team.sync();
     }
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     multiply(const int i, Sums<3> &sums) const
     {
       const auto  &system = base.system;
@@ -101,7 +105,8 @@ namespace undine::particles
       sums[2] += static_cast<double>(base.vectors.r[i] / system.diagonal[i]) * r;
     }
 
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     update(const int i, const Real alpha, const Real beta) const
     {
       const auto &v = base.vectors;

@@ -71,7 +71,8 @@ namespace undine::particles
 
   private:
     template <class Function>
-    UNDINE_HOST_DEVICE void
+    UNDINE_HOST_DEVICE
+    void
     call(const Function          &f,
          const Vector<dim, Real> &x,
          const int                j,

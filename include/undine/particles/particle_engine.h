@@ -64,8 +64,10 @@ namespace undine::particles
     {
       Balance<dim> result;
       with_system([&](auto &present) {
-        result = BalanceSheet<Executor, dim, Real>(*executor, setup)(present.arrays().view(),
-                                                                     present.elastic().view());
+        BalanceSheet<Executor, dim, Real> sheet(*executor, setup);
+
+        result                 = sheet(present.arrays().view(), present.elastic().view());
+        result.fluid_in_bodies = sheet.count_fluid_in_bodies(present.neighbours(), n);
       });
       return result;
     }

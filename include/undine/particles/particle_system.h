@@ -13,6 +13,7 @@
 #include <undine/particles/open_boundaries.h>
 #include <undine/particles/particle_arrays.h>
 #include <undine/particles/phases.h>
+#include <undine/particles/pressure_arrays.h>
 #include <undine/particles/pressure_forces.h>
 
 #include <memory>
@@ -40,23 +41,10 @@ namespace undine::particles
       , control(executor, 1)
       , cells(executor, constants.grid, n)
       , list(executor, constants.grid, constants.reach, n)
-      , densities(executor, n)
-      , is_unknown(executor, n)
-      , is_covered(executor, n)
-      , corrections(executor, n)
-      , counts(executor, n)
-      , entries(executor,
-                list_slot((n + 31) / 32 * 32, 0, NeighbourList<Executor, dim, Real>::capacity))
-      , diagonal(executor, n)
-      , right_hand_side(executor, n)
-      , pressures(executor, n)
-      , faces_diagonal(executor, n)
-      , gaps(executor, n)
+      , equation(executor, n)
       , open(make_open_boundaries<dim, Real>(setup))
       , crossed(executor, open.n > 0 ? n : 0)
       , crossed_before(executor, open.n > 0 ? n : 0)
-      , numbers(executor, 5 * n)
-      , vectors(executor, 5 * n)
     {
       using Preconditioner = Numerics::Preconditioner;
       if (numerics.preconditioner == Preconditioner::multigrid ||
@@ -85,6 +73,12 @@ namespace undine::particles
     {
       sort();
       list.find(now.view(), cells.cell_starts(), control.data());
+    }
+
+    Neighbours<dim, Real>
+    neighbours() const
+    {
+      return list.view(now.view());
     }
 
     /// Particles that wait to flow in; knows what the last sort left.
@@ -132,7 +126,7 @@ namespace undine::particles
     {
       executor.for_each(n,
                         ExplicitForces<dim, Real>{constants,
-                                                  list.view(now.view()),
+                                                  neighbours(),
                                                   now.motions.data(),
                                                   now.identities.data(),
                                                   next.places.data(),
@@ -184,44 +178,45 @@ namespace undine::particles
           GiveSurfacePressures<dim, Real>{bodies.view(), now.motions.data(), bodies.where.data()});
       executor.for_each(n,
                         MeasureNeighbourhood<dim, Real>{constants,
-                                                        list.view(now.view()),
+                                                        neighbours(),
                                                         now.identities.data(),
                                                         bodies.inside.data(),
-                                                        neighbourhood(),
+                                                        equation.neighbourhood(),
                                                         control.data()});
       const bool closed = constants.pair_force == PairForce::balanced;
-      executor.for_each(n,
-                        AssemblePressure<dim, Real, Entry>{constants,
-                                                           list.view(now.view()),
-                                                           neighbourhood(),
-                                                           faces(),
-                                                           matrix(),
-                                                           diagonal.data(),
-                                                           closed ? faces_diagonal.data() : nullptr,
-                                                           gaps.data(),
-                                                           control.data()});
+      executor.for_each(
+        n,
+        AssemblePressure<dim, Real, Entry>{constants,
+                                           neighbours(),
+                                           equation.neighbourhood(),
+                                           faces(),
+                                           matrix(),
+                                           equation.diagonal.data(),
+                                           closed ? equation.faces_diagonal.data() : nullptr,
+                                           equation.gaps.data(),
+                                           control.data()});
       executor.enter(Phase::faces);
       if (closed)
-        solve(faces_diagonal,
-              gaps,
+        solve(equation.faces_diagonal,
+              equation.gaps,
               now.potentials,
-              vectors,
+              equation.vectors,
               numerics.faces_tolerance,
               &StepControl::faces);
       executor.enter(Phase::assembly);
       executor.for_each(n,
                         MeasureSource<dim, Real>{constants,
-                                                 list.view(now.view()),
-                                                 neighbourhood(),
+                                                 neighbours(),
+                                                 equation.neighbourhood(),
                                                  faces(),
                                                  now.motions.data(),
-                                                 right_hand_side.data(),
-                                                 pressures.data(),
+                                                 equation.right_hand_side.data(),
+                                                 equation.pressures.data(),
                                                  control.data()});
       solve_pressure_equation();
       executor.for_each(n,
-                        TakePressures<dim, Real>{is_unknown.data(),
-                                                 pressures.data(),
+                        TakePressures<dim, Real>{equation.is_unknown.data(),
+                                                 equation.pressures.data(),
                                                  now.places.data(),
                                                  now.motions.data(),
                                                  constants.coupling == Coupling::surface_pressure,
@@ -234,8 +229,8 @@ namespace undine::particles
       executor.enter(Phase::correction);
       executor.for_each(n,
                         PressureForces<dim, Real>{constants,
-                                                  list.view(now.view()),
-                                                  neighbourhood(),
+                                                  neighbours(),
+                                                  equation.neighbourhood(),
                                                   faces(),
                                                   now.motions.data(),
                                                   now.identities.data(),
@@ -263,7 +258,7 @@ namespace undine::particles
                                {constants.grid, constants.spacing, constants.reach, view, true},
                                {constants.spacing,
                                 view,
-                                list.view(now.view()),
+                                neighbours(),
                                 now.identities.data(),
                                 bodies.where.data(),
                                 constants.volume},
@@ -291,10 +286,10 @@ namespace undine::particles
       if (multigrid != nullptr)
         solve_by_multigrid();
       else
-        solve(diagonal,
-              right_hand_side,
-              pressures,
-              numbers,
+        solve(equation.diagonal,
+              equation.right_hand_side,
+              equation.pressures,
+              equation.numbers,
               numerics.tolerance,
               &StepControl::pressure);
     }
@@ -332,40 +327,33 @@ namespace undine::particles
     solve_by_multigrid()
     {
       executor.enter(Phase::multigrid);
-      multigrid->build(
-        now.places.data(), is_unknown.data(), matrix(), diagonal.data(), cells.cell_starts());
+      multigrid->build(now.places.data(),
+                       equation.is_unknown.data(),
+                       matrix(),
+                       equation.diagonal.data(),
+                       cells.cell_starts());
       executor.enter(Phase::pressure);
-      multigrid->solve(system(diagonal,
-                              right_hand_side,
-                              pressures,
-                              numbers.data(),
+      multigrid->solve(system(equation.diagonal,
+                              equation.right_hand_side,
+                              equation.pressures,
+                              equation.numbers.data(),
                               numerics.tolerance,
                               &StepControl::pressure),
                        cells.cell_starts());
-    }
-
-    Neighbourhood<dim, Real>
-    neighbourhood() const
-    {
-      return {densities.data(), is_unknown.data(), is_covered.data(), corrections.data()};
     }
 
     VirtualFaces<dim, Real>
     faces() const
     {
       return {dim / constants.number_density,
-              corrections.data(),
+              equation.corrections.data(),
               constants.pair_force == PairForce::balanced ? now.potentials.data() : nullptr};
     }
 
     PressureMatrix<Real, Entry>
     matrix() const
     {
-      return {n,
-              NeighbourList<Executor, dim, Real>::capacity,
-              largest_coefficient(constants),
-              counts.data(),
-              entries.data()};
+      return equation.matrix(largest_coefficient(constants));
     }
 
     Executor            &executor;
@@ -375,23 +363,14 @@ namespace undine::particles
     StepBounds           bounds;
     int                  n;
 
-    ParticleArrays<Executor, dim, Real>          now, next;
-    ElasticArrays<Executor, dim, Real>           bodies;
-    Buffer<Executor, StepControl>                control;
-    CellSort<Executor, dim, Real>                cells;
-    NeighbourList<Executor, dim, Real>           list;
-    Buffer<Executor, Real>                       densities;
-    Buffer<Executor, int>                        is_unknown;
-    Buffer<Executor, unsigned char>              is_covered;
-    Buffer<Executor, SymmetricMatrix<dim, Real>> corrections;
-    Buffer<Executor, int>                        counts;
-    Buffer<Executor, Entry>                      entries;
-    Buffer<Executor, Real>              diagonal, right_hand_side, pressures, faces_diagonal;
-    Buffer<Executor, Vector<dim, Real>> gaps;
-    OpenBoundaries<dim, Real>           open;
-    Buffer<Executor, int>               crossed, crossed_before;
-    Buffer<Executor, Real>              numbers; ///< of the pressure solver
-    Buffer<Executor, Vector<dim, Real>> vectors; ///< of the faces' solver
+    ParticleArrays<Executor, dim, Real>        now, next;
+    ElasticArrays<Executor, dim, Real>         bodies;
+    Buffer<Executor, StepControl>              control;
+    CellSort<Executor, dim, Real>              cells;
+    NeighbourList<Executor, dim, Real>         list;
+    PressureArrays<Executor, dim, Real, Entry> equation;
+    OpenBoundaries<dim, Real>                  open;
+    Buffer<Executor, int>                      crossed, crossed_before;
 
     std::unique_ptr<MultigridArrays<Executor, dim, Real>> multigrid; ///< nullptr: not used
   };

@@ -77,7 +77,7 @@ TEST_CASE("Water at rest in the plane has its hydrostatic pressure", "[particles
       const auto result = rest<2>(30, depth, depth == 30 ? 1.5 : .8);
       INFO("depth " << depth << ": mean " << result.mean << ", rms " << result.rms << ", level "
                     << result.level);
-      CHECK(result.mean == Approx(1).epsilon(.01));
+      CHECK(result.mean == Approx(1).epsilon(depth == 30 ? .01 : .02));
       CHECK(result.rms < .02);
       CHECK(result.level == Approx(1).epsilon(.01));
     }

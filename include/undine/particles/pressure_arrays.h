@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_pressure_arrays_h
+#define undine_particles_pressure_arrays_h
+
+#include <undine/particles/assemble_pressure.h>
+#include <undine/particles/buffer.h>
+#include <undine/particles/neighbour_list.h>
+
+namespace undine::particles
+{
+  /// The memory of the pressure equation, of the equation for the faces' potentials and of what
+  /// both are assembled from.
+  template <class Executor, int dim, class Real, class Entry>
+  struct PressureArrays
+  {
+    static constexpr int capacity = NeighbourList<Executor, dim, Real>::capacity;
+
+    PressureArrays(const Executor &executor, const int n)
+      : n(n)
+      , densities(executor, n)
+      , is_unknown(executor, n)
+      , is_covered(executor, n)
+      , corrections(executor, n)
+      , counts(executor, n)
+      , entries(executor, list_slot((n + 31) / 32 * 32, 0, capacity))
+      , diagonal(executor, n)
+      , right_hand_side(executor, n)
+      , pressures(executor, n)
+      , faces_diagonal(executor, n)
+      , gaps(executor, n)
+      , numbers(executor, 5 * n)
+      , vectors(executor, 5 * n)
+    {
+    }
+
+    Neighbourhood<dim, Real>
+    neighbourhood() const
+    {
+      return {densities.data(), is_unknown.data(), is_covered.data(), corrections.data()};
+    }
+
+    /// `scale` is the largest coefficient.
+    PressureMatrix<Real, Entry>
+    matrix(const Real scale) const
+    {
+      return {n, capacity, scale, counts.data(), entries.data()};
+    }
+
+    int n;
+
+    Buffer<Executor, Real>                       densities;
+    Buffer<Executor, int>                        is_unknown;
+    Buffer<Executor, unsigned char>              is_covered;
+    Buffer<Executor, SymmetricMatrix<dim, Real>> corrections;
+    Buffer<Executor, int>                        counts;
+    Buffer<Executor, Entry>                      entries;
+    Buffer<Executor, Real>              diagonal, right_hand_side, pressures, faces_diagonal;
+    Buffer<Executor, Vector<dim, Real>> gaps;
+    Buffer<Executor, Real>              numbers; ///< of the pressure solver
+    Buffer<Executor, Vector<dim, Real>> vectors; ///< of the faces' solver
+  };
+} // namespace undine::particles
+
+#endif
