@@ -43,7 +43,7 @@ namespace undine::particles
     double shifting_limit     = 0.05; ///< [spacings per sub-step]
 
     double tolerance       = 1e-4; ///< of the pressure solver, relative
-    double faces_tolerance = 1e-2; ///< of the virtual faces' solver, relative
+    double faces_tolerance = 3e-2; ///< of the virtual faces' solver, relative
     int    max_iterations  = 2000;
 
     enum class Preconditioner
