@@ -124,8 +124,8 @@ namespace undine
       room,
       "m",
       Allowed::not_negative(),
-      "How far particles may go; the run stops if one goes farther. Not given: the longest "
-      "edge of the box.");
+      "How far particles may go. Fluid that goes farther is taken out and not computed any more; "
+      "the run stops if a body goes farther. Not given: the longest edge of the box.");
     if (domain.is_reference())
       return;
     const auto mark =
@@ -185,7 +185,7 @@ namespace undine
     for (unsigned int axis = 0; axis < dim; ++axis)
       if (sides[2 * axis] != ParticleSide::periodic)
         result[axis] -=
-          (layers + 1) * spacing + (sides[2 * axis] == ParticleSide::open ? room : 0.);
+          (layers + 2) * spacing + (sides[2 * axis] == ParticleSide::open ? room : 0.);
     return result;
   }
 
@@ -198,7 +198,7 @@ namespace undine
     for (unsigned int axis = 0; axis < dim; ++axis)
       if (sides[2 * axis + 1] != ParticleSide::periodic)
         result[axis] +=
-          (layers + 1) * spacing + (sides[2 * axis + 1] == ParticleSide::open ? room : 0.);
+          (layers + 2) * spacing + (sides[2 * axis + 1] == ParticleSide::open ? room : 0.);
     return result;
   }
 

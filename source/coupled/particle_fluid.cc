@@ -88,6 +88,7 @@ namespace undine
     const auto section = options.section("Shapes");
     for (const auto &name : section.named_sections("column"))
       shapes.emplace_back(name, section.section(name));
+    openings = read_particle_openings<dim>(options);
   }
 
 
@@ -109,7 +110,10 @@ namespace undine
       if (!std::isfinite(velocities.back().norm()))
         throw no_number(options, "Initial velocity", place);
     });
-    if (places.empty())
+    const bool flows_in = std::any_of(openings.begin(), openings.end(), [](const auto &opening) {
+      return opening.kind == OpeningKind::inflow;
+    });
+    if (places.empty() && !flows_in)
       throw options.error(
         "Region",
         shapes.empty() ? "leaves no fluid" : "and the 'Shapes' together leave no fluid",

@@ -123,27 +123,18 @@ namespace undine
       }
     apply(effects, scene);
 
-    if (bodies.size() >= particles::Constants<dim, double>::max_materials)
-      throw scene.error(
-        "Bodies",
-        fmt::format("there are {} bodies", bodies.size()),
-        fmt::format("Allowed: at most {}.", particles::Constants<dim, double>::max_materials - 1));
+    if (bodies.size() >= particles::inflow_material)
+      throw scene.error("Bodies",
+                        fmt::format("there are {} bodies", bodies.size()),
+                        fmt::format("Allowed: at most {}.", particles::inflow_material - 1));
     place_bodies(bodies, obstacles);
-    const auto walls = place_walls(bodies, obstacles);
+    auto                             walls = box.wall_particles();
+    std::vector<InflowParticle<dim>> inflow;
     if (fluid)
-      {
-        fluid->fill(box, [&](const dealii::Point<dim> &place) {
-          return occupied.any_near(place, apart * box.spacing) || obstacles.contain(place);
-        });
-        dealii::Tensor<1, dim> gravity;
-        for (unsigned int axis = 0; axis < dim; ++axis)
-          gravity[axis] = constants.gravity[axis];
-        constants.depth = fluid->depth(gravity, box.spacing);
-        n_fluid         = fluid->places.size();
-        for (std::size_t k = 0; k < n_fluid; ++k)
-          add(
-            fluid->places[k], fluid->velocities[k], particles::Tag::of(particles::Kind::fluid, 0));
-      }
+      inflow = open_walls(walls, fluid->openings, box);
+    place_walls(walls, bodies, obstacles);
+    if (fluid)
+      add_fluid(*fluid, inflow, obstacles);
     add_walls(walls);
   }
 
@@ -171,8 +162,8 @@ namespace undine
           .section(effects.names[e])
           .error("",
                  "this effect is one of fluids on a grid or of bodies of finite elements",
-                 "Remove the section: particles know 'gravity' and 'viscosity', and always carry "
-                 "their momentum.");
+                 "Remove the section: particles know 'gravity', 'viscosity' and 'central "
+                 "attraction', and always carry their momentum.");
   }
 
 
@@ -232,11 +223,11 @@ namespace undine
 
 
   template <int dim>
-  std::vector<WallParticle<dim>>
-  ParticleModel<dim>::place_walls(const std::vector<ParticleBody<dim>> &bodies,
+  void
+  ParticleModel<dim>::place_walls(std::vector<WallParticle<dim>>       &walls,
+                                  const std::vector<ParticleBody<dim>> &bodies,
                                   const ParticleObstacles<dim>         &obstacles)
   {
-    auto walls = box.wall_particles();
     walls.insert(walls.end(), obstacles.particles.begin(), obstacles.particles.end());
     std::vector<WallParticle<dim>> result;
     for (const auto &wall : walls)
@@ -258,7 +249,80 @@ namespace undine
       }
     for (const auto &wall : result)
       occupied.add(wall.place);
-    return result;
+    walls = std::move(result);
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::check_inflow(const ParticleFluid<dim>               &fluid,
+                                   const std::vector<InflowParticle<dim>> &inflow,
+                                   const ParticleObstacles<dim>           &obstacles) const
+  {
+    for (const auto &particle : inflow)
+      {
+        const auto boundaries = fluid.options.section("Boundaries");
+        const auto place      = "(" + write_value(particle.place) + ")";
+        occupied.for_each_near(particle.place, apart * box.spacing, [&](const std::size_t k) {
+          if (k < constants.reference.size())
+            throw boundaries.error("",
+                                   "the body '" + names[constants.body_of[k]] +
+                                     "' stands in an inflow at " + place,
+                                   "Try: move it away by a spacing.");
+        });
+        auto next = particle.place; // where it flows
+        if (particle.velocity.norm() > 0)
+          next += (particle.layer + 1) * box.spacing * particle.velocity / particle.velocity.norm();
+        if (obstacles.contain(next))
+          throw boundaries.error("",
+                                 "an obstacle closes an inflow at " + place,
+                                 "Try: move it away, or another 'Region' of the inflow.");
+      }
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::add_fluid(ParticleFluid<dim>                     &fluid,
+                                const std::vector<InflowParticle<dim>> &inflow,
+                                const ParticleObstacles<dim>           &obstacles)
+  {
+    using particles::Kind;
+    using particles::Tag;
+    check_inflow(fluid, inflow, obstacles);
+    fluid.fill(box, [&](const dealii::Point<dim> &place) {
+      return occupied.any_near(place, apart * box.spacing) || obstacles.contain(place);
+    });
+    dealii::Tensor<1, dim> gravity;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      gravity[axis] = constants.gravity[axis];
+    constants.depth      = fluid.depth(gravity, box.spacing);
+    constants.open_sides = open_sides(fluid.openings, box);
+    n_fluid              = fluid.places.size();
+    n_openings           = fluid.openings.size();
+    n_inflow             = inflow.size();
+    for (std::size_t k = 0; k < n_fluid; ++k)
+      add(fluid.places[k], fluid.velocities[k], Tag::of(Kind::fluid, 0));
+    double fastest = 0;
+    for (const auto &particle : inflow)
+      {
+        add(particle.place,
+            particle.velocity,
+            Tag::of(particle.layer == 0 ? Kind::wall : Kind::dummy, particles::inflow_material));
+        fastest = std::max(fastest, particle.velocity.norm());
+      }
+    if (inflow.empty())
+      return;
+    // What flows in may fill the box, and is faster than what sub-steps are chosen by.
+    if (gravity.norm() > 0)
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        constants.depth =
+          std::max(constants.depth,
+                   std::abs(gravity[axis]) / gravity.norm() * (box.upper[axis] - box.lower[axis]));
+    auto        &numerics = constants.numerics;
+    const double longest  = numerics.speed_share * box.spacing / fastest;
+    numerics.largest_sub_step =
+      numerics.largest_sub_step > 0 ? std::min(numerics.largest_sub_step, longest) : longest;
   }
 
 
@@ -293,11 +357,12 @@ namespace undine
   std::string
   ParticleModel<dim>::counts() const
   {
-    return fmt::format("{} of fluid, {} of {} bodies, {} of walls; {:.4g} m apart",
+    return fmt::format("{} of fluid, {} of {} bodies, {} of walls{}; {:.4g} m apart",
                        n_fluid,
                        constants.reference.size(),
                        names.size(),
                        n_wall,
+                       n_inflow == 0 ? "" : fmt::format(", {} behind inflows", n_inflow),
                        box.spacing);
   }
 

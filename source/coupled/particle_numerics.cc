@@ -60,12 +60,15 @@ namespace undine
       "Executor",
       executor,
       "",
-      Allowed::one_of({"device", "host"}),
+      Allowed::one_of(registry.names()),
       "Where it is computed. host: this machine's cores. device: a graphics card, by CUDA.");
-    if (!options.is_reference() && executor == "device" && !registry.contains(executor))
-      throw options.error("Executor",
-                          "'device' needs CUDA, without which this program was built",
-                          "Try: 'host', or build again on a machine with CUDA's compiler nvcc.");
+    if (!options.is_reference())
+      {
+        const auto reason = registry.make(executor)->reason_not_available();
+        if (!reason.empty())
+          throw options.error(
+            "Executor", "'" + executor + "' is not possible here", "Reason: " + reason);
+      }
     using particles::Precision;
     add_choice<Precision>(
       options,
@@ -111,14 +114,25 @@ namespace undine
                 numerics.elastic_share,
                 "1",
                 Allowed::between(1e-3, 1),
-                "Bodies are advanced in steps of at most this times l0 / c_p, c_p the speed of "
-                "their pressure waves.");
+                "Bodies are advanced in explicit steps of at most this times l0 / c_p, c_p the "
+                "speed of their pressure waves.");
+    unsigned int most = numerics.most_elastic_steps;
+    options.add(
+      "Implicit above",
+      most,
+      "",
+      Allowed::between(0, 1e6),
+      "If bodies need more explicit steps than this in a sub-step, they take one implicit "
+      "step instead: faster for stiff bodies, and without their fast vibrations. 0: "
+      "always explicit.");
+    numerics.most_elastic_steps = most;
   }
 
 
   void
   ParticleNumerics::read_pressure(const Options &options)
   {
+    using particles::Coupling;
     using particles::PairForce;
     using particles::Source;
     add_choice<Source>(options,
@@ -143,6 +157,17 @@ namespace undine
       "sqrt(l0 / g)",
       Allowed::not_negative(),
       "With gravity errors of the density fade in this time. 0: 'Density share' a sub-step.");
+    options.add("Crowd excess",
+                numerics.crowd_excess,
+                "1",
+                Allowed::not_negative(),
+                "Particles crowd where their density is higher than the full one by more than this "
+                "share; what is beyond is corrected faster.");
+    options.add("Crowd share",
+                numerics.crowd_share,
+                "1",
+                Allowed::between(0, 1),
+                "Share of what is beyond 'Crowd excess' that a sub-step corrects.");
     add_choice<PairForce>(
       options,
       "Pair force",
@@ -154,6 +179,14 @@ namespace undine
       "How pressures push. balanced: equal and opposite, and nothing where the "
       "pressure is constant. corrected: exact for linear pressures. minimum: "
       "every pair repels. conserving: equal and opposite, noisy in deep fluid.");
+    add_choice<Coupling>(
+      options,
+      "Coupling",
+      numerics.coupling,
+      {{"simultaneous", Coupling::simultaneous}, {"surface pressure", Coupling::surface_pressure}},
+      "How bodies take part in the pressure equation. simultaneous: as fluid of "
+      "another density. surface pressure: only by the pressure of their "
+      "elasticity at their surface, for comparisons.");
     read_solver(options);
   }
 

@@ -29,7 +29,7 @@ namespace undine
                                  : 0;
       patch.data(row++, 0) = state.pressures[k];
       patch.data(row++, 0) = static_cast<int>(tag.kind());
-      patch.data(row++, 0) = tag.material() - 1;
+      patch.data(row++, 0) = tag.kind() == particles::Kind::solid ? tag.material() - 1 : -1;
       patch.data(row++, 0) = identity;
       return patch;
     }

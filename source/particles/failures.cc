@@ -24,7 +24,8 @@ namespace undine::particles
     if (has(control, Failure::not_a_number))
       text << "a velocity is not a number. ";
     if (has(control, Failure::outside))
-      text << "a particle left the box. ";
+      text << "a particle left the room around the domain: it went through a wall, or a body went "
+              "farther than 'Domain / Room beyond open sides'. ";
     if (has(control, Failure::neighbours))
       text << "particles crowd: one has more neighbours than the list can hold. ";
     if (has(control, Failure::matrix_indices))

@@ -9,6 +9,12 @@ namespace undine::particles
   class HostEngineFactory : public EngineFactory<dim>
   {
   public:
+    std::string
+    reason_not_available() const override
+    {
+      return "";
+    }
+
     std::unique_ptr<Engine<dim>>
     make(const Precision precision) const override
     {

@@ -8,13 +8,17 @@ namespace undine::particles
   class NoDeviceFactory : public EngineFactory<dim>
   {
   public:
+    std::string
+    reason_not_available() const override
+    {
+      return "this program was built without CUDA, so the executor 'device' is not in it. Choose "
+             "the executor 'host', or install the CUDA toolkit (nvcc) and configure again.";
+    }
+
     std::unique_ptr<Engine<dim>>
     make(const Precision) const override
     {
-      throw InputError(
-        "this program was built without CUDA, so the executor 'device' is not in it. "
-        "Choose the executor 'host', or install the CUDA toolkit (nvcc) and configure "
-        "again.");
+      throw InputError(reason_not_available());
     }
   };
 

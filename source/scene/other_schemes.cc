@@ -52,10 +52,7 @@ namespace undine
            of_grid);
     refuse(scene.section("Fluid"),
            {{"Pressure solver", "Remove it: see 'Particles / Pressure'."},
-            {"Void regions", "Remove it: where there are no particles, there is nothing."},
-            {"Boundaries",
-             "Remove it: the sides are walls unless 'Domain / Open sides' or 'Domain / Periodic "
-             "sides' names them; inflow and outflow of particles are not part of this version."}},
+            {"Void regions", "Remove it: where there are no particles, there is nothing."}},
            of_grid);
     const auto bodies = scene.section("Bodies");
     for (const auto &name : bodies.named_sections("beam"))

@@ -2,7 +2,7 @@
 #ifndef undine_coupled_particle_fluid_h
 #define undine_coupled_particle_fluid_h
 
-#include <undine/coupled/particle_domain.h>
+#include <undine/coupled/particle_openings.h>
 #include <undine/interface/shape_boundary.h>
 
 #include <functional>
@@ -18,7 +18,8 @@ namespace undine
     explicit ParticleFluid(const Options &scene);
 
     /// Place its particles in the cubes of the domain whose centre is in the region and in one of
-    /// the shapes (if there are any), and not `taken`. Throws InputError.
+    /// the shapes (if there are any), and not `taken`. Throws InputError, also if there are none
+    /// and none flow in.
     void
     fill(const ParticleDomain<dim>                             &domain,
          const std::function<bool(const dealii::Point<dim> &)> &taken);
@@ -28,6 +29,7 @@ namespace undine
     double                              bulk_modulus = 0;    ///< [Pa]; 0: incompressible
     std::vector<dealii::Point<dim>>     places;              ///< at t = 0 [m]
     std::vector<dealii::Tensor<1, dim>> velocities;          ///< at t = 0 [m/s]
+    std::vector<ParticleOpening<dim>>   openings;
 
     /// How deep it is along `gravity` [m]; zero without gravity.
     double

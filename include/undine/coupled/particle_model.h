@@ -75,7 +75,14 @@ namespace undine
     bool
     has_fluid() const
     {
-      return n_fluid > 0;
+      return constants.has_fluid;
+    }
+
+    /// Does the scene have inflows or outflows?
+    bool
+    has_openings() const
+    {
+      return n_openings > 0;
     }
 
     /// Whether pictures contain the particles of walls.
@@ -109,9 +116,18 @@ namespace undine
     place_bodies(std::vector<ParticleBody<dim>> &bodies, const ParticleObstacles<dim> &obstacles);
     void
     add_body(const ParticleBody<dim> &body);
-    std::vector<WallParticle<dim>>
-    place_walls(const std::vector<ParticleBody<dim>> &bodies,
+    void
+    place_walls(std::vector<WallParticle<dim>>       &walls,
+                const std::vector<ParticleBody<dim>> &bodies,
                 const ParticleObstacles<dim>         &obstacles);
+    void
+    check_inflow(const ParticleFluid<dim>               &fluid,
+                 const std::vector<InflowParticle<dim>> &inflow,
+                 const ParticleObstacles<dim>           &obstacles) const;
+    void
+    add_fluid(ParticleFluid<dim>                     &fluid,
+              const std::vector<InflowParticle<dim>> &inflow,
+              const ParticleObstacles<dim>           &obstacles);
     void
     add_walls(const std::vector<WallParticle<dim>> &walls);
     void
@@ -125,7 +141,7 @@ namespace undine
     particles::Setup<dim>         constants;
     particles::ParticleState<dim> start;
     std::vector<std::string>      names; ///< of the bodies
-    std::size_t                   n_fluid = 0, n_wall = 0;
+    std::size_t                   n_fluid = 0, n_inflow = 0, n_wall = 0, n_openings = 0;
     bool                          walls_are_shown = false;
     std::vector<std::string>      remarks;
     PointGrid<dim>                occupied; ///< by bodies, then also by walls

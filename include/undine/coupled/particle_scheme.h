@@ -40,9 +40,11 @@ namespace undine
     void
     load(const State<dim> &state);
 
-    /// What the engine says about its particles.
+    /// Copy the engine's particles, and what it says about them.
     void
-    measure(Report &report, const particles::StepControl &control) const;
+    fetch(particles::ParticleState<dim> &particles,
+          Report                        &report,
+          const particles::StepControl  &control) const;
 
     /// Seconds by phase since the last call.
     void
@@ -60,9 +62,10 @@ namespace undine
   /// The columns of the file `statistics`.
   template <int dim>
   Columns
-  particle_columns(const ParticleModel<dim>      &model,
-                   const particles::StepControl  &control,
-                   const particles::Balance<dim> &balance);
+  particle_columns(const ParticleModel<dim>            &model,
+                   const particles::StepControl        &control,
+                   const particles::Balance<dim>       &balance,
+                   const particles::ParticleState<dim> &state);
 } // namespace undine
 
 #endif

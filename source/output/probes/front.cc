@@ -8,7 +8,8 @@
 namespace undine
 {
   /// How far a fluid of particles has come along an axis [m]: the outer end of the cube of the
-  /// farthest particle of its largest part, without drops that have come off.
+  /// farthest particle of its largest part, without drops that have come off; without any fluid,
+  /// where the domain begins.
   template <int dim>
   class Front : public Probe<dim>
   {
@@ -46,11 +47,15 @@ namespace undine
     Columns
     columns(const Models<dim> &models, const State<dim> &state) const override
     {
-      const double       spacing = models.particles->domain().spacing;
       const int          sign    = direction.front() == '-' ? -1 : 1;
       const unsigned int axis    = direction.back() - 'x';
-      double             front   = -std::numeric_limits<double>::infinity();
-      for (const auto k : main_part_of_fluid(state.particles, gap * spacing))
+      const auto        &box     = models.particles->domain();
+      const double       spacing = box.spacing;
+      const auto         part    = main_part_of_fluid(state.particles, gap * spacing);
+      if (part.empty()) // it has yet to begin
+        return {{name, "m", sign > 0 ? box.lower[axis] : box.upper[axis]}};
+      double front = -std::numeric_limits<double>::infinity();
+      for (const auto k : part)
         front = std::max(front, sign * state.particles.positions[k][axis]);
       return {{name, "m", sign * (front + spacing / 2)}};
     }

@@ -61,7 +61,7 @@ namespace undine
 
       std::vector<int> result;
       for (std::size_t k = 0; k < start.tags.size(); ++k)
-        if (start.tags[k].kind() == particles::Kind::wall)
+        if (start.tags[k].code == particles::Tag::of(particles::Kind::wall, 0).code)
           {
             double square = 0;
             for (unsigned int axis = 0; axis < dim; ++axis)

@@ -91,7 +91,7 @@ TEST_CASE("particles: wrong bodies are refused")
   std::string many;
   for (unsigned int k = 0; k < 16; ++k)
     many += block("body " + std::to_string(k), "5, 5");
-  check_message(bodies(many), {"16 bodies", "at most 15"});
+  check_message(bodies(many), {"16 bodies", "at most 13"});
 }
 
 
@@ -106,5 +106,5 @@ TEST_CASE("particles: wrong obstacles and effects are refused")
   check_message(obstacle("set Surface = there_is_no_such_file.stl"),
                 {"'Surface'", "cannot be read"});
   check_message(particle_box<2>(10) + water + section("Effects", section("convection", "")),
-                {"'Effects/convection'", "'gravity' and 'viscosity'"});
+                {"'Effects/convection'", "'gravity', 'viscosity' and"});
 }
