@@ -177,21 +177,24 @@ namespace undine::particles
     void
     run_team(const int n, const Function &f)
     {
-      const int  threads = team_threads(n);
-      const auto kernel  = threads > kernels::few_threads
-                             ? kernels::run<Function, kernels::team_threads, 2>
-                             : kernels::run<Function, kernels::few_threads, 1>;
-      int        blocks  = 0;
-      check_device(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
-                   "to plan a pass");
-      blocks               = std::min({blocks * properties.multiProcessorCount,
-                                       (n + threads - 1) / threads,
-                                       int(Team::most_blocks)});
-      Function copy        = f;
-      void    *arguments[] = {&copy, &workspace};
-      check_device(cudaLaunchCooperativeKernel(
-                     kernel, dim3(std::max(1, blocks)), dim3(threads), arguments, 0, stream),
-                   "to start a pass");
+      const int threads = team_threads(n, 32);
+      launch_team(threads > kernels::few_threads ? kernels::run<Function, kernels::team_threads, 2>
+                                                 : kernels::run<Function, kernels::few_threads, 1>,
+                  n,
+                  threads,
+                  f);
+    }
+
+    template <class Function>
+    void
+    run_by_lanes(const int n, const Function &f)
+    {
+      const int workers = n * DeviceLanes::number, threads = team_threads(workers, 128);
+      launch_team(threads > 128 ? kernels::run<Function, kernels::team_threads, 1>
+                                : kernels::run<Function, 128, 1>,
+                  workers,
+                  threads,
+                  f);
     }
 
     /// Solves systems that fit in the shared memories of the multiprocessors there.
@@ -328,12 +331,30 @@ namespace undine::particles
       unsigned int             next   = 0; ///< round
     };
 
+    /// Together as many workers as there is work for and room.
+    template <class Kernel, class Function>
+    void
+    launch_team(const Kernel kernel, const int n, const int threads, const Function &f)
+    {
+      int blocks = 0;
+      check_device(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
+                   "to plan a pass");
+      blocks               = std::min({blocks * properties.multiProcessorCount,
+                                       (n + threads - 1) / threads,
+                                       int(Team::most_blocks)});
+      Function copy        = f;
+      void    *arguments[] = {&copy, &workspace};
+      check_device(cudaLaunchCooperativeKernel(
+                     kernel, dim3(std::max(1, blocks)), dim3(threads), arguments, 0, stream),
+                   "to start a pass");
+    }
+
     /// Small passes spread over all multiprocessors in small blocks.
     int
-    team_threads(const int n) const
+    team_threads(const int n, const int least) const
     {
       const int each = (n + properties.multiProcessorCount - 1) / properties.multiProcessorCount;
-      return std::clamp((each + 31) / 32 * 32, 32, kernels::team_threads);
+      return std::clamp((each + 31) / 32 * 32, least, kernels::team_threads);
     }
 
     static constexpr int most_resident_rows  = 400000;
