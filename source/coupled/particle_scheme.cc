@@ -105,18 +105,19 @@ namespace undine
     load(state);
     is_loaded = false; // until the frame is known to be good
     Report report;
-    report.dt            = dt;
-    const auto control   = engine->advance(dt);
-    auto       particles = state.particles; // which stay as they are if the frame is no good
-    fetch(particles, report, control);
+    report.dt          = dt;
+    const auto control = engine->advance(dt);
+    auto       fetched = state.particles; // which stay as they are if the frame is no good
+    fetch(fetched, report, control);
     assert_finite(report.columns);
     report.linear_iterations = control.pressure.iterations;
     report.note              = complaint(control);
-    if (!model->has_openings() && count_fluid(particles) < count_fluid(state.particles))
+    if (!model->has_openings() && count_fluid(fetched) < count_fluid(state.particles))
       report.note += fmt::format("{}{} particle(s) of fluid left the room around the domain",
                                  report.note.empty() ? "" : "; ",
-                                 count_fluid(state.particles) - count_fluid(particles));
-    auto clock = state.clock; // as the driver will advance it
+                                 count_fluid(state.particles) - count_fluid(fetched));
+    state.particles = std::move(fetched);
+    auto clock      = state.clock; // as the driver will advance it
     clock.advance(dt);
     is_loaded   = true;
     loaded_time = clock.time;
