@@ -106,7 +106,7 @@ namespace undine
     is_loaded = false; // until the frame is known to be good
     Report report;
     report.dt          = dt;
-    const auto control = engine->advance(dt);
+    const auto control = advance(state, dt);
     auto       fetched = state.particles; // which stay as they are if the frame is no good
     fetch(fetched, report, control);
     assert_finite(report.columns);
@@ -123,6 +123,25 @@ namespace undine
     loaded_time = clock.time;
     collect_seconds();
     return report;
+  }
+
+
+  template <int dim>
+  particles::StepControl
+  ParticleScheme<dim>::advance(const State<dim> &state, const double dt)
+  {
+    try
+      {
+        return engine->advance(dt);
+      }
+    catch (const SolveError &reason)
+      {
+        if (!model->is_nearly_full(count_fluid(state.particles)))
+          throw;
+        throw SolveError(std::string(reason.what()) +
+                         " Fluid flows into the domain and nowhere out, and it is nearly full: try "
+                         "an outflow, an open side or an earlier 'Time / End'.");
+      }
   }
 
 
