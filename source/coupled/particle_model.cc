@@ -283,6 +283,27 @@ namespace undine
 
   template <int dim>
   void
+  ParticleModel<dim>::check_room(const ParticleFluid<dim>                              &fluid,
+                                 const std::function<bool(const dealii::Point<dim> &)> &taken)
+  {
+    bool flows_in = false, flows_out = false;
+    for (const auto &opening : fluid.openings)
+      (opening.kind == OpeningKind::inflow ? flows_in : flows_out) = true;
+    for (const auto side : box.sides)
+      flows_out = flows_out || side == ParticleSide::open;
+    if (!flows_in || flows_out)
+      return;
+    box.for_each_cell([&](const auto &place) { most_fluid += taken(place) ? 0 : 1; });
+    if (fluid.places.size() == most_fluid)
+      throw fluid.options.section("Boundaries")
+        .error("",
+               "fluid flows into a domain that is full and closed",
+               "Try: an outflow, 'Domain / Open sides', or a smaller 'Region' of the fluid.");
+  }
+
+
+  template <int dim>
+  void
   ParticleModel<dim>::add_fluid(ParticleFluid<dim>                     &fluid,
                                 const std::vector<InflowParticle<dim>> &inflow,
                                 const ParticleObstacles<dim>           &obstacles)
@@ -290,9 +311,11 @@ namespace undine
     using particles::Kind;
     using particles::Tag;
     check_inflow(fluid, inflow, obstacles);
-    fluid.fill(box, [&](const dealii::Point<dim> &place) {
+    const auto taken = [&](const dealii::Point<dim> &place) {
       return occupied.any_near(place, apart * box.spacing) || obstacles.contain(place);
-    });
+    };
+    fluid.fill(box, taken);
+    check_room(fluid, taken);
     dealii::Tensor<1, dim> gravity;
     for (unsigned int axis = 0; axis < dim; ++axis)
       gravity[axis] = constants.gravity[axis];

@@ -105,23 +105,43 @@ namespace undine
     load(state);
     is_loaded = false; // until the frame is known to be good
     Report report;
-    report.dt            = dt;
-    const auto control   = engine->advance(dt);
-    auto       particles = state.particles; // which stay as they are if the frame is no good
-    fetch(particles, report, control);
+    report.dt          = dt;
+    const auto control = advance(state, dt);
+    auto       fetched = state.particles; // which stay as they are if the frame is no good
+    fetch(fetched, report, control);
     assert_finite(report.columns);
     report.linear_iterations = control.pressure.iterations;
     report.note              = complaint(control);
-    if (!model->has_openings() && count_fluid(particles) < count_fluid(state.particles))
+    if (!model->has_openings() && count_fluid(fetched) < count_fluid(state.particles))
       report.note += fmt::format("{}{} particle(s) of fluid left the room around the domain",
                                  report.note.empty() ? "" : "; ",
-                                 count_fluid(state.particles) - count_fluid(particles));
-    auto clock = state.clock; // as the driver will advance it
+                                 count_fluid(state.particles) - count_fluid(fetched));
+    state.particles = std::move(fetched);
+    auto clock      = state.clock; // as the driver will advance it
     clock.advance(dt);
     is_loaded   = true;
     loaded_time = clock.time;
     collect_seconds();
     return report;
+  }
+
+
+  template <int dim>
+  particles::StepControl
+  ParticleScheme<dim>::advance(const State<dim> &state, const double dt)
+  {
+    try
+      {
+        return engine->advance(dt);
+      }
+    catch (const SolveError &reason)
+      {
+        if (!model->is_nearly_full(count_fluid(state.particles)))
+          throw;
+        throw SolveError(std::string(reason.what()) +
+                         " Fluid flows into the domain and nowhere out, and it is nearly full: try "
+                         "an outflow, an open side or an earlier 'Time / End'.");
+      }
   }
 
 

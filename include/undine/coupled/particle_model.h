@@ -14,6 +14,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,6 +86,14 @@ namespace undine
       return n_openings > 0;
     }
 
+    /// Is there hardly room for more than `n` particles of fluid, although it flows in and nowhere
+    /// out?
+    bool
+    is_nearly_full(const std::size_t n) const
+    {
+      return most_fluid > 0 && n > 0.9 * most_fluid;
+    }
+
     /// Whether pictures contain the particles of walls.
     bool
     shows_walls() const
@@ -121,6 +130,9 @@ namespace undine
                 const std::vector<ParticleBody<dim>> &bodies,
                 const ParticleObstacles<dim>         &obstacles);
     void
+    check_room(const ParticleFluid<dim>                              &fluid,
+               const std::function<bool(const dealii::Point<dim> &)> &taken);
+    void
     check_inflow(const ParticleFluid<dim>               &fluid,
                  const std::vector<InflowParticle<dim>> &inflow,
                  const ParticleObstacles<dim>           &obstacles) const;
@@ -142,6 +154,7 @@ namespace undine
     particles::ParticleState<dim> start;
     std::vector<std::string>      names; ///< of the bodies
     std::size_t                   n_fluid = 0, n_inflow = 0, n_wall = 0, n_openings = 0;
+    std::size_t                   most_fluid      = 0; ///< that closed walls have room for; 0: any
     bool                          walls_are_shown = false;
     std::vector<std::string>      remarks;
     PointGrid<dim>                occupied; ///< by bodies, then also by walls

@@ -40,6 +40,10 @@ namespace undine
     void
     load(const State<dim> &state);
 
+    /// A frame. Throws SolveError, with what the scene may have to do with it.
+    particles::StepControl
+    advance(const State<dim> &state, const double dt);
+
     /// Copy the engine's particles, and what it says about them.
     void
     fetch(particles::ParticleState<dim> &particles,

@@ -152,6 +152,7 @@ TEST_CASE("particles: wrong inflows and outflows are refused")
   check(left("set Velocity = -1; 0"), {"'Velocity'", "points out of the domain at (0, "});
   check(left("set Velocity = 1; 0.1"), {"'Velocity'", "not normal to the side 'left'"});
   check(left("set Velocity = 1/(y - 0.5); 0"), {"'Velocity'", "not a number at (0, 0.5)"});
+  check(left("set Velocity = 1; 0"), {"full and closed"});
   check(left("set Velocity = 0; 0"), {"'Velocity'", "nothing flows in"});
   check(left("set Velocity = 1 + sin(t); 0"), {"'Velocity'", "names the time"});
   check(left("set Velocity = 1; 0\n set Region = y - 20"), {"'Region'", "leaves nothing"});
