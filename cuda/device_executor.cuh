@@ -19,13 +19,12 @@ namespace undine::particles
 {
   namespace kernels
   {
-    constexpr int for_each_threads = 128;
-    constexpr int team_threads     = 512; ///< of a large team, at most
-    constexpr int few_threads      = 64;  ///< of a small team, each with many registers
+    constexpr int team_threads = 512; ///< of a large team, at most
+    constexpr int few_threads  = 64;  ///< of a small team, each with many registers
 
-    template <class Function>
+    template <class Function, int threads>
     __global__ void
-    __launch_bounds__(for_each_threads) for_each(const int n, const Function f)
+    __launch_bounds__(threads) for_each(const int n, const Function f)
     {
       const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
       if (i < n)
@@ -161,8 +160,11 @@ namespace undine::particles
     {
       if (n <= 0)
         return;
-      constexpr int threads = kernels::for_each_threads;
-      kernels::for_each<<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
+      // Particles of large blocks have more neighbours in common; small ones share out better.
+      if (n > large_pass)
+        start_pass<512>(n, f);
+      else
+        start_pass<128>(n, f);
       check_device(cudaGetLastError(), "to start a pass");
     }
 
@@ -331,6 +333,14 @@ namespace undine::particles
       unsigned int             next   = 0; ///< round
     };
 
+    template <int threads, class Function>
+    void
+    start_pass(const int n, const Function &f) const
+    {
+      kernels::for_each<Function, threads>
+        <<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
+    }
+
     /// Together as many workers as there is work for and room.
     template <class Kernel, class Function>
     void
@@ -357,6 +367,7 @@ namespace undine::particles
       return std::clamp((each + 31) / 32 * 32, least, kernels::team_threads);
     }
 
+    static constexpr int large_pass          = 500000;
     static constexpr int most_resident_rows  = 400000;
     static constexpr int room_outside        = 1 << 16;   ///< entries of a block in global memory
     static constexpr int least_resident_room = 96 * 1024; ///< shared memory of a block

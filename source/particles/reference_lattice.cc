@@ -112,6 +112,8 @@ namespace undine::particles
                 moment.add_outer_product(weight, X, X);
               }
           }
+        for (int k = counts[i]; k < capacity; ++k)
+          indices[list_slot(i, k, capacity)] = i;
         inside[i]    = sum > 0.97 * full ? 1 : 0;
         double trace = 0;
         for (int axis = 0; axis < dim; ++axis)

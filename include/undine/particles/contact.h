@@ -21,24 +21,37 @@ namespace undine::particles
     int                     *counts;   ///< of partners, by identity
     int                     *partners; ///< identities, or walls' sorted places p as -1 - p
 
-    /// Bonded neighbours do not count: elasticity acts between them.
+    /// Those that are near enough to touch within a sub-step. Bonded neighbours do not count:
+    /// elasticity acts between them.
     template <class Lanes>
     UNDINE_HOST_DEVICE
     void
     list_partners(const int identity, const Lanes &lanes) const
     {
-      const int i = where[identity], n = neighbours.counts[i];
-      int       count = 0;
-      for (int first = 0; first < n; first += lanes.count())
+      constexpr int together = 4; // on the way at the same time
+      const int     i = where[identity], n = neighbours.counts[i];
+      int           count = 0;
+      for (int first = lanes.rank(); first - lanes.rank() < n; first += together * lanes.count())
         {
-          const int  k       = first + lanes.rank();
-          int        partner = 0;
-          const bool yes     = k < n && is_partner(identity, i, k, partner);
-          const auto ballot  = lanes.ballot(yes);
-          if (yes)
-            partners[list_slot(identity, count + lanes.votes_before(ballot), neighbours.capacity)] =
-              partner;
-          count += lanes.votes(ballot);
+          int  partner[together];
+          bool yes[together];
+          UNDINE_UNROLL
+          for (int m = 0; m < together; ++m)
+            {
+              const int k = first + m * lanes.count();
+              const int j =
+                neighbours.indices[list_slot(i, minimum(k, n - 1), neighbours.capacity)];
+              yes[m] = is_partner(identity, i, j, partner[m]) && k < n;
+            }
+          UNDINE_UNROLL
+          for (int m = 0; m < together; ++m)
+            {
+              const auto ballot = lanes.ballot(yes[m]);
+              if (yes[m])
+                partners[list_slot(
+                  identity, count + lanes.votes_before(ballot), neighbours.capacity)] = partner[m];
+              count += lanes.votes(ballot);
+            }
         }
       if (lanes.rank() == 0)
         counts[identity] = count;
@@ -74,15 +87,19 @@ namespace undine::particles
     }
 
   private:
-    /// Is the k-th neighbour of place i, where `identity` is?
+    /// Is the neighbour at place j of i, where `identity` is? Reads all that it may need at once.
     UNDINE_HOST_DEVICE
     bool
-    is_partner(const int identity, const int i, const int k, int &partner) const
+    is_partner(const int identity, const int i, const int j, int &partner) const
     {
-      const int  j    = neighbours.indices[list_slot(i, k, neighbours.capacity)];
-      const Kind kind = neighbours.places[j].tag.kind();
-      partner         = kind == Kind::solid ? identities[j] : -1 - j;
-      return kind != Kind::fluid && !(kind == Kind::solid && are_bonded(identity, partner));
+      const auto place    = neighbours.places[j];
+      const int  other    = identities[j];
+      const bool is_solid = place.tag.kind() == Kind::solid;
+      const bool bonded   = are_bonded(identity, is_solid ? other : identity) && is_solid;
+      const Real near     = Real(1.6) * spacing;
+      partner             = is_solid ? other : -1 - j;
+      return place.tag.kind() != Kind::fluid && !bonded &&
+             norm_square(neighbours.grid.difference(place.x, neighbours.places[i].x)) < near * near;
     }
 
     /// Were they neighbours in the reference?
@@ -90,9 +107,10 @@ namespace undine::particles
     bool
     are_bonded(const int a, const int b) const
     {
-      return bodies.bodies[a] == bodies.bodies[b] &&
-             norm_square(bodies.reference[a].x - bodies.reference[b].x) <
-               neighbours.reach * neighbours.reach;
+      const bool same_body = bodies.bodies[a] == bodies.bodies[b];
+      return norm_square(bodies.reference[a].x - bodies.reference[b].x) <
+               neighbours.reach * neighbours.reach &&
+             same_body;
     }
   };
 } // namespace undine::particles

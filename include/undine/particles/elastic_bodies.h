@@ -103,7 +103,8 @@ namespace undine::particles
       Real              inverse_mean; ///< 1 / a_j
     };
 
-    /// f(bond) for this lane's share of the bonds of i, and some with the weight zero.
+    /// f(bond) for this lane's share of the bonds of i, and some with the weight zero. The list is
+    /// filled up with such ones, so that it can be read before it is known how many there are.
     template <class Lanes, class Function>
     UNDINE_HOST_DEVICE
     void
@@ -113,7 +114,8 @@ namespace undine::particles
       const Vector<dim, Real> X        = bodies.reference[i].x;
       const auto              point    = bodies.points[i];
       const int               count    = bodies.counts[i];
-      for (int first = lanes.rank(); first < count; first += together * lanes.count())
+      int                     first    = lanes.rank();
+      do
         {
           int                       j[together];
           ReferencePoint<dim, Real> reference[together];
@@ -121,7 +123,7 @@ namespace undine::particles
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
             j[k] = bodies.indices[list_slot(
-              i, minimum(first + k * lanes.count(), count - 1), bodies.capacity)];
+              i, minimum(first + k * lanes.count(), bodies.capacity - 1), bodies.capacity)];
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
             {
@@ -132,7 +134,7 @@ namespace undine::particles
           for (int k = 0; k < together; ++k)
             {
               const auto X_ij = reference[k].x - X;
-              const Real w    = reach * inverse_square_root(norm_square(X_ij)) - 1;
+              const Real w    = reach * inverse_square_root(positive(norm_square(X_ij))) - 1;
               f(Bond{j[k],
                      X_ij,
                      grid.difference(other[k].x, point.x),
@@ -140,7 +142,9 @@ namespace undine::particles
                      first + k * lanes.count() < count ? w : Real(0),
                      reference[k].inverse_mean});
             }
+          first += together * lanes.count();
         }
+      while (first < count);
     }
 
     UNDINE_HOST_DEVICE
@@ -156,19 +160,20 @@ namespace undine::particles
     void
     deform(const int i, const Lanes &lanes) const
     {
-      const auto properties     = material(i);
+      const int  body           = bodies.bodies[i];
       const auto inverse_moment = bodies.inverse_moments[i];
       const auto last           = bodies.rotations[i];
       const auto surface        = bodies.surface_moments[i];
-      const Real carried        = bodies.carried[bodies.bodies[i]];
-      const Real stiffness      = 2 * properties.hourglass * properties.mu * inverse_mean(i);
       auto       moment = Matrix<dim, Real>::diagonal(0), rate = moment;
       for_each_bond(i, lanes, [&](const Bond &bond) {
         moment.add_outer_product(bond.weight, bond.x, bond.X);
         rate.add_outer_product(bond.weight, bond.v, bond.X);
       });
-      const auto F = lanes.sum(moment) * inverse_moment;
-      const auto R = rotation_of(F, last);
+      const auto properties = bodies.materials[body];
+      const Real carried    = bodies.carried[body];
+      const Real stiffness  = 2 * properties.hourglass * properties.mu * inverse_mean(i);
+      const auto F          = lanes.sum(moment) * inverse_moment;
+      const auto R          = rotation_of(F, last);
       const auto P =
         stress(properties, F, R, lanes.sum(rate) * inverse_moment, carried, surface * R);
       if (lanes.rank() != 0)
@@ -201,7 +206,7 @@ namespace undine::particles
         const auto &T_j = bodies.tractions[bond.j].matrix;
         force += bond.weight * (T_i * bond.X + T_j * bond.X);
         force += (bond.weight * (stiffness * (a_i + bond.inverse_mean) +
-                                 rate * (bond.v * bond.x) / norm_square(bond.x))) *
+                                 rate * (bond.v * bond.x) / positive(norm_square(bond.x)))) *
                  bond.x;
       });
       return (1 / properties.density) * lanes.sum(force) - carried;
@@ -276,6 +281,14 @@ namespace undine::particles
     }
 
   private:
+    /// Not zero, as it would be of a particle with itself, with which lists are filled up.
+    UNDINE_HOST_DEVICE
+    static Real
+    positive(const Real square)
+    {
+      return maximum(square, Real(1e-30));
+    }
+
     /// 1 / a_i
     UNDINE_HOST_DEVICE
     Real
