@@ -94,6 +94,7 @@ namespace undine::particles
               move(place, motion, sum.acceleration);
               if (neighbourhood.is_covered[i])
                 place.x += shift(sum.crowd);
+              place.x += way_out(sum);
               place.x = constants.grid.wrapped(place.x);
               if (!constants.grid.contains(place.x))
                 atomic_or(&control->failures, static_cast<unsigned int>(Failure::outside));
@@ -109,6 +110,8 @@ namespace undine::particles
     {
       Vector<dim, Real> acceleration = Vector<dim, Real>::zero(); ///< [m/s^2]
       Vector<dim, Real> crowd        = Vector<dim, Real>::zero(); ///< sum w r / r^2 [1/m]
+      Vector<dim, Real> bodies       = Vector<dim, Real>::zero(); ///< the same of bodies only [1/m]
+      Real              body_density = 0; ///< their part of the number density [1]
 
       /// What the faces within the body leave open, for ElasticBodies.
       Vector<dim, Real> surface        = Vector<dim, Real>::zero();
@@ -135,6 +138,11 @@ namespace undine::particles
         i, fetch, [&](const int, const Pair<dim, Real> &pair, const Other &other) {
           const Vector<dim, Real> plain = (pair.weight / pair.square) * pair.r;
           sum.crowd += plain;
+          if (pair.tag.kind() == Kind::solid)
+            {
+              sum.bodies += plain;
+              sum.body_density += pair.weight;
+            }
           if (pair.tag.kind() == Kind::dummy || is_left_to_elasticity(tag, pair.tag))
             return;
           auto face  = faces.factor * plain;
@@ -201,18 +209,35 @@ namespace undine::particles
       atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(motion.v))));
     }
 
+    /// Out of a body into which fluid is about to squeeze between its particles: outside, bodies
+    /// make less than half of a neighbourhood [m].
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    way_out(const Sum &sum) const
+    {
+      const Real excess = maximum(Real(0), sum.body_density / constants.number_density - Real(0.5));
+      return limited((-2 * excess * constants.spacing * constants.spacing * faces.factor) *
+                     sum.bodies);
+    }
+
     /// Away from where neighbours crowd [m].
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
     shift(const Vector<dim, Real> &crowd) const
     {
-      auto result =
-        (-constants.shifting * constants.spacing * constants.spacing * faces.factor) * crowd;
-      const Real square = norm_square(result);
+      return limited((-constants.shifting * constants.spacing * constants.spacing * faces.factor) *
+                     crowd);
+    }
+
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    limited(Vector<dim, Real> shift) const
+    {
+      const Real square = norm_square(shift);
       const Real limit  = constants.shifting_limit;
       if (square > limit * limit)
-        result *= limit * inverse_square_root(square);
-      return result;
+        shift *= limit * inverse_square_root(square);
+      return shift;
     }
   };
 } // namespace undine::particles
