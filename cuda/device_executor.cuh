@@ -19,12 +19,13 @@ namespace undine::particles
 {
   namespace kernels
   {
-    constexpr int team_threads = 512; ///< of a large team, at most
-    constexpr int few_threads  = 64;  ///< of a small team, each with many registers
+    constexpr int for_each_threads = 128;
+    constexpr int team_threads     = 512; ///< of a large team, at most
+    constexpr int few_threads      = 64;  ///< of a small team, each with many registers
 
-    template <class Function, int threads>
+    template <class Function>
     __global__ void
-    __launch_bounds__(threads) for_each(const int n, const Function f)
+    __launch_bounds__(for_each_threads) for_each(const int n, const Function f)
     {
       const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
       if (i < n)
@@ -160,11 +161,8 @@ namespace undine::particles
     {
       if (n <= 0)
         return;
-      // Particles of large blocks have more neighbours in common; small ones share out better.
-      if (n > large_pass)
-        start_pass<512>(n, f);
-      else
-        start_pass<128>(n, f);
+      constexpr int threads = kernels::for_each_threads;
+      kernels::for_each<<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
       check_device(cudaGetLastError(), "to start a pass");
     }
 
@@ -207,7 +205,8 @@ namespace undine::particles
       constexpr int count  = Components<Value>::count;
       const auto    kernel = kernels::solve_resident<Value>;
       int           room   = static_cast<int>(properties.sharedMemPerBlockOptin) - 4096;
-      if (n > most_resident_rows || room < least_resident_room ||
+      if (n > (count == 1 ? most_resident_rows : most_resident_vectors) ||
+          room < least_resident_room ||
           f.bounds.max_iterations > static_cast<int>(BlockExchange::most_rounds) ||
           properties.multiProcessorCount > BlockExchange::most_blocks)
         {
@@ -333,14 +332,6 @@ namespace undine::particles
       unsigned int             next   = 0; ///< round
     };
 
-    template <int threads, class Function>
-    void
-    start_pass(const int n, const Function &f) const
-    {
-      kernels::for_each<Function, threads>
-        <<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
-    }
-
     /// Together as many workers as there is work for and room.
     template <class Kernel, class Function>
     void
@@ -367,10 +358,10 @@ namespace undine::particles
       return std::clamp((each + 31) / 32 * 32, least, kernels::team_threads);
     }
 
-    static constexpr int large_pass          = 500000;
-    static constexpr int most_resident_rows  = 400000;
-    static constexpr int room_outside        = 1 << 16;   ///< entries of a block in global memory
-    static constexpr int least_resident_room = 96 * 1024; ///< shared memory of a block
+    static constexpr int most_resident_rows    = 400000;
+    static constexpr int most_resident_vectors = 100000;    ///< few iterations do not pay for more
+    static constexpr int room_outside          = 1 << 16;   ///< entries of a block in global memory
+    static constexpr int least_resident_room   = 96 * 1024; ///< shared memory of a block
 
     unsigned int                    *entries_outside = nullptr;
     std::array<Exchange, 4>          exchanges; ///< by numbers in an unknown

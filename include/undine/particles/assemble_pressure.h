@@ -256,7 +256,7 @@ namespace undine::particles
             sum += difference *
                    faces.closed(side, other.side, pressure_coefficient(constants, tag, pair), pair);
           else
-            sum += faces.factor * pair.weight / pair.square * (difference * pair.r);
+            sum += faces.factor * pair.weight_over_square() * (difference * pair.r);
         });
       return sum;
     }

@@ -50,7 +50,7 @@ namespace undine::particles
         n += pair.weight;
         side += (pair.weight * pair.inverse_distance) * pair.r;
         if (pair.tag.kind() != Kind::dummy || tag.kind() == Kind::wall)
-          moment.add_square(pair.weight / pair.square, pair.r);
+          moment.add_square(pair.weight_over_square(), pair.r);
       });
       const bool covered   = is_covered(tag, identities[i], n, side);
       result.densities[i]  = n;

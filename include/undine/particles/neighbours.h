@@ -25,6 +25,14 @@ namespace undine::particles
     Real              inverse_distance; ///< 1 / |r| [1/m]
     Real              weight;           ///< w = r_e / |r| - 1 [1]
     Tag               tag;              ///< of j
+
+    /// w / |r|^2 [1/m^2]
+    UNDINE_HOST_DEVICE
+    Real
+    weight_over_square() const
+    {
+      return weight * inverse_distance * inverse_distance;
+    }
   };
 
   /// The list of neighbours within the reach, as it was when the list was made.

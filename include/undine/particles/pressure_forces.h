@@ -136,7 +136,7 @@ namespace undine::particles
       const auto fetch = [&](const int j) { return Other{motions[j].pressure, faces.side(j)}; };
       neighbours.for_each(
         i, fetch, [&](const int, const Pair<dim, Real> &pair, const Other &other) {
-          const Vector<dim, Real> plain = (pair.weight / pair.square) * pair.r;
+          const Vector<dim, Real> plain = pair.weight_over_square() * pair.r;
           sum.crowd += plain;
           if (pair.tag.kind() == Kind::solid)
             {

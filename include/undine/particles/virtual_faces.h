@@ -46,7 +46,7 @@ namespace undine::particles
          const SymmetricMatrix<dim, Real> &M_j,
          const Pair<dim, Real>            &pair) const
     {
-      return (factor * pair.weight / (2 * pair.square)) * (M_i * pair.r + M_j * pair.r);
+      return (factor / 2 * pair.weight_over_square()) * (M_i * pair.r + M_j * pair.r);
     }
 
     /// `k` is the pair's coefficient in the pressure equation.
