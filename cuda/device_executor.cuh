@@ -19,13 +19,12 @@ namespace undine::particles
 {
   namespace kernels
   {
-    constexpr int for_each_threads = 128;
-    constexpr int team_threads     = 512; ///< of a large team, at most
-    constexpr int few_threads      = 64;  ///< of a small team, each with many registers
+    constexpr int team_threads = 512; ///< of a large team, at most
+    constexpr int few_threads  = 64;  ///< of a small team, each with many registers
 
-    template <class Function>
+    template <class Function, int threads>
     __global__ void
-    __launch_bounds__(for_each_threads) for_each(const int n, const Function f)
+    __launch_bounds__(threads) for_each(const int n, const Function f)
     {
       const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
       if (i < n)
@@ -161,8 +160,11 @@ namespace undine::particles
     {
       if (n <= 0)
         return;
-      constexpr int threads = kernels::for_each_threads;
-      kernels::for_each<<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
+      // Particles of large blocks have more neighbours in common; small ones share out better.
+      if (n > large_pass)
+        start_pass<512>(n, f);
+      else
+        start_pass<128>(n, f);
       check_device(cudaGetLastError(), "to start a pass");
     }
 
@@ -177,21 +179,24 @@ namespace undine::particles
     void
     run_team(const int n, const Function &f)
     {
-      const int  threads = team_threads(n);
-      const auto kernel  = threads > kernels::few_threads
-                             ? kernels::run<Function, kernels::team_threads, 2>
-                             : kernels::run<Function, kernels::few_threads, 1>;
-      int        blocks  = 0;
-      check_device(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
-                   "to plan a pass");
-      blocks               = std::min({blocks * properties.multiProcessorCount,
-                                       (n + threads - 1) / threads,
-                                       int(Team::most_blocks)});
-      Function copy        = f;
-      void    *arguments[] = {&copy, &workspace};
-      check_device(cudaLaunchCooperativeKernel(
-                     kernel, dim3(std::max(1, blocks)), dim3(threads), arguments, 0, stream),
-                   "to start a pass");
+      const int threads = team_threads(n, 32);
+      launch_team(threads > kernels::few_threads ? kernels::run<Function, kernels::team_threads, 2>
+                                                 : kernels::run<Function, kernels::few_threads, 1>,
+                  n,
+                  threads,
+                  f);
+    }
+
+    template <class Function>
+    void
+    run_by_lanes(const int n, const Function &f)
+    {
+      const int workers = n * DeviceLanes::number, threads = team_threads(workers, 128);
+      launch_team(threads > 128 ? kernels::run<Function, kernels::team_threads, 1>
+                                : kernels::run<Function, 128, 1>,
+                  workers,
+                  threads,
+                  f);
     }
 
     /// Solves systems that fit in the shared memories of the multiprocessors there.
@@ -328,14 +333,41 @@ namespace undine::particles
       unsigned int             next   = 0; ///< round
     };
 
-    /// Small passes spread over all multiprocessors in small blocks.
-    int
-    team_threads(const int n) const
+    template <int threads, class Function>
+    void
+    start_pass(const int n, const Function &f) const
     {
-      const int each = (n + properties.multiProcessorCount - 1) / properties.multiProcessorCount;
-      return std::clamp((each + 31) / 32 * 32, 32, kernels::team_threads);
+      kernels::for_each<Function, threads>
+        <<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
     }
 
+    /// Together as many workers as there is work for and room.
+    template <class Kernel, class Function>
+    void
+    launch_team(const Kernel kernel, const int n, const int threads, const Function &f)
+    {
+      int blocks = 0;
+      check_device(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
+                   "to plan a pass");
+      blocks               = std::min({blocks * properties.multiProcessorCount,
+                                       (n + threads - 1) / threads,
+                                       int(Team::most_blocks)});
+      Function copy        = f;
+      void    *arguments[] = {&copy, &workspace};
+      check_device(cudaLaunchCooperativeKernel(
+                     kernel, dim3(std::max(1, blocks)), dim3(threads), arguments, 0, stream),
+                   "to start a pass");
+    }
+
+    /// Small passes spread over all multiprocessors in small blocks.
+    int
+    team_threads(const int n, const int least) const
+    {
+      const int each = (n + properties.multiProcessorCount - 1) / properties.multiProcessorCount;
+      return std::clamp((each + 31) / 32 * 32, least, kernels::team_threads);
+    }
+
+    static constexpr int large_pass          = 500000;
     static constexpr int most_resident_rows  = 400000;
     static constexpr int room_outside        = 1 << 16;   ///< entries of a block in global memory
     static constexpr int least_resident_room = 96 * 1024; ///< shared memory of a block

@@ -2,6 +2,8 @@
 #ifndef undine_cuda_device_team_cuh
 #define undine_cuda_device_team_cuh
 
+#include "device_lanes.cuh"
+
 #include <undine/particles/sums.h>
 
 #include <cuda_runtime.h>
@@ -109,6 +111,18 @@ namespace undine::particles
       for (int i = begin + static_cast<int>(threadIdx.x); i < end;
            i += static_cast<int>(blockDim.x))
         f(i);
+    }
+
+    template <class Function>
+    __device__ __forceinline__ void
+    for_each_by_lanes(const int n, const Function &f) const
+    {
+      const int share = (n + static_cast<int>(gridDim.x) - 1) / static_cast<int>(gridDim.x);
+      const int begin = static_cast<int>(blockIdx.x) * share;
+      const int end   = min(n, begin + share);
+      for (int i = begin + static_cast<int>(threadIdx.x) / DeviceLanes::count(); i < end;
+           i += static_cast<int>(blockDim.x) / DeviceLanes::count())
+        f(i, DeviceLanes());
     }
 
     template <class Function>

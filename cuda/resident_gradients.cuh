@@ -108,7 +108,7 @@ namespace undine::particles
       for (int row = blockIdx.x * blockDim.x + threadIdx.x; row < system.matrix.n;
            row += gridDim.x * blockDim.x)
         if (system.matrix.counts[row] == 0)
-          system.solution[row] = (1 / system.diagonal[row]) * system.right_hand_side[row];
+          system.solution[row] = (1 / system.diagonal[row]) * Value(system.right_hand_side[row]);
     }
 
     __device__ __forceinline__ int

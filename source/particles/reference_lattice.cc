@@ -62,10 +62,10 @@ namespace undine::particles
   {
     for (const auto &x : setup.reference)
       {
-        Vector<dim, Real> position;
+        ReferencePoint<dim, Real> point;
         for (int axis = 0; axis < dim; ++axis)
-          position[axis] = static_cast<Real>(x[axis]);
-        positions.push_back(position);
+          point.x[axis] = static_cast<Real>(x[axis]);
+        points.push_back(point);
       }
     for (const auto &body : setup.bodies)
       materials.push_back(material_of<Real>(body, dim, spacing));
@@ -88,7 +88,6 @@ namespace undine::particles
     inside.assign(n, 0);
     indices.assign(list_slot((n + 31) / 32 * 32, 0, capacity), 0);
     inverse_moments.resize(n);
-    inverse_means.resize(n);
     for (int i = 0; i < n; ++i)
       {
         auto   moment = Matrix<dim, double>::diagonal(0);
@@ -113,12 +112,14 @@ namespace undine::particles
                 moment.add_outer_product(weight, X, X);
               }
           }
+        for (int k = counts[i]; k < capacity; ++k)
+          indices[list_slot(i, k, capacity)] = i;
         inside[i]    = sum > 0.97 * full ? 1 : 0;
         double trace = 0;
         for (int axis = 0; axis < dim; ++axis)
           trace += moment[axis][axis];
-        inverse_means[i]   = static_cast<Real>(trace > 0 ? dim / trace : 0.);
-        const auto inverse = inverse_of_moment(moment);
+        points[i].inverse_mean = static_cast<Real>(trace > 0 ? dim / trace : 0.);
+        const auto inverse     = inverse_of_moment(moment);
         for (int a = 0; a < dim; ++a)
           for (int b = 0; b < dim; ++b)
             inverse_moments[i][a][b] = static_cast<Real>(inverse[a][b]);

@@ -61,7 +61,7 @@ namespace undine::particles
     PressureMatrix<Real, Entry> matrix;
     Real                       *diagonal;
     Real                       *faces_diagonal; ///< nullptr: faces are left open
-    Vector<dim, Real>          *gaps;           ///< right-hand side of the potentials
+    StoredVector<dim, Real>    *gaps;           ///< right-hand side of the potentials
     StepControl                *control;
 
     UNDINE_HOST_DEVICE
@@ -91,20 +91,29 @@ namespace undine::particles
       int        count   = 0;
       Real       sum     = 0;
       bool       reached = true;
-      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
-        if (pair.tag.kind() == Kind::dummy)
-          return;
-        const Entry entry =
-          Entry::of(j - i, pressure_coefficient(constants, tag, pair), matrix.scale);
-        sum += entry.coefficient(matrix.scale);
-        if (closes)
-          gap -= faces.open(M, j, pair);
-        if (!neighbourhood.is_unknown[j])
-          return;
-        reached                                              = reached && Entry::can_reach(j - i);
-        matrix.entries[list_slot(i, count, matrix.capacity)] = entry;
-        ++count;
-      });
+      struct Other
+      {
+        SymmetricMatrix<dim, Real> M;
+        bool                       is_unknown;
+      };
+      const auto fetch = [&](const int j) {
+        return Other{closes ? neighbourhood.corrections[j] : M, neighbourhood.is_unknown[j] != 0};
+      };
+      neighbours.for_each(
+        i, fetch, [&](const int j, const Pair<dim, Real> &pair, const Other &other) {
+          if (pair.tag.kind() == Kind::dummy)
+            return;
+          const Entry entry =
+            Entry::of(j - i, pressure_coefficient(constants, tag, pair), matrix.scale);
+          sum += entry.coefficient(matrix.scale);
+          if (closes)
+            gap -= faces.open(M, other.M, pair);
+          if (!other.is_unknown)
+            return;
+          reached                                              = reached && Entry::can_reach(j - i);
+          matrix.entries[list_slot(i, count, matrix.capacity)] = entry;
+          ++count;
+        });
       if (!reached)
         atomic_or(&control->failures, static_cast<unsigned int>(Failure::matrix_indices));
       sum += air(i, tag);
@@ -232,17 +241,23 @@ namespace undine::particles
       const auto v = motions[i].v;
       const bool closed =
         faces.potentials != nullptr && neighbourhood.is_covered[i] && tag.is_free();
-      const auto M   = neighbourhood.corrections[i];
-      const auto L   = closed ? faces.potentials[i] : Vector<dim, Real>::zero();
-      Real       sum = 0;
-      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
-        const auto difference = motions[j].v - v;
-        if (closed && pair.tag.kind() != Kind::dummy)
-          sum +=
-            difference * faces.closed(M, L, j, pressure_coefficient(constants, tag, pair), pair);
-        else
-          sum += faces.factor * pair.weight / pair.square * (difference * pair.r);
-      });
+      struct Other
+      {
+        Vector<dim, Real>                      v;
+        typename VirtualFaces<dim, Real>::Side side;
+      };
+      const auto side  = faces.side(i);
+      const auto fetch = [&](const int j) { return Other{motions[j].v, faces.side(j)}; };
+      Real       sum   = 0;
+      neighbours.for_each(
+        i, fetch, [&](const int, const Pair<dim, Real> &pair, const Other &other) {
+          const auto difference = other.v - v;
+          if (closed && pair.tag.kind() != Kind::dummy)
+            sum += difference *
+                   faces.closed(side, other.side, pressure_coefficient(constants, tag, pair), pair);
+          else
+            sum += faces.factor * pair.weight / pair.square * (difference * pair.r);
+        });
       return sum;
     }
   };

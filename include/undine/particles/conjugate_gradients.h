@@ -19,6 +19,8 @@ namespace undine::particles
   template <class Real>
   struct Components
   {
+    using Stored = Real; ///< in memory
+
     static constexpr int count = 1;
 
     UNDINE_HOST_DEVICE
@@ -32,6 +34,8 @@ namespace undine::particles
   template <int dim, class Real>
   struct Components<Vector<dim, Real>>
   {
+    using Stored = StoredVector<dim, Real>;
+
     static constexpr int count = dim;
 
     UNDINE_HOST_DEVICE
@@ -48,16 +52,18 @@ namespace undine::particles
   template <class Real, class Entry, class Value>
   struct LinearSystem
   {
+    using Stored = typename Components<Value>::Stored;
+
     PressureMatrix<Real, Entry> matrix;
     const Real                 *diagonal;
-    const Value                *right_hand_side;
-    Value                      *solution; ///< first the guess
+    const Stored               *right_hand_side;
+    Stored                     *solution; ///< first the guess
 
     UNDINE_HOST_DEVICE
     Value
-    row_times(const int i, const Value *x) const
+    row_times(const int i, const Stored *x) const
     {
-      return diagonal[i] * x[i] - matrix.row_times(i, x);
+      return diagonal[i] * Value(x[i]) - matrix.template row_times<Value>(i, x);
     }
   };
 
@@ -65,7 +71,7 @@ namespace undine::particles
   template <class Value>
   struct SolverVectors
   {
-    Value *r, *u, *w, *p, *s;
+    typename Components<Value>::Stored *r, *u, *w, *p, *s;
   };
 
 

@@ -8,7 +8,7 @@ namespace undine::particles
 {
   /// Contact of elastic bodies with walls, with each other, and of parts of a body that were not
   /// neighbours: particles closer than the spacing repel with the potential k (l0 - r)^2 / 2, equal
-  /// and opposite.
+  /// and opposite. Who may come into contact is listed once for all steps of a run.
   template <int dim, class Real>
   struct Contact
   {
@@ -18,49 +18,99 @@ namespace undine::particles
     const int               *identities;
     const int               *where; ///< sorted place of each identity
     Real                     volume;
+    int                     *counts;   ///< of partners, by identity
+    int                     *partners; ///< identities, or walls' sorted places p as -1 - p
+
+    /// Those that are near enough to touch within a sub-step. Bonded neighbours do not count:
+    /// elasticity acts between them.
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    void
+    list_partners(const int identity, const Lanes &lanes) const
+    {
+      constexpr int together = 4; // on the way at the same time
+      const int     i = where[identity], n = neighbours.counts[i];
+      int           count = 0;
+      for (int first = lanes.rank(); first - lanes.rank() < n; first += together * lanes.count())
+        {
+          int  partner[together];
+          bool yes[together];
+          UNDINE_UNROLL
+          for (int m = 0; m < together; ++m)
+            {
+              const int k = first + m * lanes.count();
+              const int j =
+                neighbours.indices[list_slot(i, minimum(k, n - 1), neighbours.capacity)];
+              yes[m] = is_partner(identity, i, j, partner[m]) && k < n;
+            }
+          UNDINE_UNROLL
+          for (int m = 0; m < together; ++m)
+            {
+              const auto ballot = lanes.ballot(yes[m]);
+              if (yes[m])
+                partners[list_slot(
+                  identity, count + lanes.votes_before(ballot), neighbours.capacity)] = partner[m];
+              count += lanes.votes(ballot);
+            }
+        }
+      if (lanes.rank() == 0)
+        counts[identity] = count;
+    }
 
     /// [m/s^2]
+    template <class Lanes>
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
-    acceleration(const int identity) const
+    acceleration(const int identity, const Lanes &lanes) const
     {
+      auto      force = Vector<dim, Real>::zero();
+      const int count = counts[identity];
+      if (count == 0)
+        return force;
       const auto &properties = bodies.materials[bodies.bodies[identity]];
-      const auto  x          = bodies.x[identity];
-      const int   i          = where[identity];
-      auto        force      = Vector<dim, Real>::zero();
-      for (int k = 0; k < neighbours.counts[i]; ++k)
+      const auto  x          = bodies.points[identity].x;
+      for (int k = lanes.rank(); k < count; k += lanes.count())
         {
-          const int  j     = neighbours.indices[list_slot(i, k, neighbours.capacity)];
-          const auto place = neighbours.places[j];
-          if (place.tag.kind() == Kind::fluid)
-            continue;
-          Vector<dim, Real> other     = place.x;
-          Real              stiffness = properties.contact;
-          if (place.tag.kind() == Kind::solid)
-            {
-              const int partner = identities[j];
-              if (are_bonded(identity, partner))
-                continue;
-              other     = bodies.x[partner];
-              stiffness = minimum(stiffness, bodies.materials[bodies.bodies[partner]].contact);
-            }
+          const int  partner = partners[list_slot(identity, k, neighbours.capacity)];
+          const auto other =
+            partner < 0 ? neighbours.places[-1 - partner].x : bodies.points[partner].x;
+          const Real stiffness =
+            partner < 0
+              ? properties.contact
+              : minimum(properties.contact, bodies.materials[bodies.bodies[partner]].contact);
           const auto r      = neighbours.grid.difference(x, other);
           const Real square = norm_square(r);
           if (square < spacing * spacing)
             force += (stiffness * (spacing * inverse_square_root(square) - 1)) * r;
         }
-      return (1 / (properties.density * volume)) * force;
+      return (1 / (properties.density * volume)) * lanes.sum(force);
     }
 
   private:
+    /// Is the neighbour at place j of i, where `identity` is? Reads all that it may need at once.
+    UNDINE_HOST_DEVICE
+    bool
+    is_partner(const int identity, const int i, const int j, int &partner) const
+    {
+      const auto place    = neighbours.places[j];
+      const int  other    = identities[j];
+      const bool is_solid = place.tag.kind() == Kind::solid;
+      const bool bonded   = are_bonded(identity, is_solid ? other : identity) && is_solid;
+      const Real near     = Real(1.6) * spacing;
+      partner             = is_solid ? other : -1 - j;
+      return place.tag.kind() != Kind::fluid && !bonded &&
+             norm_square(neighbours.grid.difference(place.x, neighbours.places[i].x)) < near * near;
+    }
+
     /// Were they neighbours in the reference?
     UNDINE_HOST_DEVICE
     bool
     are_bonded(const int a, const int b) const
     {
-      return bodies.bodies[a] == bodies.bodies[b] &&
-             norm_square(bodies.reference[a] - bodies.reference[b]) <
-               neighbours.reach * neighbours.reach;
+      const bool same_body = bodies.bodies[a] == bodies.bodies[b];
+      return norm_square(bodies.reference[a].x - bodies.reference[b].x) <
+               neighbours.reach * neighbours.reach &&
+             same_body;
     }
   };
 } // namespace undine::particles

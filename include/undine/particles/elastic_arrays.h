@@ -16,10 +16,12 @@ namespace undine::particles
     using Vectors  = Buffer<Executor, Vector<dim, Real>>;
     using Matrices = Buffer<Executor, Matrix<dim, Real>>;
 
-    ElasticArrays(const Executor &executor, const ReferenceLattice<dim, Real> &lattice)
-      : n(static_cast<int>(lattice.positions.size()))
+    ElasticArrays(const Executor                    &executor,
+                  const ReferenceLattice<dim, Real> &lattice,
+                  const int                          partner_capacity)
+      : n(static_cast<int>(lattice.points.size()))
       , capacity(lattice.capacity)
-      , reference(executor, lattice.positions)
+      , reference(executor, lattice.points)
       , bodies(executor, lattice.bodies)
       , materials(executor, lattice.materials)
       , held(executor, lattice.held)
@@ -27,17 +29,16 @@ namespace undine::particles
       , counts(executor, lattice.counts)
       , indices(executor, lattice.indices)
       , inverse_moments(executor, lattice.inverse_moments)
-      , inverse_means(executor, lattice.inverse_means)
-      , x(executor, lattice.positions)
-      , v(executor, n)
+      , points(executor, n)
       , rotations(executor, std::vector<Matrix<dim, Real>>(n, Matrix<dim, Real>::diagonal(1)))
       , carried(executor, lattice.materials.size())
       , surfaces(executor, n)
       , surface_moments(executor, n)
       , deformations(executor, n)
-      , stresses(executor, n)
-      , x_next(executor, n)
-      , v_next(executor, n)
+      , tractions(executor, n)
+      , points_next(executor, n)
+      , partner_counts(executor, n)
+      , partners(executor, list_slot((n + 31) / 32 * 32, 0, partner_capacity))
       , x_start(executor, n)
       , v_start(executor, n)
       , accelerations(executor, n)
@@ -59,12 +60,10 @@ namespace undine::particles
               counts.data(),
               indices.data(),
               inverse_moments.data(),
-              inverse_means.data(),
-              x.data(),
-              v.data(),
+              points.data(),
               deformations.data(),
               rotations.data(),
-              stresses.data(),
+              tractions.data(),
               carried.data(),
               surfaces.data(),
               surface_moments.data()};
@@ -80,31 +79,33 @@ namespace undine::particles
     int n, capacity;
 
     /// Constant. @{
-    Vectors                                 reference;
-    Buffer<Executor, int>                   bodies;
-    Buffer<Executor, ElasticMaterial<Real>> materials;
-    Buffer<Executor, unsigned char>         held;
-    Buffer<Executor, unsigned char>         inside; ///< surrounded by their own body
-    Buffer<Executor, int>                   counts, indices;
-    Matrices                                inverse_moments;
-    Buffer<Executor, Real>                  inverse_means;
+    Buffer<Executor, ReferencePoint<dim, Real>> reference;
+    Buffer<Executor, int>                       bodies;
+    Buffer<Executor, ElasticMaterial<Real>>     materials;
+    Buffer<Executor, unsigned char>             held;
+    Buffer<Executor, unsigned char>             inside; ///< surrounded by their own body
+    Buffer<Executor, int>                       counts, indices;
+    Matrices                                    inverse_moments;
     /// @}
 
     /// The state. @{
-    Vectors                x, v;
-    Matrices               rotations;
-    Buffer<Executor, Real> carried;
-    Vectors                surfaces;
-    Matrices               surface_moments;
+    Buffer<Executor, ElasticPoint<dim, Real>> points;
+    Matrices                                  rotations;
+    Buffer<Executor, Real>                    carried;
+    Vectors                                   surfaces;
+    Matrices                                  surface_moments;
     /// @}
 
     /// Of a sub-step. @{
-    Matrices              deformations, stresses;
-    Vectors               x_next, v_next, x_start, v_start;
-    Vectors               accelerations; ///< by pressures [m/s^2]
-    Buffer<Executor, int> where;         ///< sorted place of each identity
-    Vectors               implicit_work; ///< of ImplicitVectors
-    Matrices              implicit_tensors;
+    Matrices                                  deformations;
+    Buffer<Executor, Traction<dim, Real>>     tractions;
+    Buffer<Executor, ElasticPoint<dim, Real>> points_next;
+    Buffer<Executor, int>                     partner_counts, partners; ///< of Contact
+    Vectors                                   x_start, v_start;
+    Vectors                                   accelerations; ///< by pressures [m/s^2]
+    Buffer<Executor, int>                     where;         ///< sorted place of each identity
+    Vectors                                   implicit_work; ///< of ImplicitVectors
+    Matrices                                  implicit_tensors;
     /// @}
   };
 } // namespace undine::particles

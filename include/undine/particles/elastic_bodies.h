@@ -3,6 +3,7 @@
 #define undine_particles_elastic_bodies_h
 
 #include <undine/particles/cell_grid.h>
+#include <undine/particles/lanes.h>
 #include <undine/particles/matrix.h>
 #include <undine/particles/neighbours.h>
 
@@ -20,6 +21,33 @@ namespace undine::particles
     Real contact; ///< stiffness of contact with walls and other bodies [N/m, in the plane per m]
   };
 
+  /// Words that the device reads at once. @{
+
+  /// Of the reference configuration.
+  template <int dim, class Real>
+  struct alignas(4 * sizeof(Real)) ReferencePoint
+  {
+    Vector<dim, Real> x;            ///< X [m]
+    Real              inverse_mean; ///< 1 / a, a = tr(A) / dim [1/m^2]
+  };
+
+  template <int dim, class Real>
+  struct alignas(4 * sizeof(Real)) ElasticPoint
+  {
+    Vector<dim, Real> x; ///< [m]
+    Vector<dim, Real> v; ///< [m/s]
+  };
+
+  /// A particle's part in the force of its bonds, T = P A^{-1} - (2 alpha mu / a) F [Pa/m^2], P of
+  /// first Piola and Kirchhoff.
+  template <int dim, class Real>
+  struct alignas(4 * sizeof(Real)) Traction
+  {
+    Matrix<dim, Real> matrix;
+  };
+  /// @}
+
+
   /// The particles of all elastic bodies, by identity. The reference configuration and its
   /// neighbourhoods never change: forces are total Lagrangian.
   template <int dim, class Real>
@@ -27,20 +55,19 @@ namespace undine::particles
   {
     int n;
 
-    const Vector<dim, Real>     *reference; ///< X [m]
-    const int                   *bodies;    ///< number of the body
-    const ElasticMaterial<Real> *materials; ///< of the bodies
-    const unsigned char         *held;      ///< does not move
-    int                          capacity;  ///< of the list of neighbours in the reference
-    const int                   *counts;
-    const int                   *indices;
-    const Matrix<dim, Real>     *inverse_moments; ///< A^{-1}, A = sum w X_ij X_ij^T [1/m^2]
-    const Real                  *inverse_means;   ///< 1 / a, a = tr(A) / dim [1/m^2]
+    const ReferencePoint<dim, Real> *reference;
+    const int                       *bodies;    ///< number of the body
+    const ElasticMaterial<Real>     *materials; ///< of the bodies
+    const unsigned char             *held;      ///< does not move
+    int                              capacity;  ///< of the list of neighbours in the reference
+    const int                       *counts;
+    const int                       *indices;
+    const Matrix<dim, Real>         *inverse_moments; ///< A^{-1}, A = sum w X_ij X_ij^T [1/m^2]
 
-    Vector<dim, Real> *x, *v;
-    Matrix<dim, Real> *deformations; ///< F
-    Matrix<dim, Real> *rotations;    ///< R, last valid one
-    Matrix<dim, Real> *stresses;     ///< P A^{-1} [Pa/m^2], P of first Piola and Kirchhoff
+    ElasticPoint<dim, Real> *points;
+    Matrix<dim, Real>       *deformations; ///< F
+    Matrix<dim, Real>       *rotations;    ///< R, last valid one
+    Traction<dim, Real>     *tractions;
 
     const Real *carried; ///< of the bodies: mean pressure around them that elasticity carries [Pa]
 
@@ -66,39 +93,58 @@ namespace undine::particles
     ElasticBodies<dim, Real> bodies;
     bool                     is_damped; ///< else without viscous forces
 
-    /// f(j, X_ij, x_ij, w_ij) for all neighbours in the reference.
-    template <class Function>
+    /// One neighbour j of a particle i in the reference.
+    struct Bond
+    {
+      int               j;
+      Vector<dim, Real> X;            ///< X_ij [m]
+      Vector<dim, Real> x, v;         ///< at present, v_j - v_i [m/s]
+      Real              weight;       ///< w_ij [1]
+      Real              inverse_mean; ///< 1 / a_j
+    };
+
+    /// f(bond) for this lane's share of the bonds of i, and some with the weight zero. The list is
+    /// filled up with such ones, so that it can be read before it is known how many there are.
+    template <class Lanes, class Function>
     UNDINE_HOST_DEVICE
     void
-    for_each_bond(const int i, const Function &f) const
+    for_each_bond(const int i, const Lanes &lanes, const Function &f) const
     {
       constexpr int           together = 4; // on the way at the same time
-      const Vector<dim, Real> X = bodies.reference[i], x = bodies.x[i];
-      const int               count = bodies.counts[i];
-      for (int first = 0; first < count; first += together)
+      const Vector<dim, Real> X        = bodies.reference[i].x;
+      const auto              point    = bodies.points[i];
+      const int               count    = bodies.counts[i];
+      int                     first    = lanes.rank();
+      do
         {
-          int               j[together];
-          Vector<dim, Real> X_j[together], x_j[together];
+          int                       j[together];
+          ReferencePoint<dim, Real> reference[together];
+          ElasticPoint<dim, Real>   other[together];
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
-            j[k] = bodies.indices[list_slot(i, minimum(first + k, count - 1), bodies.capacity)];
+            j[k] = bodies.indices[list_slot(
+              i, minimum(first + k * lanes.count(), bodies.capacity - 1), bodies.capacity)];
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
             {
-              X_j[k] = bodies.reference[j[k]];
-              x_j[k] = bodies.x[j[k]];
+              reference[k] = bodies.reference[j[k]];
+              other[k]     = bodies.points[j[k]];
             }
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
-            if (first + k < count)
-              {
-                const auto X_ij = X_j[k] - X;
-                f(j[k],
-                  X_ij,
-                  grid.difference(x_j[k], x),
-                  reach * inverse_square_root(norm_square(X_ij)) - 1);
-              }
+            {
+              const auto X_ij = reference[k].x - X;
+              const Real w    = reach * inverse_square_root(positive(norm_square(X_ij))) - 1;
+              f(Bond{j[k],
+                     X_ij,
+                     grid.difference(other[k].x, point.x),
+                     other[k].v - point.v,
+                     first + k * lanes.count() < count ? w : Real(0),
+                     reference[k].inverse_mean});
+            }
+          first += together * lanes.count();
         }
+      while (first < count);
     }
 
     UNDINE_HOST_DEVICE
@@ -108,51 +154,62 @@ namespace undine::particles
       return bodies.materials[bodies.bodies[i]];
     }
 
-    /// F, R and P A^{-1} at the present places.
+    /// F, R and T at the present places.
+    template <class Lanes>
     UNDINE_HOST_DEVICE
     void
-    deform(const int i) const
+    deform(const int i, const Lanes &lanes) const
     {
-      auto moment = Matrix<dim, Real>::diagonal(0), rate = moment;
-      for_each_bond(
-        i,
-        [&](
-          const int j, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
-          moment.add_outer_product(w, x_ij, X_ij);
-          rate.add_outer_product(w, bodies.v[j] - bodies.v[i], X_ij);
-        });
-      const auto F           = moment * bodies.inverse_moments[i];
+      const int  body           = bodies.bodies[i];
+      const auto inverse_moment = bodies.inverse_moments[i];
+      const auto last           = bodies.rotations[i];
+      const auto surface        = bodies.surface_moments[i];
+      auto       moment = Matrix<dim, Real>::diagonal(0), rate = moment;
+      for_each_bond(i, lanes, [&](const Bond &bond) {
+        moment.add_outer_product(bond.weight, bond.x, bond.X);
+        rate.add_outer_product(bond.weight, bond.v, bond.X);
+      });
+      const auto properties = bodies.materials[body];
+      const Real carried    = bodies.carried[body];
+      const Real stiffness  = 2 * properties.hourglass * properties.mu * inverse_mean(i);
+      const auto F          = lanes.sum(moment) * inverse_moment;
+      const auto R          = rotation_of(F, last);
+      const auto P =
+        stress(properties, F, R, lanes.sum(rate) * inverse_moment, carried, surface * R);
+      if (lanes.rank() != 0)
+        return;
       bodies.deformations[i] = F;
-      bodies.rotations[i]    = rotation_of(F, bodies.rotations[i]);
-      bodies.stresses[i] = stress(i, rate * bodies.inverse_moments[i]) * bodies.inverse_moments[i];
+      bodies.rotations[i]    = R;
+      auto traction          = P * inverse_moment;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          traction[a][b] -= stiffness * F[a][b];
+      bodies.tractions[i].matrix = traction;
     }
 
     /// The acceleration by elasticity, damping and the carried pressure [m/s^2], after deform() of
     /// all.
+    template <class Lanes>
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
-    acceleration(const int i) const
+    acceleration(const int i, const Lanes &lanes) const
     {
-      const auto &properties = material(i);
-      const auto  F_i = bodies.deformations[i], stress_i = bodies.stresses[i];
-      const Real  stiffness = 2 * properties.hourglass * properties.mu;
-      const Real  a_i       = bodies.inverse_means[i];
-      const Real  rate =
-        is_damped ? sound_impedance(i) * properties.damping / (8 * spacing) : Real(0);
+      const auto              properties = material(i);
+      const Real              stiffness  = 2 * properties.hourglass * properties.mu;
+      const auto              T_i        = bodies.tractions[i].matrix;
+      const Vector<dim, Real> carried    = bodies.carried[bodies.bodies[i]] * bodies.surfaces[i];
+      const Real              a_i        = inverse_mean(i);
+      const Real              rate =
+        is_damped ? sound_impedance(properties) * properties.damping / (8 * spacing) : Real(0);
       auto force = Vector<dim, Real>::zero();
-      for_each_bond(
-        i,
-        [&](
-          const int j, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
-          force += w * (stress_i * X_ij + bodies.stresses[j] * X_ij);
-          force +=
-            (w * stiffness) * (a_i * (x_ij - F_i * X_ij) +
-                               bodies.inverse_means[j] * (x_ij - bodies.deformations[j] * X_ij));
-          if (rate > 0)
-            force += (w * rate * ((bodies.v[j] - bodies.v[i]) * x_ij) / norm_square(x_ij)) * x_ij;
-        });
-      return (1 / properties.density) * force -
-             bodies.carried[bodies.bodies[i]] * bodies.surfaces[i];
+      for_each_bond(i, lanes, [&](const Bond &bond) {
+        const auto &T_j = bodies.tractions[bond.j].matrix;
+        force += bond.weight * (T_i * bond.X + T_j * bond.X);
+        force += (bond.weight * (stiffness * (a_i + bond.inverse_mean) +
+                                 rate * (bond.v * bond.x) / positive(norm_square(bond.x)))) *
+                 bond.x;
+      });
+      return (1 / properties.density) * lanes.sum(force) - carried;
     }
 
     /// Changes of F and of P A^{-1} with places that move along u, rotations held.
@@ -164,11 +221,9 @@ namespace undine::particles
                   Matrix<dim, Real>       *stress_changes) const
     {
       auto moment = Matrix<dim, Real>::diagonal(0);
-      for_each_bond(
-        i,
-        [&](const int j, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &, const Real w) {
-          moment.add_outer_product(w, u[j] - u[i], X_ij);
-        });
+      for_each_bond(i, OneLane(), [&](const Bond &bond) {
+        moment.add_outer_product(bond.weight, u[bond.j] - u[i], bond.X);
+      });
       const auto       &properties = material(i);
       const auto        F = moment * bodies.inverse_moments[i], R = bodies.rotations[i];
       const Real        pull = properties.lambda * double_contraction(R, F);
@@ -191,16 +246,15 @@ namespace undine::particles
       const auto &properties = material(i);
       const auto  F_i = F_changes[i], stress_i = stress_changes[i];
       const Real  stiffness = 2 * properties.hourglass * properties.mu;
-      const Real  a_i       = bodies.inverse_means[i];
+      const Real  a_i       = inverse_mean(i);
       auto        force     = Vector<dim, Real>::zero();
-      for_each_bond(
-        i,
-        [&](const int j, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &, const Real w) {
-          const auto u_ij = u[j] - u[i];
-          force += w * (stress_i * X_ij + stress_changes[j] * X_ij);
-          force += (w * stiffness) * (a_i * (u_ij - F_i * X_ij) +
-                                      bodies.inverse_means[j] * (u_ij - F_changes[j] * X_ij));
-        });
+      for_each_bond(i, OneLane(), [&](const Bond &bond) {
+        const auto u_ij = u[bond.j] - u[i];
+        force += bond.weight * (stress_i * bond.X + stress_changes[bond.j] * bond.X);
+        force +=
+          (bond.weight * stiffness) *
+          (a_i * (u_ij - F_i * bond.X) + bond.inverse_mean * (u_ij - F_changes[bond.j] * bond.X));
+      });
       return (1 / properties.density) * force;
     }
 
@@ -217,18 +271,32 @@ namespace undine::particles
           square += (F[a][b] - R[a][b]) * (F[a][b] - R[a][b]);
       const Real strain = double_contraction(R, F) - dim;
       Real       bonds  = 0;
-      for_each_bond(
-        i,
-        [&](const int, const Vector<dim, Real> &X_ij, const Vector<dim, Real> &x_ij, const Real w) {
-          bonds += w * norm_square(x_ij - F * X_ij);
-        });
+      for_each_bond(i, OneLane(), [&](const Bond &bond) {
+        bonds += bond.weight * norm_square(bond.x - F * bond.X);
+      });
       const Real excess = excess_squeeze(strain);
       return properties.mu * square + properties.lambda / 2 * strain * strain -
              resistance(properties, excess) * excess / 3 +
-             properties.hourglass * properties.mu * bodies.inverse_means[i] * bonds;
+             properties.hourglass * properties.mu * inverse_mean(i) * bonds;
     }
 
   private:
+    /// Not zero, as it would be of a particle with itself, with which lists are filled up.
+    UNDINE_HOST_DEVICE
+    static Real
+    positive(const Real square)
+    {
+      return maximum(square, Real(1e-30));
+    }
+
+    /// 1 / a_i
+    UNDINE_HOST_DEVICE
+    Real
+    inverse_mean(const int i) const
+    {
+      return bodies.reference[i].inverse_mean;
+    }
+
     /// Linear elasticity lets a body collapse: once a quarter of its volume is gone, squeezing it
     /// meets a growing resistance, a pressure of 2 (lambda + 2 mu) e^2 where e = s + 1/4 < 0 [Pa].
     UNDINE_HOST_DEVICE
@@ -247,10 +315,10 @@ namespace undine::particles
 
     /// rho c_p, the scale of damping [kg/m^2 s].
     UNDINE_HOST_DEVICE
-    Real
-    sound_impedance(const int i) const
+    static Real
+    sound_impedance(const ElasticMaterial<Real> &properties)
     {
-      return sqrt((material(i).lambda + 2 * material(i).mu) * material(i).density);
+      return sqrt((properties.lambda + 2 * properties.mu) * properties.density);
     }
 
     /// Of first Piola and Kirchhoff, P = 2 mu (F - R) + lambda tr(R^T F - I) R [Pa], with bulk
@@ -258,14 +326,15 @@ namespace undine::particles
     /// centres of particles.
     UNDINE_HOST_DEVICE
     Matrix<dim, Real>
-    stress(const int i, const Matrix<dim, Real> &F_rate) const
+    stress(const ElasticMaterial<Real> &properties,
+           const Matrix<dim, Real>     &F,
+           const Matrix<dim, Real>     &R,
+           const Matrix<dim, Real>     &F_rate,
+           const Real                   carried,
+           const Matrix<dim, Real>     &surface) const
     {
-      const auto &properties = material(i);
-      const auto  F = bodies.deformations[i], R = bodies.rotations[i];
-      const auto  surface = bodies.surface_moments[i] * R;
-      const Real  carried = bodies.carried[bodies.bodies[i]];
-      const Real  bulk_viscosity =
-        is_damped ? properties.bulk_damping * sound_impedance(i) * spacing : Real(0);
+      const Real bulk_viscosity =
+        is_damped ? properties.bulk_damping * sound_impedance(properties) * spacing : Real(0);
       const Real strain = double_contraction(R, F) - dim; // tr(R^T F - I)
       const Real pull   = properties.lambda * strain -
                         resistance(properties, excess_squeeze(strain)) +

@@ -28,9 +28,9 @@ namespace undine::particles
     Elasticity<dim, Real>      elasticity;
     Contact<dim, Real>         contact;
     BodyForce<dim, Real>       force;
-    Vector<dim, Real>         *x_start;         ///< [m]
-    const Vector<dim, Real>   *v_start;         ///< [m/s]
-    Vector<dim, Real>         *x_next, *v_next; ///< while others still read x and v
+    Vector<dim, Real>         *x_start;     ///< [m]
+    const Vector<dim, Real>   *v_start;     ///< [m/s]
+    ElasticPoint<dim, Real>   *points_next; ///< while others still read the points
     ImplicitVectors<dim, Real> implicit_vectors;
     const Vector<dim, Real>   *pressure_accelerations; ///< [m/s^2]
     int                        n_bodies;
@@ -48,24 +48,26 @@ namespace undine::particles
       const int steps = control->elastic_steps;
       if (control->done() || steps == 0)
         return;
-      ElasticStep now = *this; // its x, v and x_next, v_next change places
+      ElasticStep now = *this; // its points and points_next change places
       const Real  h   = static_cast<Real>(control->dt / steps);
       const int   n   = elasticity.bodies.n;
-      team.for_each(n, [&](const int i) { now.begin(i); });
+      team.for_each_by_lanes(n, [&](const int i, const auto &lanes) { now.begin(i, lanes); });
       team.sync();
       if (control->elastic_is_implicit)
         now.move_implicitly(team, h);
       else
         for (int step = 0; step < steps; ++step)
           {
-            team.for_each(n, [&](const int i) { now.elasticity.deform(i); });
+            team.for_each_by_lanes(
+              n, [&](const int i, const auto &lanes) { now.elasticity.deform(i, lanes); });
             team.sync();
-            team.for_each(n, [&](const int i) { now.move(i, h); });
+            team.for_each_by_lanes(n,
+                                   [&](const int i, const auto &lanes) { now.move(i, h, lanes); });
             team.sync();
             now.swap();
           }
       team.for_each(n, [&](const int i) { end(i, now); });
-      if (purpose == ElasticRun::final)
+      if (purpose == ElasticRun::final && carry_share > 0)
         carry_pressure(team);
     }
 
@@ -79,7 +81,6 @@ namespace undine::particles
     {
       for (int body = 0; body < n_bodies; ++body)
         {
-          team.sync();
           const auto sums =
             team.template sum<2>(elasticity.bodies.n, [&](const int i, Sums<2> &add) {
               if (elasticity.bodies.bodies[i] != body)
@@ -99,26 +100,33 @@ namespace undine::particles
       return elasticity.bodies;
     }
 
+    template <class Lanes>
     UNDINE_HOST_DEVICE
     void
-    begin(const int i)
+    begin(const int i, const Lanes &lanes)
     {
+      contact.list_partners(i, lanes);
+      if (lanes.rank() != 0)
+        return;
       if (purpose == ElasticRun::final)
-        bodies().x[i] = x_start[i];
+        bodies().points[i].x = x_start[i];
       else
-        x_start[i] = bodies().x[i];
-      bodies().v[i] = v_start[i];
+        x_start[i] = bodies().points[i].x;
+      bodies().points[i].v = v_start[i];
     }
 
+    template <class Lanes>
     UNDINE_HOST_DEVICE
     void
-    move(const int i, const Real h)
+    move(const int i, const Real h, const Lanes &lanes)
     {
-      auto v = Vector<dim, Real>::zero();
-      if (!bodies().held[i])
-        v = bodies().v[i] + h * acceleration(i);
-      v_next[i] = v;
-      x_next[i] = bodies().x[i] + h * v;
+      ElasticPoint<dim, Real> point = bodies().points[i];
+      const auto              a     = acceleration(i, lanes);
+      if (lanes.rank() != 0)
+        return;
+      point.v = bodies().held[i] ? Vector<dim, Real>::zero() : point.v + h * a;
+      point.x += h * point.v;
+      points_next[i] = point;
     }
 
     /// One step of backward Euler; what contacts and pressures do is held constant.
@@ -129,48 +137,51 @@ namespace undine::particles
     {
       const int n          = bodies().n;
       elasticity.is_damped = false;
-      team.for_each(n, [&](const int i) { elasticity.deform(i); });
+      team.for_each_by_lanes(n,
+                             [&](const int i, const auto &lanes) { elasticity.deform(i, lanes); });
       team.sync();
       ImplicitElasticity<dim, Real>{elasticity, implicit_vectors, h}.step(
-        team, bodies().v, [&](const int i) { return acceleration(i); });
+        team, v_start, [&](const int i) { return acceleration(i, OneLane()); });
       team.sync();
       team.for_each(n, [&](const int i) {
-        v_next[i] =
-          bodies().held[i] ? Vector<dim, Real>::zero() : bodies().v[i] + implicit_vectors.change[i];
-        x_next[i] = bodies().x[i] + h * v_next[i];
+        ElasticPoint<dim, Real> point = bodies().points[i];
+        point.v =
+          bodies().held[i] ? Vector<dim, Real>::zero() : point.v + implicit_vectors.change[i];
+        point.x += h * point.v;
+        points_next[i] = point;
       });
       team.sync();
       swap();
     }
 
+    template <class Lanes>
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
-    acceleration(const int i) const
+    acceleration(const int i, const Lanes &lanes) const
     {
-      auto result = elasticity.acceleration(i) + contact.acceleration(i) +
-                    force.acceleration(elasticity.bodies.x[i]);
+      auto result = force.acceleration(elasticity.bodies.points[i].x);
       if (purpose == ElasticRun::final)
         result += pressure_accelerations[i];
-      return result;
+      result += contact.acceleration(i, lanes);
+      return result += elasticity.acceleration(i, lanes);
     }
 
     UNDINE_HOST_DEVICE
     void
     swap()
     {
-      auto *const x = bodies().x, *const v = bodies().v;
-      bodies().x = contact.bodies.x = x_next;
-      bodies().v = contact.bodies.v = v_next;
-      x_next                        = x;
-      v_next                        = v;
+      auto *const last = bodies().points;
+      bodies().points = contact.bodies.points = points_next;
+      points_next                             = last;
     }
 
-    /// `now` knows where the last x and v are.
+    /// `now` knows where the last points are.
     UNDINE_HOST_DEVICE
     void
     end(const int i, ElasticStep &now) const
     {
-      const auto x = now.bodies().x[i], v = now.bodies().v[i];
+      const auto point = now.bodies().points[i];
+      const auto x = point.x, v = point.v;
       const int  slot = contact.where[i];
       places[slot].x  = elasticity.grid.wrapped(x);
       if (!elasticity.grid.contains(places[slot].x))
@@ -182,9 +193,8 @@ namespace undine::particles
           motions[slot].v = static_cast<Real>(1 / control->dt) * (x - x_start[i]);
           return;
         }
-      motions[slot].v        = v;
-      elasticity.bodies.x[i] = x;
-      elasticity.bodies.v[i] = v;
+      motions[slot].v             = v;
+      elasticity.bodies.points[i] = point;
       atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(v))));
     }
   };

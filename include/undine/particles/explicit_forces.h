@@ -59,20 +59,22 @@ namespace undine::particles
                             density;
       const Real collision_square = constants.collision_distance * constants.collision_distance;
       auto       change           = Vector<dim, Real>::zero();
-      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
-        if (tag.kind() == Kind::solid &&
-            (pair.tag.kind() == Kind::solid || pair.tag.kind() == Kind::dummy))
-          return; // elasticity and contact act between these
-        const Vector<dim, Real> approach = motions[j].v - v;
-        change += (friction * pair.weight) * approach;
-        const Real speed = approach * pair.r;
-        if (pair.square < collision_square && speed < 0)
-          {
-            const Real other = constants.densities[pair.tag.material()];
-            const Real share = pair.tag.is_free() ? other / (density + other) : Real(1);
-            change += ((1 + constants.restitution) * share * speed / pair.square) * pair.r;
-          }
-      });
+      const auto fetch            = [&](const int j) { return motions[j].v; };
+      neighbours.for_each(
+        i, fetch, [&](const int, const Pair<dim, Real> &pair, const Vector<dim, Real> &other) {
+          if (tag.kind() == Kind::solid &&
+              (pair.tag.kind() == Kind::solid || pair.tag.kind() == Kind::dummy))
+            return; // elasticity and contact act between these
+          const Vector<dim, Real> approach = other - v;
+          change += (friction * pair.weight) * approach;
+          const Real speed = approach * pair.r;
+          if (pair.square < collision_square && speed < 0)
+            {
+              const Real their = constants.densities[pair.tag.material()];
+              const Real share = pair.tag.is_free() ? their / (density + their) : Real(1);
+              change += ((1 + constants.restitution) * share * speed / pair.square) * pair.r;
+            }
+        });
       return change;
     }
   };

@@ -2,6 +2,7 @@
 #ifndef undine_particles_host_executor_h
 #define undine_particles_host_executor_h
 
+#include <undine/particles/lanes.h>
 #include <undine/particles/phases.h>
 #include <undine/particles/sums.h>
 
@@ -64,6 +65,14 @@ namespace undine::particles
       const int end   = std::min(n, (rank + 1) * share);
       for (int i = rank * share; i < end; ++i)
         f(i);
+    }
+
+    /// f(i, lanes): some lanes work on each i where there are more workers than that.
+    template <class Function>
+    void
+    for_each_by_lanes(const int n, const Function &f) const
+    {
+      for_each(n, [&](const int i) { f(i, OneLane()); });
     }
 
     /// The same with neighbouring i for different workers, where few of them are any work.
@@ -227,6 +236,14 @@ namespace undine::particles
         HostTeam team(omp_get_thread_num(), omp_get_num_threads(), workspace);
         f(team);
       }
+    }
+
+    /// The same where most loops are for_each_by_lanes().
+    template <class Function>
+    void
+    run_by_lanes(const int n, const Function &f)
+    {
+      run(n, f);
     }
 
     /// out[i] = in[0] + ... + in[i-1] for i = 0 ... n-1.

@@ -30,11 +30,11 @@ namespace undine::particles
     static constexpr double tolerance      = 1e-4; ///< of |residual| over the right-hand side's
     static constexpr int    max_iterations = 200;
 
-    /// Adds the change of velocity to v, on which a = accelerations(i) acts; held particles stay.
+    /// The change of velocities v, on which a = accelerations(i) acts; held particles stay.
     template <class Team, class Accelerations>
     UNDINE_HOST_DEVICE
     void
-    step(Team &team, Vector<dim, Real> *v, const Accelerations &accelerations) const
+    step(Team &team, const Vector<dim, Real> *v, const Accelerations &accelerations) const
     {
       const int n = elasticity.bodies.n;
       differentiate(team, v);

@@ -79,7 +79,7 @@ namespace undine::particles
     void
     operator()(const int i) const
     {
-      elasticity.deform(i);
+      elasticity.deform(i, OneLane());
     }
   };
 
@@ -108,8 +108,8 @@ namespace undine::particles
         sums[1] += elasticity.energy_density(i);
         for (int axis = 0; axis < dim; ++axis)
           {
-            sums[2 + axis] += bodies.x[i][axis];
-            sums[2 + dim + axis] += bodies.v[i][axis];
+            sums[2 + axis] += bodies.points[i].x[axis];
+            sums[2 + dim + axis] += bodies.points[i].v[axis];
           }
       });
       if (team.is_first())

@@ -19,11 +19,31 @@ namespace undine::particles
     Real            *smooth; ///< omega D^{-1} r
     Real            *rest;   ///< r - A smooth
 
+    /// Of large levels, many of whose cells may be empty: those that are not; nullptr: not listed.
+    /// @{
+    int *active;
+    int *active_before; ///< how many before each cell; of all after the last
+    /// @}
+
     UNDINE_HOST_DEVICE
     bool
     is_active(const int cell) const
     {
       return inverse_diagonal[cell] > 0;
+    }
+
+    template <class Team, class Function>
+    UNDINE_HOST_DEVICE
+    void
+    for_each_active(Team &team, const Function &f) const
+    {
+      if (active != nullptr)
+        team.for_each_spread(active_before[grid.n], [&](const int place) { f(active[place]); });
+      else
+        team.for_each_spread(grid.n, [&](const int cell) {
+          if (is_active(cell))
+            f(cell);
+        });
     }
   };
 
@@ -91,6 +111,38 @@ namespace undine::particles
       level.matrix[place] = sum;
       if (entry == StencilGrid<dim>::size / 2)
         level.inverse_diagonal[cell] = sum > Real(1e-6) ? 1 / sum : Real(0);
+    }
+  };
+
+
+  /// 1 for each active cell. After the last follows 0.
+  template <int dim, class Real>
+  struct FlagActive
+  {
+    MultigridLevel<dim, Real> level;
+    int                      *flags;
+
+    UNDINE_HOST_DEVICE
+    void
+    operator()(const int cell) const
+    {
+      flags[cell] = cell < level.grid.n && level.is_active(cell) ? 1 : 0;
+    }
+  };
+
+
+  /// Fills the list of active cells, after active_before.
+  template <int dim, class Real>
+  struct ListActive
+  {
+    MultigridLevel<dim, Real> level;
+
+    UNDINE_HOST_DEVICE
+    void
+    operator()(const int cell) const
+    {
+      if (level.is_active(cell))
+        level.active[level.active_before[cell]] = cell;
     }
   };
 
@@ -203,9 +255,7 @@ namespace undine::particles
     descend(Team &team, const int k) const
     {
       const auto &fine = levels[k], &coarse = levels[k + 1];
-      team.for_each_spread(fine.grid.n, [&](const int cell) {
-        if (!fine.is_active(cell))
-          return;
+      fine.for_each_active(team, [&](const int cell) {
         Real sum = 0;
         for_each_around(fine.grid, fine.grid, cell, [&](const int entry, const int j, const int) {
           sum += fine.matrix[static_cast<std::size_t>(entry) * fine.grid.n + cell] * fine.smooth[j];
@@ -213,10 +263,8 @@ namespace undine::particles
         fine.rest[cell] = fine.r[cell] - sum;
       });
       team.sync();
-      team.for_each_spread(coarse.grid.n, [&](const int cell) {
-        if (coarse.is_active(cell))
-          begin(k + 1, cell, sum_over_children(fine, coarse, cell));
-      });
+      coarse.for_each_active(
+        team, [&](const int cell) { begin(k + 1, cell, sum_over_children(fine, coarse, cell)); });
       team.sync();
     }
 
@@ -275,9 +323,7 @@ namespace undine::particles
     ascend(Team &team, const int k) const
     {
       const auto &fine = levels[k], &coarse = levels[k + 1];
-      team.for_each_spread(fine.grid.n, [&](const int cell) {
-        if (!fine.is_active(cell))
-          return;
+      fine.for_each_active(team, [&](const int cell) {
         Real sum = 0, mine = 0;
         for_each_around(
           fine.grid, coarse.grid, cell, [&](const int entry, const int j, const int parent) {

@@ -19,6 +19,7 @@ namespace undine::particles
       , n(n)
       , cell_of(executor, n)
       , sums(executor, static_cast<std::size_t>(n) * StencilGrid<dim>::size)
+      , flags(executor, cells.n_cells() + 1)
     {
       StencilGrid<dim> grid;
       for (int axis = 0; axis < dim; ++axis)
@@ -61,6 +62,9 @@ namespace undine::particles
       for (int k = 0; k + 1 < cycle.n_levels; ++k)
         executor.for_each(cycle.levels[k + 1].grid.n,
                           CoarsenMatrix<dim, Real>{cycle.levels[k], cycle.levels[k + 1]});
+      for (int k = 0; k < cycle.n_levels; ++k)
+        if (cycle.levels[k].active != nullptr)
+          list_active(cycle.levels[k]);
     }
 
     /// Conjugate gradients with what build() has made of the same system.
@@ -76,20 +80,32 @@ namespace undine::particles
     static constexpr int coarsest = 64;
 
     void
+    list_active(const MultigridLevel<dim, Real> &level)
+    {
+      executor.for_each(level.grid.n + 1, FlagActive<dim, Real>{level, flags.data()});
+      executor.exclusive_scan(level.grid.n + 1, flags.data(), level.active_before);
+      executor.for_each(level.grid.n, ListActive<dim, Real>{level});
+    }
+
+    void
     add_level(const StencilGrid<dim> &grid)
     {
       constexpr int vectors = 5;
       memory.emplace_back(executor,
                           static_cast<std::size_t>(grid.n) * (StencilGrid<dim>::size + vectors));
-      Real *const matrix = memory.back().data();
-      Real *const after  = matrix + static_cast<std::size_t>(grid.n) * StencilGrid<dim>::size;
+      Real *const matrix   = memory.back().data();
+      Real *const after    = matrix + static_cast<std::size_t>(grid.n) * StencilGrid<dim>::size;
+      const bool  is_large = grid.n > small;
+      lists.emplace_back(executor, is_large ? 2 * static_cast<std::size_t>(grid.n) + 1 : 0);
       cycle.levels[cycle.n_levels++] = {grid,
                                         matrix,
                                         after,
                                         after + grid.n,
                                         after + 2 * static_cast<std::size_t>(grid.n),
                                         after + 3 * static_cast<std::size_t>(grid.n),
-                                        after + 4 * static_cast<std::size_t>(grid.n)};
+                                        after + 4 * static_cast<std::size_t>(grid.n),
+                                        is_large ? lists.back().data() : nullptr,
+                                        is_large ? lists.back().data() + grid.n : nullptr};
     }
 
     Executor                           &executor;
@@ -97,7 +113,9 @@ namespace undine::particles
     int                                 n;
     Buffer<Executor, int>               cell_of;
     Buffer<Executor, Real>              sums; ///< of rows, by cells
+    Buffer<Executor, int>               flags;
     std::vector<Buffer<Executor, Real>> memory;
+    std::vector<Buffer<Executor, int>>  lists; ///< of active cells
     MultigridCycle<dim, Real>           cycle;
   };
 } // namespace undine::particles

@@ -72,9 +72,7 @@ namespace undine::particles
     {
       const auto &finest = cycle.levels[0];
       const auto *r      = base.vectors.r;
-      team.for_each_spread(finest.grid.n, [&](const int cell) {
-        if (!finest.is_active(cell))
-          return;
+      finest.for_each_active(team, [&](const int cell) {
         Real sum = 0;
         for (int i = starts[cell]; i < starts[cell + 1]; ++i)
           sum += r[i];

@@ -44,6 +44,19 @@ namespace undine::particles
     void
     for_each(const int i, const Function &f) const
     {
+      for_each(
+        i,
+        [](const int) { return 0; },
+        [&](const int j, const Pair<dim, Real> &pair, const int) { f(j, pair); });
+    }
+
+    /// Call f(j, pair, fetch(j)): what it needs to know of them is on the way together.
+    template <class Fetch, class Function>
+    UNDINE_HOST_DEVICE
+    void
+    for_each(const int i, const Fetch &fetch, const Function &f) const
+    {
+      using More                       = decltype(fetch(0));
       constexpr int           together = 4; // their places are on the way at the same time
       const Vector<dim, Real> x        = places[i].x;
       const int               count    = counts[i];
@@ -52,31 +65,36 @@ namespace undine::particles
         {
           int              j[together];
           Place<dim, Real> other[together];
+          More             more[together];
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
             j[k] = indices[list_slot(i, first + k, capacity)];
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
-            other[k] = places[j[k]];
+            {
+              other[k] = places[j[k]];
+              more[k]  = fetch(j[k]);
+            }
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
-            call(f, x, j[k], other[k]);
+            call(f, x, j[k], other[k], more[k]);
         }
       for (; first < count; ++first)
         {
           const int j = indices[list_slot(i, first, capacity)];
-          call(f, x, j, places[j]);
+          call(f, x, j, places[j], fetch(j));
         }
     }
 
   private:
-    template <class Function>
+    template <class Function, class More>
     UNDINE_HOST_DEVICE
     void
     call(const Function          &f,
          const Vector<dim, Real> &x,
          const int                j,
-         const Place<dim, Real>  &other) const
+         const Place<dim, Real>  &other,
+         const More              &more) const
     {
       Pair<dim, Real> pair;
       pair.r                = grid.difference(other.x, x);
@@ -85,7 +103,7 @@ namespace undine::particles
       pair.weight           = reach * pair.inverse_distance - 1;
       pair.tag              = other.tag;
       if (pair.weight > 0)
-        f(j, pair);
+        f(j, pair, more);
     }
   };
 } // namespace undine::particles

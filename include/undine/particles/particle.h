@@ -98,7 +98,8 @@ namespace undine::particles
     Place<dim, Real>  *places;
     Motion<dim, Real> *motions;
     int               *identities;
-    Vector<dim, Real> *potentials; ///< of the virtual faces, kept as a guess for the next sub-step
+    /// Of the virtual faces, kept as a guess for the next sub-step.
+    StoredVector<dim, Real> *potentials;
   };
 } // namespace undine::particles
 

@@ -29,10 +29,10 @@ namespace undine::particles
               potentials.data()};
     }
 
-    Buffer<Executor, Place<dim, Real>>  places;
-    Buffer<Executor, Motion<dim, Real>> motions;
-    Buffer<Executor, int>               identities;
-    Buffer<Executor, Vector<dim, Real>> potentials;
+    Buffer<Executor, Place<dim, Real>>        places;
+    Buffer<Executor, Motion<dim, Real>>       motions;
+    Buffer<Executor, int>                     identities;
+    Buffer<Executor, StoredVector<dim, Real>> potentials;
   };
 } // namespace undine::particles
 

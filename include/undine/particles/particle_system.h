@@ -37,7 +37,7 @@ namespace undine::particles
       , n(n)
       , now(executor, n)
       , next(executor, n)
-      , bodies(executor, lattice)
+      , bodies(executor, lattice, NeighbourList<Executor, dim, Real>::capacity)
       , control(executor, 1)
       , cells(executor, constants.grid, n)
       , list(executor, constants.grid, constants.reach, n)
@@ -197,12 +197,12 @@ namespace undine::particles
                                            control.data()});
       executor.enter(Phase::faces);
       if (closed)
-        solve(equation.faces_diagonal,
-              equation.gaps,
-              now.potentials,
-              equation.vectors,
-              numerics.faces_tolerance,
-              &StepControl::faces);
+        solve<Vector<dim, Real>>(equation.faces_diagonal,
+                                 equation.gaps,
+                                 now.potentials,
+                                 equation.vectors,
+                                 numerics.faces_tolerance,
+                                 &StepControl::faces);
       executor.enter(Phase::assembly);
       executor.for_each(n,
                         MeasureSource<dim, Real>{constants,
@@ -252,7 +252,7 @@ namespace undine::particles
         return;
       executor.enter(Phase::bodies);
       const auto view = bodies.view();
-      executor.run(
+      executor.run_by_lanes(
         bodies.n,
         ElasticStep<dim, Real>{purpose,
                                {constants.grid, constants.spacing, constants.reach, view, true},
@@ -261,12 +261,13 @@ namespace undine::particles
                                 neighbours(),
                                 now.identities.data(),
                                 bodies.where.data(),
-                                constants.volume},
+                                constants.volume,
+                                bodies.partner_counts.data(),
+                                bodies.partners.data()},
                                constants.force,
                                bodies.x_start.data(),
                                bodies.v_start.data(),
-                               bodies.x_next.data(),
-                               bodies.v_next.data(),
+                               bodies.points_next.data(),
                                bodies.implicit_vectors(),
                                bodies.accelerations.data(),
                                static_cast<int>(bodies.carried.size()),
@@ -286,34 +287,37 @@ namespace undine::particles
       if (multigrid != nullptr)
         solve_by_multigrid();
       else
-        solve(equation.diagonal,
-              equation.right_hand_side,
-              equation.pressures,
-              equation.numbers,
-              numerics.tolerance,
-              &StepControl::pressure);
+        solve<Real>(equation.diagonal,
+                    equation.right_hand_side,
+                    equation.pressures,
+                    equation.numbers,
+                    numerics.tolerance,
+                    &StepControl::pressure);
     }
 
     template <class Value>
+    using Values = Buffer<Executor, typename Components<Value>::Stored>;
+
+    template <class Value>
     void
-    solve(const Buffer<Executor, Real>  &system_diagonal,
-          const Buffer<Executor, Value> &b,
-          Buffer<Executor, Value>       &x,
-          Buffer<Executor, Value>       &work,
-          const double                   tolerance,
+    solve(const Buffer<Executor, Real> &system_diagonal,
+          const Values<Value>          &b,
+          Values<Value>                &x,
+          Values<Value>                &work,
+          const double                  tolerance,
           SolverRecord StepControl::*record)
     {
-      executor.run(n, system(system_diagonal, b, x, work.data(), tolerance, record));
+      executor.run(n, system<Value>(system_diagonal, b, x, work.data(), tolerance, record));
     }
 
     /// `w` has room for five numbers a particle.
     template <class Value>
     ConjugateGradients<Real, Entry, Value>
-    system(const Buffer<Executor, Real>  &system_diagonal,
-           const Buffer<Executor, Value> &b,
-           Buffer<Executor, Value>       &x,
-           Value                         *w,
-           const double                   tolerance,
+    system(const Buffer<Executor, Real>       &system_diagonal,
+           const Values<Value>                &b,
+           Values<Value>                      &x,
+           typename Components<Value>::Stored *w,
+           const double                        tolerance,
            SolverRecord StepControl::*record) const
     {
       return {{matrix(), system_diagonal.data(), b.data(), x.data()},
@@ -333,12 +337,12 @@ namespace undine::particles
                        equation.diagonal.data(),
                        cells.cell_starts());
       executor.enter(Phase::pressure);
-      multigrid->solve(system(equation.diagonal,
-                              equation.right_hand_side,
-                              equation.pressures,
-                              equation.numbers.data(),
-                              numerics.tolerance,
-                              &StepControl::pressure),
+      multigrid->solve(system<Real>(equation.diagonal,
+                                    equation.right_hand_side,
+                                    equation.pressures,
+                                    equation.numbers.data(),
+                                    numerics.tolerance,
+                                    &StepControl::pressure),
                        cells.cell_starts());
     }
 

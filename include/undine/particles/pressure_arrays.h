@@ -54,10 +54,10 @@ namespace undine::particles
     Buffer<Executor, SymmetricMatrix<dim, Real>> corrections;
     Buffer<Executor, int>                        counts;
     Buffer<Executor, Entry>                      entries;
-    Buffer<Executor, Real>              diagonal, right_hand_side, pressures, faces_diagonal;
-    Buffer<Executor, Vector<dim, Real>> gaps;
-    Buffer<Executor, Real>              numbers; ///< of the pressure solver
-    Buffer<Executor, Vector<dim, Real>> vectors; ///< of the faces' solver
+    Buffer<Executor, Real>                    diagonal, right_hand_side, pressures, faces_diagonal;
+    Buffer<Executor, StoredVector<dim, Real>> gaps;
+    Buffer<Executor, Real>                    numbers; ///< of the pressure solver
+    Buffer<Executor, StoredVector<dim, Real>> vectors; ///< of the faces' solver
   };
 } // namespace undine::particles
 

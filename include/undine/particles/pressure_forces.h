@@ -122,40 +122,47 @@ namespace undine::particles
     Sum
     sum(const int i, const Tag tag, const Real P) const
     {
-      const auto M = neighbourhood.corrections[i];
-      const auto L = faces.potentials != nullptr ? faces.potentials[i] : Vector<dim, Real>::zero();
+      const auto M       = neighbourhood.corrections[i];
+      const auto side    = faces.side(i);
       const Real density = constants.densities[tag.material()];
       const Real least =
         constants.pair_force == PairForce::minimum ? least_pressure(i, P) : Real(0);
       Sum sum;
-      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
-        const Vector<dim, Real> plain = (pair.weight / pair.square) * pair.r;
-        sum.crowd += plain;
-        if (pair.tag.kind() == Kind::solid)
-          {
-            sum.bodies += plain;
-            sum.body_density += pair.weight;
-          }
-        if (pair.tag.kind() == Kind::dummy || is_left_to_elasticity(tag, pair.tag))
-          return;
-        auto face  = faces.factor * plain;
-        Real value = twice_pressure(tag, pair.tag, P, motions[j].pressure);
-        if (constants.pair_force == PairForce::balanced)
-          face = faces.closed(M, L, j, pressure_coefficient(constants, tag, pair), pair);
-        else if (constants.pair_force == PairForce::corrected)
-          {
-            face = faces.factor * (M * plain);
-            value -= 2 * P;
-          }
-        else if (constants.pair_force == PairForce::minimum)
-          value = motions[j].pressure - least;
-        sum.acceleration += (-value / density) * face;
-        if (tag.kind() == Kind::solid && pair.tag.code == tag.code)
-          {
-            sum.surface -= (2 / density) * face;
-            sum.surface_moment.add_outer_product(Real(-1), face, pair.r);
-          }
-      });
+      struct Other
+      {
+        Real                                   pressure;
+        typename VirtualFaces<dim, Real>::Side side;
+      };
+      const auto fetch = [&](const int j) { return Other{motions[j].pressure, faces.side(j)}; };
+      neighbours.for_each(
+        i, fetch, [&](const int, const Pair<dim, Real> &pair, const Other &other) {
+          const Vector<dim, Real> plain = (pair.weight / pair.square) * pair.r;
+          sum.crowd += plain;
+          if (pair.tag.kind() == Kind::solid)
+            {
+              sum.bodies += plain;
+              sum.body_density += pair.weight;
+            }
+          if (pair.tag.kind() == Kind::dummy || is_left_to_elasticity(tag, pair.tag))
+            return;
+          auto face  = faces.factor * plain;
+          Real value = twice_pressure(tag, pair.tag, P, other.pressure);
+          if (constants.pair_force == PairForce::balanced)
+            face = faces.closed(side, other.side, pressure_coefficient(constants, tag, pair), pair);
+          else if (constants.pair_force == PairForce::corrected)
+            {
+              face = faces.factor * (M * plain);
+              value -= 2 * P;
+            }
+          else if (constants.pair_force == PairForce::minimum)
+            value = other.pressure - least;
+          sum.acceleration += (-value / density) * face;
+          if (tag.kind() == Kind::solid && pair.tag.code == tag.code)
+            {
+              sum.surface -= (2 / density) * face;
+              sum.surface_moment.add_outer_product(Real(-1), face, pair.r);
+            }
+        });
       return sum;
     }
 

@@ -105,10 +105,10 @@ namespace undine::particles
     Entry *entries;
 
     /// sum_j k_ij x_j, for numbers or vectors x_j
-    template <class Value>
+    template <class Value, class Stored>
     UNDINE_HOST_DEVICE
     Value
-    row_times(const int row, const Value *x) const
+    row_times(const int row, const Stored *x) const
     {
       constexpr int together = 8; // on the way at the same time
       const int     count    = counts[row];
@@ -117,17 +117,21 @@ namespace undine::particles
       for (; first + together <= count; first += together)
         {
           Entry entry[together];
+          Value value[together];
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
             entry[k] = entries[list_slot(row, first + k, capacity)];
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
-            sum += entry[k].coefficient(scale) * x[row + entry[k].difference()];
+            value[k] = x[row + entry[k].difference()];
+          UNDINE_UNROLL
+          for (int k = 0; k < together; ++k)
+            sum += entry[k].coefficient(scale) * value[k];
         }
       for (; first < count; ++first)
         {
           const Entry entry = entries[list_slot(row, first, capacity)];
-          sum += entry.coefficient(scale) * x[row + entry.difference()];
+          sum += entry.coefficient(scale) * Value(x[row + entry.difference()]);
         }
       return sum;
     }

@@ -15,15 +15,14 @@ namespace undine::particles
   {
     explicit ReferenceLattice(const Setup<dim> &setup);
 
-    std::vector<Vector<dim, Real>>     positions;
-    std::vector<int>                   bodies;
-    std::vector<ElasticMaterial<Real>> materials;
-    std::vector<unsigned char>         held;
+    std::vector<ReferencePoint<dim, Real>> points;
+    std::vector<int>                       bodies;
+    std::vector<ElasticMaterial<Real>>     materials;
+    std::vector<unsigned char>             held;
     std::vector<unsigned char>     inside; ///< has nearly as many neighbours as in a full lattice
     int                            capacity;
     std::vector<int>               counts, indices;
     std::vector<Matrix<dim, Real>> inverse_moments;
-    std::vector<Real>              inverse_means;
 
     /// The step of the fastest body in which a wave crosses `share` of the spacing [s]; 0 without
     /// bodies.

@@ -62,21 +62,18 @@ namespace undine::particles
              ElasticArrays<Executor, dim, Real>  &bodies,
              const ParticleState<dim>            &state)
   {
-    const std::size_t              n_state = state.positions.size(), n = arrays.places.size();
-    std::vector<Place<dim, Real>>  places(n, {Vector<dim, Real>::zero(), Tag::parked()});
-    std::vector<Motion<dim, Real>> motions(n, {Vector<dim, Real>::zero(), Real(0)});
-    std::vector<Vector<dim, Real>> x(bodies.n), v(bodies.n);
-    std::vector<int>               identities = state.identities;
+    const std::size_t                    n_state = state.positions.size(), n = arrays.places.size();
+    std::vector<Place<dim, Real>>        places(n, {Vector<dim, Real>::zero(), Tag::parked()});
+    std::vector<Motion<dim, Real>>       motions(n, {Vector<dim, Real>::zero(), Real(0)});
+    std::vector<ElasticPoint<dim, Real>> points(bodies.n);
+    std::vector<int>                     identities = state.identities;
     for (std::size_t i = 0; i < n_state; ++i)
       {
         places[i]  = {converted<dim, Real>(state.positions[i]), state.tags[i]};
         motions[i] = {converted<dim, Real>(state.velocities[i]),
                       static_cast<Real>(state.pressures[i])};
         if (state.identities[i] < bodies.n)
-          {
-            x[state.identities[i]] = places[i].x;
-            v[state.identities[i]] = motions[i].v;
-          }
+          points[state.identities[i]] = {places[i].x, motions[i].v};
       }
     int next = n_state == 0 ? 0 : *std::max_element(identities.begin(), identities.end()) + 1;
     while (identities.size() < n)
@@ -84,8 +81,7 @@ namespace undine::particles
     arrays.places.set(places);
     arrays.motions.set(motions);
     arrays.identities.set(identities);
-    bodies.x.set(x);
-    bodies.v.set(v);
+    bodies.points.set(points);
     bodies.deformations.set(
       std::vector<Matrix<dim, Real>>(bodies.n, Matrix<dim, Real>::diagonal(1)));
     if (state.guesses.empty())
@@ -96,8 +92,10 @@ namespace undine::particles
       unflatten<Real>(values, state.guesses, position);
       buffer.set(values);
     };
-    std::vector<Vector<dim, Real>> potentials(n_state);
-    unflatten<Real>(potentials, state.guesses, position);
+    std::vector<StoredVector<dim, Real>> potentials(n_state);
+    for (auto &potential : potentials)
+      for (int axis = 0; axis < dim; ++axis)
+        potential.entries[axis] = static_cast<Real>(state.guesses[position++]);
     arrays.potentials.set(potentials);
     for_each_memory(bodies, take);
   }
@@ -130,8 +128,10 @@ namespace undine::particles
         state.pressures[i]  = motions[i].pressure;
         state.tags[i]       = places[i].tag;
       }
-    state.guesses = flattened<Real>(arrays.potentials.values());
-    state.guesses.resize(n * dim);
+    const auto potentials = arrays.potentials.values();
+    state.guesses.clear();
+    for (std::size_t i = 0; i < n; ++i)
+      state.guesses.insert(state.guesses.end(), potentials[i].entries, potentials[i].entries + dim);
     for_each_memory(bodies, [&](auto &buffer) {
       const auto more = flattened<Real>(buffer.values());
       state.guesses.insert(state.guesses.end(), more.begin(), more.end());
@@ -147,8 +147,7 @@ namespace undine::particles
     Snapshot(Executor &executor, const int n, const int n_solid, const int n_bodies)
       : executor(executor)
       , particles(executor, n)
-      , x(executor, n_solid)
-      , v(executor, n_solid)
+      , points(executor, n_solid)
       , rotations(executor, n_solid)
       , carried(executor, n_bodies)
       , surfaces(executor, n_solid)
@@ -161,8 +160,7 @@ namespace undine::particles
          const ElasticArrays<Executor, dim, Real>  &bodies)
     {
       copy(particles, arrays);
-      copy(x, bodies.x);
-      copy(v, bodies.v);
+      copy(points, bodies.points);
       copy(rotations, bodies.rotations);
       copy(carried, bodies.carried);
       copy(surfaces, bodies.surfaces);
@@ -174,8 +172,7 @@ namespace undine::particles
             ElasticArrays<Executor, dim, Real>  &bodies) const
     {
       copy(arrays, particles);
-      copy(bodies.x, x);
-      copy(bodies.v, v);
+      copy(bodies.points, points);
       copy(bodies.rotations, rotations);
       copy(bodies.carried, carried);
       copy(bodies.surfaces, surfaces);
@@ -200,13 +197,13 @@ namespace undine::particles
       copy(to.potentials, from.potentials);
     }
 
-    Executor                           &executor;
-    ParticleArrays<Executor, dim, Real> particles;
-    Buffer<Executor, Vector<dim, Real>> x, v;
-    Buffer<Executor, Matrix<dim, Real>> rotations;
-    Buffer<Executor, Real>              carried;
-    Buffer<Executor, Vector<dim, Real>> surfaces;
-    Buffer<Executor, Matrix<dim, Real>> surface_moments;
+    Executor                                 &executor;
+    ParticleArrays<Executor, dim, Real>       particles;
+    Buffer<Executor, ElasticPoint<dim, Real>> points;
+    Buffer<Executor, Matrix<dim, Real>>       rotations;
+    Buffer<Executor, Real>                    carried;
+    Buffer<Executor, Vector<dim, Real>>       surfaces;
+    Buffer<Executor, Matrix<dim, Real>>       surface_moments;
   };
 } // namespace undine::particles
 

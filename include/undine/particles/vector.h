@@ -102,6 +102,42 @@ namespace undine::particles
     }
   };
 
+  /// The same in memory where others read it in any order: the device reads it at once, as one
+  /// word.
+  template <int dim, class Real>
+  struct alignas(4 * sizeof(Real)) StoredVector
+  {
+    Real entries[4];
+
+    UNDINE_HOST_DEVICE
+    operator Vector<dim, Real>() const
+    {
+      Vector<dim, Real> result;
+#ifdef __CUDA_ARCH__
+      if constexpr (sizeof(Real) == 4)
+        {
+          const float4 word     = *reinterpret_cast<const float4 *>(this);
+          const Real   words[4] = {word.x, word.y, word.z, word.w};
+          for (int axis = 0; axis < dim; ++axis)
+            result[axis] = words[axis];
+          return result;
+        }
+#endif
+      for (int axis = 0; axis < dim; ++axis)
+        result[axis] = entries[axis];
+      return result;
+    }
+
+    UNDINE_HOST_DEVICE
+    StoredVector &
+    operator=(const Vector<dim, Real> &vector)
+    {
+      for (int axis = 0; axis < 4; ++axis)
+        entries[axis] = axis < dim ? vector[axis < dim ? axis : 0] : Real(0);
+      return *this;
+    }
+  };
+
   template <int dim, class Real>
   UNDINE_HOST_DEVICE
   Vector<dim, Real>

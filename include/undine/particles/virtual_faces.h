@@ -21,26 +21,40 @@ namespace undine::particles
   {
     Real                              factor;      ///< dim / n0
     const SymmetricMatrix<dim, Real> *corrections; ///< M
-    const Vector<dim, Real>          *potentials;  ///< L; nullptr: all zero
+    const StoredVector<dim, Real>    *potentials;  ///< L; nullptr: faces are not used
+
+    /// What a particle contributes to its faces.
+    struct Side
+    {
+      SymmetricMatrix<dim, Real> M;
+      Vector<dim, Real>          L;
+    };
+
+    UNDINE_HOST_DEVICE
+    Side
+    side(const int i) const
+    {
+      if (potentials == nullptr)
+        return {SymmetricMatrix<dim, Real>::diagonal(1), Vector<dim, Real>::zero()};
+      return {corrections[i], potentials[i]};
+    }
 
     /// The part without potentials.
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
-    open(const SymmetricMatrix<dim, Real> &M_i, const int j, const Pair<dim, Real> &pair) const
+    open(const SymmetricMatrix<dim, Real> &M_i,
+         const SymmetricMatrix<dim, Real> &M_j,
+         const Pair<dim, Real>            &pair) const
     {
-      return (factor * pair.weight / (2 * pair.square)) * (M_i * pair.r + corrections[j] * pair.r);
+      return (factor * pair.weight / (2 * pair.square)) * (M_i * pair.r + M_j * pair.r);
     }
 
     /// `k` is the pair's coefficient in the pressure equation.
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
-    closed(const SymmetricMatrix<dim, Real> &M_i,
-           const Vector<dim, Real>          &L_i,
-           const int                         j,
-           const Real                        k,
-           const Pair<dim, Real>            &pair) const
+    closed(const Side &i, const Side &j, const Real k, const Pair<dim, Real> &pair) const
     {
-      return open(M_i, j, pair) + k * (L_i - potentials[j]);
+      return open(i.M, j.M, pair) + k * (i.L - j.L);
     }
   };
 } // namespace undine::particles

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_cuda_device_lanes_cuh
+#define undine_cuda_device_lanes_cuh
+
+#include <undine/particles/matrix.h>
+
+namespace undine::particles
+{
+  /// Neighbouring threads of a warp that share the work on one particle, see OneLane. They must all
+  /// call sum() and ballot().
+  class DeviceLanes
+  {
+  public:
+    static constexpr int number = 8;
+
+    __device__ static constexpr int
+    count()
+    {
+      return number;
+    }
+
+    __device__ static int
+    rank()
+    {
+      return static_cast<int>(threadIdx.x) % count();
+    }
+
+    __device__ static float
+    sum(float value)
+    {
+      return butterfly(value);
+    }
+
+    __device__ static double
+    sum(double value)
+    {
+      return butterfly(value);
+    }
+
+    template <int dim, class Real>
+    __device__ static Vector<dim, Real>
+    sum(Vector<dim, Real> value)
+    {
+      for (int axis = 0; axis < dim; ++axis)
+        value[axis] = butterfly(value[axis]);
+      return value;
+    }
+
+    template <int dim, class Real>
+    __device__ static Matrix<dim, Real>
+    sum(Matrix<dim, Real> value)
+    {
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          value[i][j] = butterfly(value[i][j]);
+      return value;
+    }
+
+    __device__ static int
+    votes(const unsigned int ballot)
+    {
+      return __popc(ballot);
+    }
+
+    __device__ static int
+    votes_before(const unsigned int ballot)
+    {
+      return __popc(ballot & ((1u << rank()) - 1));
+    }
+
+    /// A bit for each lane.
+    __device__ static unsigned int
+    ballot(const bool yes)
+    {
+      return (__ballot_sync(mask(), yes) >> first()) & ((1u << count()) - 1);
+    }
+
+  private:
+    /// Of the lanes in the warp.
+    __device__ static int
+    first()
+    {
+      return static_cast<int>(threadIdx.x) % 32 / count() * count();
+    }
+
+    __device__ static unsigned int
+    mask()
+    {
+      return ((1u << count()) - 1) << first();
+    }
+
+    template <class Real>
+    __device__ static Real
+    butterfly(Real value)
+    {
+      for (int distance = 1; distance < count(); distance *= 2)
+        value += __shfl_xor_sync(mask(), value, distance);
+      return value;
+    }
+  };
+} // namespace undine::particles
+
+#endif
