@@ -120,7 +120,8 @@ TEMPLATE_TEST_CASE_SIG(
     cube<dim>(0), cube<dim>(size), [&](const Point<dim> &x) { scene.add(x, Kind::fluid, 0, v); });
   const auto         engine = scene.engine();
   ParticleState<dim> state;
-  for (int frame = 0; frame < 20; ++frame)
+  // Not for long: a perfect cubic lattice is an unstable arrangement, which rounding upsets.
+  for (int frame = 0; frame < 5; ++frame)
     engine->advance(.01);
   engine->fetch(state);
   for (const auto &velocity : state.velocities)
