@@ -11,26 +11,33 @@ namespace undine::particles
   /// How the blocks of a launch give numbers to each other, in rounds. Every block takes part in
   /// every round; what one round wrote is overwritten in the next but one, when everybody has read
   /// it.
+  ///
+  /// A counter tells when all blocks have handed out their sums. It orders nothing, the flags of
+  /// the numbers do: but all blocks that look at one word find out twice as fast as when they look
+  /// at the words of all others.
   class BlockExchange
   {
   public:
-    static constexpr int          most_blocks = 160;
-    static constexpr int          most_sums   = 6;
-    static constexpr int          stride      = 8;     ///< words of a block
-    static constexpr unsigned int most_rounds = 60000; ///< of a launch
+    static constexpr int          most_blocks     = 160;
+    static constexpr int          most_sums       = 6;
+    static constexpr int          stride          = 8;     ///< words of a block
+    static constexpr unsigned int most_rounds     = 60000; ///< of a launch
+    static constexpr int          rounds_of_setup = 16;    ///< of a launch, at most
 
     /// Global memory.
     struct Workspace
     {
-      FlaggedWord *sums;        ///< 2 * most_blocks * stride
-      FlaggedWord *values;      ///< 2 * n_values
-      int          n_values;    ///< that all blocks together hand out in a round
-      unsigned int first_round; ///< never used before
+      unsigned int *counter;     ///< of blocks, starts at zero; every round adds 2^31 to it
+      FlaggedWord  *sums;        ///< 2 * most_blocks * stride
+      FlaggedWord  *values;      ///< 2 * n_values
+      int           n_values;    ///< that all blocks together hand out in a round
+      unsigned int  first_round; ///< never used before
     };
 
     __device__ explicit BlockExchange(const Workspace &workspace)
       : workspace(workspace)
       , round(workspace.first_round)
+      , phase(counted() & flip)
     {
     }
 
@@ -72,70 +79,79 @@ namespace undine::particles
           *to[k] = number_in(word[k]);
     }
 
-    /// Hand out this block's share of sums; by the threads of one warp.
-    template <int count>
+    /// Hand out number k of this block's share of sums, by one thread each; then count_in() in a
+    /// thread of the same warp.
     __device__ __forceinline__ void
-    put_sums(const Sums<count> &sums) const
+    put_sum(const int k, const double value) const
     {
-      const int lane = threadIdx.x & 31;
-#pragma unroll
-      for (int k = 0; k < count; ++k)
-        if (lane == k)
-          put(of_block(blockIdx.x) + k, flagged_long(sums.values[k], round));
+      put(of_block(blockIdx.x) + k, flagged_long(value, round));
     }
 
-    /// Sum the shares of all blocks, in a fixed order; by the threads of one warp, who all get it.
+    __device__ __forceinline__ void
+    count_in() const
+    {
+      const unsigned int share = blockIdx.x == 0 ? flip - (gridDim.x - 1) : 1;
+      asm volatile("red.relaxed.gpu.global.add.u32 [%0], %1;" ::"l"(workspace.counter), "r"(share)
+                   : "memory");
+    }
+
+    /// Until all blocks have counted in; by the warp that did.
+    __device__ __forceinline__ void
+    wait()
+    {
+      if ((threadIdx.x & 31) == 0)
+        while ((counted() & flip) == phase)
+          ;
+      phase ^= flip;
+      __syncwarp();
+    }
+
+    /// A block's share of the sums. As after get_values(), a warp needs a __syncwarp() before it
+    /// goes on together.
     template <int count>
     __device__ __forceinline__ Sums<count>
-                               get_sums() const
+                               share_of(const int block) const
     {
-      constexpr int passes = most_blocks / 32, words = (count + 1) / 2 * 2;
-      const int     lane = threadIdx.x & 31;
-      FlaggedWord   word[passes][words];
+      constexpr int words = (count + 1) / 2 * 2;
+      FlaggedWord   word[words];
       bool          complete;
-      do // all at once: each look takes long
+      do
         {
           complete = true;
 #pragma unroll
-          for (int pass = 0; pass < passes; ++pass)
-#pragma unroll
-            for (int k = 0; k < words; k += 2)
-              look_at_two(word[pass][k],
-                          word[pass][k + 1],
-                          of_block(min(pass * 32 + lane, static_cast<int>(gridDim.x) - 1)) + k);
-#pragma unroll
-          for (int pass = 0; pass < passes; ++pass)
-#pragma unroll
-            for (int k = 0; k < count; ++k)
-              complete = complete && is_long_of(word[pass][k], round);
-        }
-      while (!complete);
-      __syncwarp();
-      Sums<count> total;
-#pragma unroll
-      for (int pass = 0; pass < passes; ++pass)
-        if (pass * 32 + lane < static_cast<int>(gridDim.x))
+          for (int k = 0; k < words; k += 2)
+            look_at_two(word[k], word[k + 1], of_block(block) + k);
 #pragma unroll
           for (int k = 0; k < count; ++k)
-            total.values[k] += long_number_in(word[pass][k]);
+            complete = complete && is_long_of(word[k], round);
+        }
+      while (!complete);
+      Sums<count> share;
 #pragma unroll
-      for (int distance = 16; distance > 0; distance /= 2)
-#pragma unroll
-        for (int k = 0; k < count; ++k)
-          total.values[k] += __shfl_xor_sync(0xffffffffu, total.values[k], distance);
-      return total;
+      for (int k = 0; k < count; ++k)
+        share.values[k] = long_number_in(word[k]);
+      return share;
     }
 
-    /// A block's share of the first sum. As after get_values(), a warp needs a __syncwarp() before
-    /// it goes on together.
+    /// Exchange one number in a round without other sums: the share of each block, in the thread
+    /// that has its number. By the whole block.
     __device__ __forceinline__ double
-    share_of(const int block) const
+    exchange(const double value)
     {
-      FlaggedWord word;
-      do
-        word = look_at(of_block(block));
-      while (!is_long_of(word, round));
-      return long_number_in(word);
+      if (threadIdx.x < 32)
+        {
+          if (threadIdx.x == 0)
+            {
+              put_sum(0, value);
+              count_in();
+            }
+          wait();
+        }
+      __syncthreads();
+      const double share =
+        threadIdx.x < gridDim.x ? share_of<1>(static_cast<int>(threadIdx.x))[0] : 0.;
+      __syncwarp();
+      return share;
     }
 
   private:
@@ -151,8 +167,22 @@ namespace undine::particles
       return workspace.sums + ((round & 1) * most_blocks + block) * stride;
     }
 
+    __device__ __forceinline__ unsigned int
+    counted() const
+    {
+      unsigned int value;
+      asm volatile("ld.relaxed.gpu.global.u32 %0, [%1];"
+                   : "=r"(value)
+                   : "l"(workspace.counter)
+                   : "memory");
+      return value;
+    }
+
+    static constexpr unsigned int flip = 1u << 31;
+
     Workspace    workspace;
     unsigned int round;
+    unsigned int phase; ///< highest bit of the counter before the next round
   };
 } // namespace undine::particles
 

@@ -202,33 +202,14 @@ namespace undine::particles
     void
     run(const int n, const ConjugateGradients<float, PackedEntry, Value> &f)
     {
-      constexpr int count  = Components<Value>::count;
-      const auto    kernel = kernels::solve_resident<Value>;
-      int           room   = static_cast<int>(properties.sharedMemPerBlockOptin) - 4096;
+      constexpr int count = Components<Value>::count;
       if (n > (count == 1 ? most_resident_rows : most_resident_vectors) ||
-          room < least_resident_room ||
+          resident_room() < least_resident_room ||
           f.bounds.max_iterations > static_cast<int>(BlockExchange::most_rounds) ||
           properties.multiProcessorCount > BlockExchange::most_blocks)
-        {
-          run_team(n, f);
-          return;
-        }
-      auto exchange = exchanges[count].workspace(*this, count * n, f.bounds.max_iterations + 16);
-      check_device(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, room),
-                   "to plan a pass");
-      if (entries_outside == nullptr)
-        entries_outside =
-          allocate<unsigned int>(std::size_t(room_outside) * properties.multiProcessorCount);
-      auto  copy        = f;
-      int   outside     = room_outside;
-      void *arguments[] = {&copy, &exchange, &workspace, &room, &entries_outside, &outside};
-      check_device(cudaLaunchCooperativeKernel(kernel,
-                                               dim3(properties.multiProcessorCount),
-                                               dim3(kernels::resident_threads),
-                                               arguments,
-                                               room,
-                                               stream),
-                   "to start the solver");
+        run_team(n, f);
+      else
+        run_resident(n, f);
     }
 
     void
@@ -300,10 +281,11 @@ namespace undine::particles
         if (n_values > n)
           {
             release(executor);
-            n             = n_values;
-            memory.values = executor.allocate<FlaggedWord>(2 * n);
-            memory.sums   = executor.allocate<FlaggedWord>(n_sums);
-            next          = 0;
+            n              = n_values;
+            memory.counter = executor.allocate<unsigned int>(1);
+            memory.values  = executor.allocate<FlaggedWord>(2 * n);
+            memory.sums    = executor.allocate<FlaggedWord>(n_sums);
+            next           = 0;
           }
         else if (next > 1u << 31)
           {
@@ -320,6 +302,7 @@ namespace undine::particles
       void
       release(const DeviceExecutor &executor)
       {
+        executor.release(memory.counter);
         executor.release(memory.values);
         executor.release(memory.sums);
       }
@@ -331,6 +314,42 @@ namespace undine::particles
       std::size_t              n      = 0; ///< values
       unsigned int             next   = 0; ///< round
     };
+
+    int
+    resident_room() const
+    {
+      return static_cast<int>(properties.sharedMemPerBlockOptin) - static_shared_room;
+    }
+
+    template <class Value>
+    void
+    run_resident(const int n, const ConjugateGradients<float, PackedEntry, Value> &f)
+    {
+      constexpr int count  = Components<Value>::count;
+      const int     blocks = properties.multiProcessorCount;
+      auto          exchange =
+        exchanges[count].workspace(*this,
+                                   std::max(count * n, blocks * BandedInverse::width),
+                                   f.bounds.max_iterations + BlockExchange::rounds_of_setup);
+      if (entries_outside == nullptr)
+        entries_outside = allocate<unsigned int>(std::size_t(room_outside) * blocks);
+      auto         copy        = f;
+      ResidentRoom room        = {resident_room(), room_outside, entries_outside};
+      int          each        = n > few_resident_rows ? 1 : 2;
+      void        *arguments[] = {&copy, &exchange, &workspace, &room, &each};
+      const void  *kernel      = nullptr;
+      if constexpr (count == 1)
+        kernel = reinterpret_cast<const void *>(kernels::solve_corrected);
+      else
+        kernel = reinterpret_cast<const void *>(kernels::solve_plain<Value>);
+      check_device(
+        cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, room.inside),
+        "to plan a pass");
+      check_device(
+        cudaLaunchCooperativeKernel(
+          kernel, dim3(blocks), dim3(kernels::resident_threads), arguments, room.inside, stream),
+        "to start the solver");
+    }
 
     /// Together as many workers as there is work for and room.
     template <class Kernel, class Function>
@@ -358,7 +377,9 @@ namespace undine::particles
       return std::clamp((each + 31) / 32 * 32, least, kernels::team_threads);
     }
 
-    static constexpr int most_resident_rows    = 400000;
+    static constexpr int static_shared_room = 16 * 1024; ///< of a resident solver's block, at most
+    static constexpr int few_resident_rows  = 100000;    ///< for which half the aggregates do
+    static constexpr int most_resident_rows = 400000;
     static constexpr int most_resident_vectors = 100000;    ///< few iterations do not pay for more
     static constexpr int room_outside          = 1 << 16;   ///< entries of a block in global memory
     static constexpr int least_resident_room   = 96 * 1024; ///< shared memory of a block

@@ -2,53 +2,66 @@
 #ifndef undine_cuda_resident_gradients_cuh
 #define undine_cuda_resident_gradients_cuh
 
-#include "block_exchange.cuh"
-#include "resident_rows.cuh"
+#include "block_sums.cuh"
+#include "coarse_correction.cuh"
 
 #include <undine/particles/conjugate_gradients.h>
 
 namespace undine::particles
 {
   /// ConjugateGradients for systems that fit into the shared memory of all multiprocessors
-  /// together. Each block keeps its rows and, besides its own unknowns, those that its rows refer
-  /// to: it repeats what their owners do with them, so that only the product with the matrix has to
-  /// be handed over. Together with the sums that is the only wait for other blocks in an iteration:
-  /// the first warp exchanges sums while the others fetch products.
-  ///
-  /// With u = D^{-1} r and t = D^{-1} s in the names of ConjugateGradients.
-  template <class Value>
+  /// together, with a correction of the preconditioner. Each block keeps its rows and, besides its
+  /// own unknowns, those that its rows refer to: it repeats what their owners do with them, so that
+  /// only the product with the matrix has to be handed over. Together with the sums that is the
+  /// only wait for other blocks in an iteration: the first warp exchanges sums while the others
+  /// fetch products.
+  template <class Value, class Correction>
   class ResidentGradients
   {
   public:
     using General = ConjugateGradients<float, PackedEntry, Value>;
 
     static constexpr int count     = Components<Value>::count;
-    static constexpr int per_local = 3 * sizeof(Value) + 4;
+    static constexpr int per_local = 4 * sizeof(Value) + 4;
     static constexpr int per_own   = 2 * sizeof(Value) + 4;
+
+    /// (r, u), (w, u) of the components; with a correction also |r|^2 and the block's sum of w.
+    static constexpr int n_sums = 2 * count + (Correction::exists ? 2 : 0);
+
+    static constexpr int most_held = count == 1 ? 24 : 0; ///< of ResidentRows
+
+    using Rows = ResidentRows<most_held>;
+
+    using Summation = BlockSums<n_sums>;
 
     /// What the warps of a block tell each other.
     struct Shared
     {
-      float of_warps[2 * count][32];
+      typename Summation::Shared summation;
+
       float alpha[count], beta[count];
       bool  goes_on;
     };
 
     __device__
     ResidentGradients(const General       &general,
-                      const ResidentRows  &rows,
+                      const Rows          &rows,
+                      const Correction    &correction,
                       char                *memory,
                       const BlockExchange &exchange,
                       Shared              &shared)
       : general(general)
       , rows(rows)
+      , correction(correction)
       , exchange(exchange)
       , shared(shared)
+      , summation(shared.summation)
     {
       inverse  = reinterpret_cast<float *>(memory);
       u        = reinterpret_cast<Value *>(inverse + rows.n_local);
-      t        = u + rows.n_local;
-      w        = t + rows.n_local;
+      r        = u + rows.n_local;
+      s        = r + rows.n_local;
+      w        = s + rows.n_local;
       p        = w + rows.n_local;
       x        = p + rows.n_own;
       diagonal = reinterpret_cast<float *>(x + rows.n_own);
@@ -65,24 +78,31 @@ namespace undine::particles
           exchange.begin_round();
           multiply();
           __syncthreads();
+          gather();
+          __syncthreads();
           if (is_first_warp())
             choose_step(iteration);
           else
-            fetch();
+            correct();
           __syncthreads();
           if (!shared.goes_on)
             break;
+          if constexpr (Correction::exists)
+            {
+              correction.advance(shared.alpha[0], shared.beta[0]);
+              __syncthreads();
+            }
           update();
           if (is_first_warp())
             prepare_step();
           __syncthreads();
         }
       for (int own = threadIdx.x; own < rows.n_own; own += blockDim.x)
-        general.system.solution[row_of(rows.first_own + own)] = x[own];
+        general.system.solution[rows.row_of(rows.first_own + own)] = x[own];
     }
 
   private:
-    using Products = Sums<2 * count>;
+    using Products = Sums<n_sums>;
     using Part     = Components<Value>;
 
     __device__ __forceinline__ static bool
@@ -91,9 +111,12 @@ namespace undine::particles
       return threadIdx.x < 32;
     }
 
+    /// |r|^2
     __device__ __forceinline__ static double
-    total(const Products &products)
+    square_of(const Products &products)
     {
+      if constexpr (Correction::exists)
+        return products.values[2 * count];
       double sum = 0;
       for (int k = 0; k < count; ++k)
         sum += products.values[k];
@@ -111,18 +134,6 @@ namespace undine::particles
           system.solution[row] = (1 / system.diagonal[row]) * Value(system.right_hand_side[row]);
     }
 
-    __device__ __forceinline__ int
-    row_of(const int local) const
-    {
-      return rows.global[local];
-    }
-
-    __device__ __forceinline__ bool
-    is_own(const int local) const
-    {
-      return local >= rows.first_own && local < rows.first_own + rows.n_own;
-    }
-
     /// The guess as u.
     __device__ __forceinline__ void
     load()
@@ -130,13 +141,13 @@ namespace undine::particles
       const auto &system = general.system;
       for (int local = threadIdx.x; local < rows.n_local; local += blockDim.x)
         {
-          const int   row = row_of(local);
+          const int   row = rows.row_of(local);
           const float d   = system.diagonal[row];
           const Value v   = system.solution[row];
           u[local]        = v;
           inverse[local]  = 1 / d;
-          t[local]        = Value();
-          if (is_own(local))
+          s[local]        = Value();
+          if (rows.is_own(local))
             {
               const int own = local - rows.first_own;
               x[own]        = v;
@@ -148,12 +159,12 @@ namespace undine::particles
       __syncthreads();
     }
 
-    /// u of the residual of the guess, and the size of the right-hand side.
+    /// The residual of the guess, its u, and the size of the right-hand side.
     __device__ __forceinline__ void
     begin()
     {
       exchange.begin_round();
-      float sums[2 * count] = {};
+      float sums[n_sums] = {};
       for_each_product([&](const int own, const Value &product) {
         const int local = rows.first_own + own;
         Value     b     = w[local];
@@ -161,18 +172,57 @@ namespace undine::particles
           sums[0] += Part::of(b, k) * Part::of(b, k) * inverse[local];
         b -= diagonal[own] * x[own] - product;
         w[local] = b;
-        put(row_of(local), b);
+        put(rows.row_of(local), b);
+        if constexpr (Correction::exists)
+          sums[n_sums - 1] += b;
       });
-      reduce_warp(sums);
+      summation.add(sums);
+      __syncthreads();
+      gather();
       __syncthreads();
       if (is_first_warp())
-        size = exchange_sums()[0];
+        size = summation.total()[0];
       else
-        fetch();
+        correct();
+      __syncthreads();
+      if constexpr (Correction::exists)
+        correction.start();
       __syncthreads();
       for (int local = threadIdx.x; local < rows.n_local; local += blockDim.x)
-        u[local] = inverse[local] * w[local];
+        {
+          r[local] = w[local];
+          u[local] = preconditioned(local, w[local]);
+        }
       __syncthreads();
+    }
+
+    __device__ __forceinline__ Value
+    preconditioned(const int local, const Value &residual) const
+    {
+      if constexpr (Correction::exists)
+        return inverse[local] * residual + correction.at(local);
+      else
+        return inverse[local] * residual;
+    }
+
+    /// The first warps collect sums, the others fetch products meanwhile.
+    __device__ __forceinline__ void
+    gather()
+    {
+      if (threadIdx.x >= 32 * Summation::collectors)
+        fetch();
+      else
+        summation.collect(exchange, [&](const int block, const float share) {
+          if constexpr (Correction::exists)
+            correction.take(block, share);
+        });
+    }
+
+    __device__ __forceinline__ void
+    correct() const
+    {
+      if constexpr (Correction::exists)
+        correction.solve();
     }
 
     /// f(own row, sum_j k_ij u_j), by one thread a row.
@@ -181,10 +231,11 @@ namespace undine::particles
     for_each_product(const Function &f) const
     {
       const int warps = blockDim.x / 32, lane = threadIdx.x & 31;
-      const int at_once = ResidentRows::rows_at_once(rows.lanes);
-      for (int slice = threadIdx.x / 32; slice * at_once < rows.n_own; slice += warps)
+      const int at_once = Rows::rows_at_once(rows.lanes);
+      const int first   = Rows::first_slice();
+      for (int slice = first; slice * at_once < rows.n_own; slice += warps)
         {
-          const Value product = rows.times(slice, u);
+          const Value product = slice == first ? rows.times_first(u) : rows.times(slice, u);
           const int   own     = slice * at_once + lane / rows.lanes;
           if (own < rows.n_own && lane % rows.lanes == 0)
             f(own, product);
@@ -195,21 +246,25 @@ namespace undine::particles
     __device__ __forceinline__ void
     multiply()
     {
-      float sums[2 * count] = {};
+      float sums[n_sums] = {};
       for_each_product([&](const int own, const Value &product) {
         const int local = rows.first_own + own;
-        Value     mine  = u[local];
-        Value     r     = diagonal[own] * mine;
-        Value     Au    = r - product;
-        w[local]        = Au;
-        put(row_of(local), Au);
+        Value     mine = u[local], residual = r[local];
+        Value     Au = diagonal[own] * mine - product;
+        w[local]     = Au;
+        put(rows.row_of(local), Au);
         for (int k = 0; k < count; ++k)
           {
-            sums[k] += Part::of(mine, k) * Part::of(r, k);
+            sums[k] += Part::of(mine, k) * Part::of(residual, k);
             sums[count + k] += Part::of(mine, k) * Part::of(Au, k);
           }
+        if constexpr (Correction::exists)
+          {
+            sums[2 * count] += residual * residual * inverse[local];
+            sums[n_sums - 1] += Au;
+          }
       });
-      reduce_warp(sums);
+      summation.add(sums);
     }
 
     __device__ __forceinline__ void
@@ -219,44 +274,12 @@ namespace undine::particles
         exchange.put_value(row * count + k, Part::of(value, k));
     }
 
-    __device__ __forceinline__ void
-    reduce_warp(float (&sums)[2 * count]) const
-    {
-#pragma unroll
-      for (int distance = 16; distance > 0; distance /= 2)
-#pragma unroll
-        for (int k = 0; k < 2 * count; ++k)
-          sums[k] += __shfl_xor_sync(0xffffffffu, sums[k], distance);
-      if ((threadIdx.x & 31) == 0)
-#pragma unroll
-        for (int k = 0; k < 2 * count; ++k)
-          shared.of_warps[k][threadIdx.x / 32] = sums[k];
-    }
-
-    /// Of all blocks; by the first warp, after all warps of the block have given theirs.
-    __device__ __forceinline__ Products
-    exchange_sums() const
-    {
-      const int lane = threadIdx.x;
-      Products  all;
-#pragma unroll
-      for (int k = 0; k < 2 * count; ++k)
-        {
-          all.values[k] = lane < static_cast<int>(blockDim.x) / 32 ? shared.of_warps[k][lane] : 0.f;
-#pragma unroll
-          for (int distance = 16; distance > 0; distance /= 2)
-            all.values[k] += __shfl_xor_sync(0xffffffffu, all.values[k], distance);
-        }
-      exchange.put_sums(all);
-      return exchange.template get_sums<2 * count>();
-    }
-
     /// With 1 / alpha the curvature is (w, u) - beta^2 last curvature.
     __device__ __forceinline__ void
     choose_step(const int iteration)
     {
-      const Products now     = exchange_sums();
-      const double   square  = total(now);
+      const Products now     = summation.total();
+      const double   square  = square_of(now);
       const double   goal    = general.bounds.tolerance * general.bounds.tolerance * size;
       const bool     goes_on = square > goal && iteration < general.bounds.max_iterations;
 #pragma unroll
@@ -288,14 +311,16 @@ namespace undine::particles
         inverse_last[k] = last.values[k] != 0 ? 1 / last.values[k] : 0.;
     }
 
-    /// The products of other blocks' rows, by all but the first warp; some on the way together.
+    /// The products of other blocks' rows, by all warps but those that collect sums; some on the
+    /// way together.
     __device__ __forceinline__ void
     fetch() const
     {
       constexpr int at_once = 4;
       const int     others  = (rows.n_local - rows.n_own) * count;
-      const int     threads = blockDim.x - 32;
-      for (int first = threadIdx.x - 32; first < others; first += at_once * threads)
+      const int     threads = blockDim.x - 32 * Summation::collectors;
+      for (int first = threadIdx.x - 32 * Summation::collectors; first < others;
+           first += at_once * threads)
         {
           int    from[at_once];
           float *to[at_once];
@@ -305,7 +330,7 @@ namespace undine::particles
               const int place = min(first + k * threads, others - 1);
               const int other = place / count, c = place % count;
               const int local = other < rows.first_own ? other : other + rows.n_own;
-              from[k]         = row_of(local) * count + c;
+              from[k]         = rows.row_of(local) * count + c;
               to[k]           = first + k * threads < others ? &Part::of(w[local], c) : nullptr;
             }
           exchange.template get_values<at_once>(to, from);
@@ -322,35 +347,38 @@ namespace undine::particles
           alpha[c] = shared.alpha[c];
           beta[c]  = shared.beta[c];
         }
-      for (int own = threadIdx.x; own < rows.n_own; own += blockDim.x)
-        {
-          Value p_l = p[own], x_l = x[own], u_l = u[rows.first_own + own];
-          for (int c = 0; c < count; ++c)
-            {
-              Part::of(p_l, c) = Part::of(u_l, c) + beta[c] * Part::of(p_l, c);
-              Part::of(x_l, c) += alpha[c] * Part::of(p_l, c);
-            }
-          p[own] = p_l;
-          x[own] = x_l;
-        }
-      __syncthreads();
       for (int local = threadIdx.x; local < rows.n_local; local += blockDim.x)
         {
-          Value w_l = w[local], u_l = u[local], t_l = t[local];
+          Value w_l = w[local], s_l = s[local], r_l = r[local];
+          if (rows.is_own(local))
+            {
+              const int own = local - rows.first_own;
+              Value     p_l = p[own], x_l = x[own], u_l = u[local];
+              for (int c = 0; c < count; ++c)
+                {
+                  Part::of(p_l, c) = Part::of(u_l, c) + beta[c] * Part::of(p_l, c);
+                  Part::of(x_l, c) += alpha[c] * Part::of(p_l, c);
+                }
+              p[own] = p_l;
+              x[own] = x_l;
+            }
           for (int c = 0; c < count; ++c)
             {
-              Part::of(t_l, c) = inverse[local] * Part::of(w_l, c) + beta[c] * Part::of(t_l, c);
-              Part::of(u_l, c) -= alpha[c] * Part::of(t_l, c);
+              Part::of(s_l, c) = Part::of(w_l, c) + beta[c] * Part::of(s_l, c);
+              Part::of(r_l, c) -= alpha[c] * Part::of(s_l, c);
             }
-          t[local] = t_l;
-          u[local] = u_l;
+          s[local] = s_l;
+          r[local] = r_l;
+          u[local] = preconditioned(local, r_l);
         }
     }
 
     const General &general;
-    ResidentRows   rows;
+    Rows           rows;
+    Correction     correction;
     BlockExchange  exchange;
     Shared        &shared;
+    Summation      summation;
 
     // Of the first warp.
     double   size = 0;                 ///< of the right-hand side
@@ -360,7 +388,7 @@ namespace undine::particles
 
     // In shared memory: of local unknowns; of own ones.
     float *inverse;
-    Value *u, *t, *w;
+    Value *u, *r, *s, *w;
     Value *p, *x;
     float *diagonal;
   };

@@ -10,33 +10,66 @@ namespace undine::particles
 {
   namespace kernels
   {
-    constexpr int resident_threads = 512;
+    constexpr int resident_threads = BlockSums<1>::threads;
 
     /// Falls back to the general solver where the system does not fit.
-    template <class Value>
-    __global__ void
-    __launch_bounds__(resident_threads, 1)
-      solve_resident(const __grid_constant__ ConjugateGradients<float, PackedEntry, Value> general,
-                     const BlockExchange::Workspace exchanged,
-                     const DeviceTeam::Workspace    team_workspace,
-                     const int                      room,
-                     unsigned int                  *outside,
-                     const int                      room_outside)
+    template <class Value, class Correction>
+    __device__ __forceinline__ void
+    solve_resident(const ConjugateGradients<float, PackedEntry, Value> &general,
+                   BlockExchange                                       &exchange,
+                   Correction                                          &correction,
+                   const DeviceTeam::Workspace                         &team_workspace,
+                   const ResidentRoom                                  &room)
     {
-      using Solver = ResidentGradients<Value>;
-      extern __shared__ __align__(16) char memory[];
-      __shared__ typename Solver::Shared   shared;
-      if (general.control->done())
-        return;
-      BlockExchange exchange(exchanged);
-      ResidentSetup setup(general.system.matrix, exchange, memory, room, outside, room_outside);
+      using Solver = ResidentGradients<Value, Correction>;
+      extern __shared__ __align__(16) char         memory[];
+      __shared__ typename Solver::Shared           shared;
+      ResidentSetup<Correction, Solver::most_held> setup(
+        general.system.matrix, exchange, correction, memory, room);
       if (setup.fill(Solver::per_local, Solver::per_own))
-        Solver(general, setup.rows, setup.vectors, exchange, shared)();
+        {
+          if constexpr (Correction::exists)
+            correction.invert(exchange, setup.reach, setup.vectors);
+          setup.hold();
+          Solver(general, setup.rows, correction, setup.vectors, exchange, shared)();
+        }
       else
         {
           DeviceTeam team(team_workspace, reinterpret_cast<Sums<DeviceTeam::most_sums> *>(memory));
           general(team);
         }
+    }
+
+    template <class Value>
+    __global__ void
+    __launch_bounds__(resident_threads, 1)
+      solve_plain(const __grid_constant__ ConjugateGradients<float, PackedEntry, Value> general,
+                  const BlockExchange::Workspace                                        exchanged,
+                  const DeviceTeam::Workspace team_workspace,
+                  const ResidentRoom          room)
+    {
+      if (general.control->done())
+        return;
+      BlockExchange exchange(exchanged);
+      NoCorrection  none;
+      solve_resident(general, exchange, none, team_workspace, room);
+    }
+
+    /// With CoarseCorrection, whose aggregates are the rows of `each` blocks.
+    __global__ void
+    __launch_bounds__(resident_threads, 1)
+      solve_corrected(const __grid_constant__ ConjugateGradients<float, PackedEntry, float> general,
+                      const BlockExchange::Workspace exchanged,
+                      const DeviceTeam::Workspace    team_workspace,
+                      const ResidentRoom             room,
+                      const int                      each)
+    {
+      __shared__ CoarseCorrection::Shared shared;
+      if (general.control->done())
+        return;
+      BlockExchange    exchange(exchanged);
+      CoarseCorrection correction(shared, general.system.diagonal, each);
+      solve_resident(general, exchange, correction, team_workspace, room);
     }
   } // namespace kernels
 } // namespace undine::particles

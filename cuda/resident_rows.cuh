@@ -6,18 +6,36 @@
 
 namespace undine::particles
 {
-  /// The rows of the matrix that a block works on, in its shared memory. Blocks share the rows that
-  /// are not empty evenly. Columns are numbered locally: all rows that its own rows refer to, its
-  /// own among them, in the order of the matrix. A warp works on 32 / lanes rows at once, `lanes`
-  /// threads on each.
-  struct ResidentRows
+  /// The rows that a block has and the columns that they refer to, its own rows among them,
+  /// numbered in the order of the matrix. Blocks share the rows that are not empty evenly.
+  struct ResidentColumns
   {
     int  n_own;     ///< rows
     int  n_local;   ///< columns
     int  first_own; ///< local number of the first own row
-    int  lanes;     ///< threads a row
     int *global;    ///< number in the matrix of a local column
-    int *begins;    ///< of the warps' entries
+
+    __device__ int
+    row_of(const int local) const
+    {
+      return global[local];
+    }
+
+    __device__ bool
+    is_own(const int local) const
+    {
+      return local >= first_own && local < first_own + n_own;
+    }
+  };
+
+  /// The rows of the matrix that a block works on, in its shared memory. A warp works on a slice of
+  /// 32 / lanes rows at once, `lanes` threads on each; the first entries of its first slice are in
+  /// registers, up to most_held of a thread.
+  template <int most_held>
+  struct ResidentRows : ResidentColumns
+  {
+    int  lanes;  ///< threads a row
+    int *begins; ///< of the warps' entries
     /// Local column and root of the coefficient, as in PackedEntry; of the slices from `n_inside`
     /// on outside, in global memory. @{
     unsigned int *entries;
@@ -26,23 +44,45 @@ namespace undine::particles
     /// @}
     float scale; ///< of the coefficients
 
+    int          n_held; ///< of this thread's entries, the same number in all lanes of a warp
+    unsigned int held[most_held > 0 ? most_held : 1];
+
     __device__ static constexpr int
     rows_at_once(const int lanes)
     {
       return 32 / lanes;
     }
 
-    /// sum_j k_ij x_j for own row i, summed over its lanes, which must all call this.
+    /// The slice whose first entries are held.
+    __device__ __forceinline__ static int
+    first_slice()
+    {
+      return static_cast<int>(threadIdx.x) / 32;
+    }
+
+    /// sum_j k_ij x_j for the rows of a slice, over their lanes, which must all call this. @{
+    template <class Value>
+    __device__ __forceinline__ Value
+    times_first(const Value *x) const
+    {
+      constexpr int at_once = 4;
+      Value         sum     = Value();
+#pragma unroll
+      for (int first = 0; first < most_held; first += at_once)
+        if (first < n_held)
+#pragma unroll
+          for (int k = first; k < first + at_once; ++k)
+            add(sum, held[k], x);
+      return scaled(sum + times_stored(first_slice(), x));
+    }
+
     template <class Value>
     __device__ __forceinline__ Value
     times(const int slice, const Value *x) const
     {
-      Value sum =
-        slice < n_inside ? sum_over<4>(slice, entries, x) : sum_over<8>(slice, entries_outside, x);
-      for (int distance = 1; distance < lanes; distance *= 2)
-        sum += shuffled(sum, distance);
-      return (scale / (float(PackedEntry::largest) * float(PackedEntry::largest))) * sum;
+      return scaled(times_stored(slice, x));
     }
+    /// @}
 
     __device__ __forceinline__ unsigned int *
     entries_of(const int slice) const
@@ -51,6 +91,24 @@ namespace undine::particles
     }
 
   private:
+    template <class Value>
+    __device__ __forceinline__ Value
+    times_stored(const int slice, const Value *x) const
+    {
+      return slice < n_inside ? sum_over<4>(slice, entries, x)
+                              : sum_over<8>(slice, entries_outside, x);
+    }
+
+    /// Over the lanes of a row, in the units of the matrix.
+    template <class Value>
+    __device__ __forceinline__ Value
+    scaled(Value sum) const
+    {
+      for (int distance = 1; distance < lanes; distance *= 2)
+        sum += shuffled(sum, distance);
+      return (scale / (float(PackedEntry::largest) * float(PackedEntry::largest))) * sum;
+    }
+
     /// As many entries at once as a thread has the patience to wait for.
     template <int at_once, class Value>
     __device__ __forceinline__ Value
