@@ -78,6 +78,44 @@ namespace
     return std::sqrt(largest);
   }
 
+  /// The largest difference over the largest value.
+  double
+  relative_difference(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    double difference = 0, largest = 0;
+    for (std::size_t i = 0; i < b.size(); ++i)
+      {
+        difference = std::max(difference, std::abs(a[i] - b[i]));
+        largest    = std::max(largest, std::abs(b[i]));
+      }
+    return largest > 0 ? difference / largest : difference;
+  }
+
+  /// A drop with a ball in it that crosses free space.
+  template <int dim>
+  ParticleScene<dim>
+  drifting()
+  {
+    ParticleScene<dim> scene(0.02);
+    BodySetup          ball;
+    ball.youngs_modulus = 1e5;
+    const int  body     = scene.add_body(ball);
+    const auto velocity = along<dim>(0, 1);
+    const auto within   = [&](const Point<dim> &x, const double radius) {
+      return norm_square(x) < radius * radius * scene.setup.spacing * scene.setup.spacing;
+    };
+    scene.for_each_point(cube<dim>(-8), cube<dim>(8), [&](const Point<dim> &x) {
+      if (within(x, 3))
+        scene.add(x, Kind::solid, body + 1, velocity);
+    });
+    scene.for_each_point(cube<dim>(-8), cube<dim>(8), [&](const Point<dim> &x) {
+      if (!within(x, 3) && within(x, 8))
+        scene.add(x, Kind::fluid, 0, velocity);
+    });
+    scene.set_free_space(1);
+    return scene;
+  }
+
   /// A tank with water that covers a part of its floor, `length` of 12 spacings, and a ball above.
   template <int dim>
   ParticleScene<dim>
@@ -133,6 +171,51 @@ namespace
     });
   }
 } // namespace
+
+
+TEMPLATE_TEST_CASE_SIG("Each pass on the device computes what it does on the host",
+                       "[particles]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  if (is_skipped<dim>())
+    return;
+  auto scene                           = tank<dim>(12, 8);
+  scene.setup.numerics.tolerance       = 1e-7;
+  scene.setup.numerics.faces_tolerance = 1e-7;
+  const auto host = engine_on("host", scene), device = engine_on("device", scene);
+  for (const auto &engine : {host.get(), device.get()})
+    CHECK(engine->advance(1e-4).sub_steps == 1);
+  const auto expected = host->pass_results(), found = device->pass_results();
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k)
+    {
+      INFO(found[k].name);
+      CHECK(relative_difference(found[k].values, expected[k].values) < 1e-5);
+    }
+}
+
+
+TEMPLATE_TEST_CASE_SIG("After a hundred steps at rest and in a drift particles are where they are "
+                       "on the host",
+                       "[particles]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  if (is_skipped<dim>())
+    return;
+  const auto   scene = GENERATE(tank<dim>(12, 8), drifting<dim>());
+  const auto   host = engine_on("host", scene), device = engine_on("device", scene);
+  unsigned int steps = 0;
+  while (steps < 100)
+    {
+      steps += host->advance(0.005).sub_steps;
+      device->advance(0.005);
+    }
+  CHECK(largest_distance(state_of(*host), state_of(*device)) < 1e-2 * scene.setup.spacing);
+}
 
 
 TEMPLATE_TEST_CASE_SIG("One frame on the device is that on the host, particle by particle",
