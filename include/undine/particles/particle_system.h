@@ -125,7 +125,7 @@ namespace undine::particles
     std::vector<PassResult>
     pass_results() const
     {
-      return particles::pass_results<Real>(now, next, equation, bodies);
+      return particles::pass_results(now, next, equation, bodies);
     }
 
   private:

@@ -116,10 +116,16 @@ namespace
     return scene;
   }
 
+  enum class Ball
+  {
+    above,
+    without
+  };
+
   /// A tank with water that covers a part of its floor, `length` of 12 spacings, and a ball above.
   template <int dim>
   ParticleScene<dim>
-  tank(const int length, const int depth)
+  tank(const int length, const int depth, const Ball with = Ball::above)
   {
     ParticleScene<dim>   scene(0.02);
     std::array<int, dim> size = cube<dim>(12), end = cube<dim>(12), none = cube<dim>(0);
@@ -128,14 +134,14 @@ namespace
     BodySetup ball;
     ball.density        = 500;
     ball.youngs_modulus = 1e5;
-    const int body      = scene.add_body(ball);
+    const int body      = with == Ball::above ? scene.add_body(ball) : -1;
     auto      centre    = along<dim>(dim - 1, (depth + 5.5) * scene.setup.spacing);
     for (int axis = 0; axis < dim - 1; ++axis)
       centre[axis] = 6 * scene.setup.spacing;
     std::array<int, dim> above = cube<dim>(12);
     above[dim - 1]             = depth + 12;
     scene.for_each_point(none, above, [&](const Point<dim> &x) {
-      if (norm_square(x - centre) < 9 * scene.setup.spacing * scene.setup.spacing)
+      if (body >= 0 && norm_square(x - centre) < 9 * scene.setup.spacing * scene.setup.spacing)
         scene.add(x, Kind::solid, body + 1, Point<dim>::zero());
     });
     scene.add_tank(size, 30);
@@ -170,9 +176,27 @@ namespace
       return state.tags[i].kind() == Kind::fluid ? state.positions[i][0] : std::nan("");
     });
   }
+
+  template <int dim>
+  void
+  check_hundred_steps(const ParticleScene<dim> &scene)
+  {
+    if (is_skipped<dim>())
+      return;
+    const auto   host = engine_on("host", scene), device = engine_on("device", scene);
+    unsigned int steps = 0;
+    while (steps < 100)
+      {
+        steps += host->advance(0.005).sub_steps;
+        device->advance(0.005);
+      }
+    CHECK(largest_distance(state_of(*host), state_of(*device)) < 1e-2 * scene.setup.spacing);
+  }
 } // namespace
 
 
+/// What the solvers find differs by more than what their equations do, which are stiff: it may be
+/// as far from the solution in double precision as on the host, and no farther.
 TEMPLATE_TEST_CASE_SIG("Each pass on the device computes what it does on the host",
                        "[particles]",
                        ((int dim), dim),
@@ -181,40 +205,49 @@ TEMPLATE_TEST_CASE_SIG("Each pass on the device computes what it does on the hos
 {
   if (is_skipped<dim>())
     return;
-  auto scene                           = tank<dim>(12, 8);
+  auto scene                           = tank<dim>(6, 10);
   scene.setup.numerics.tolerance       = 1e-7;
   scene.setup.numerics.faces_tolerance = 1e-7;
+  const auto exact                     = scene.engine();
+  exact->advance(0.03);
+  exact->fetch(scene.state);
+  scene.state.guesses.clear();
+  const auto reference = scene.engine(Precision::double_precision);
   const auto host = engine_on("host", scene), device = engine_on("device", scene);
-  for (const auto &engine : {host.get(), device.get()})
+  for (const auto &engine : {reference.get(), host.get(), device.get()})
     CHECK(engine->advance(1e-4).sub_steps == 1);
-  const auto expected = host->pass_results(), found = device->pass_results();
-  REQUIRE(found.size() == expected.size());
-  for (std::size_t k = 0; k < found.size(); ++k)
+  const auto expected = reference->pass_results(), on_host = host->pass_results(),
+             on_device = device->pass_results();
+  REQUIRE(on_device.size() == expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k)
     {
-      INFO(found[k].name);
-      CHECK(relative_difference(found[k].values, expected[k].values) < 1e-5);
+      INFO(expected[k].name);
+      const double of_host = relative_difference(on_host[k].values, expected[k].values);
+      INFO("single precision on the host differs from double by " << of_host);
+      CHECK(relative_difference(on_device[k].values, on_host[k].values) <
+            std::max(1e-5, 2 * of_host));
+      CHECK(of_host < 1e-3);
     }
 }
 
 
-TEMPLATE_TEST_CASE_SIG("After a hundred steps at rest and in a drift particles are where they are "
-                       "on the host",
+TEMPLATE_TEST_CASE_SIG("After a hundred steps at rest particles are where they are on the host",
                        "[particles]",
                        ((int dim), dim),
                        2,
                        3)
 {
-  if (is_skipped<dim>())
-    return;
-  const auto   scene = GENERATE(tank<dim>(12, 8), drifting<dim>());
-  const auto   host = engine_on("host", scene), device = engine_on("device", scene);
-  unsigned int steps = 0;
-  while (steps < 100)
-    {
-      steps += host->advance(0.005).sub_steps;
-      device->advance(0.005);
-    }
-  CHECK(largest_distance(state_of(*host), state_of(*device)) < 1e-2 * scene.setup.spacing);
+  check_hundred_steps(tank<dim>(12, 8, Ball::without));
+}
+
+
+TEMPLATE_TEST_CASE_SIG("After a hundred steps of a drift particles are where they are on the host",
+                       "[particles]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  check_hundred_steps(drifting<dim>());
 }
 
 
