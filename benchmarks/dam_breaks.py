@@ -3,7 +3,8 @@
 """Dam breaks of particles against experiments: the front along the floor (Martin and Moyce 1952, Koshizuka and Oka 1996)
 and the pressure at the wall that it hits (Lobovsky et al. 2014), in the plane and in space.
 
-usage: benchmarks/dam_breaks.py [--program PROGRAM] [--executor host|device] [--spacing METRES] [--set SECTION/KEY=VALUE]...
+usage: benchmarks/dam_breaks.py [SCENE...] [--program PROGRAM] [--executor host|device] [--spacing METRES]
+                                [--set SECTION/KEY=VALUE]...
 
 Fronts: z / a over T = t sqrt(2 g / a), a the column's width; the mean and the largest deviation from each experiment
 before T = 2 and from then on. Pressures: over rho g H, time over sqrt(H / g); the largest mean over 15 ms of the 200
@@ -21,6 +22,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "tests"))
 import scene_tools  # noqa: E402
 
+FRONT = "dam_break_particles.prm"
+IMPACTS = ["dam_break_impact_particles.prm", "dam_break_impact_particles_3d.prm"]
 GRAVITY, DENSITY = 9.81, 1000.0
 WIDTH = 0.146  # of the column whose front is followed [m]
 HEIGHT = 0.3   # of the column that hits the wall [m]
@@ -99,14 +102,14 @@ def compare_pressure(scene, arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("scenes", nargs="*", default=[FRONT] + IMPACTS, metavar="SCENE")
     parser.add_argument("--program", default=os.path.join(ROOT, "build", "undine"))
     parser.add_argument("--executor", default="host")
     parser.add_argument("--spacing", type=float, help="of the dam that hits the wall [m]")
     parser.add_argument("--set", action="append", default=[])
     arguments = parser.parse_args()
-    compare_front("dam_break_particles.prm", arguments)
-    for scene in ("dam_break_impact_particles.prm", "dam_break_impact_particles_3d.prm"):
-        compare_pressure(scene, arguments)
+    for scene in arguments.scenes:
+        (compare_front if scene == FRONT else compare_pressure)(scene, arguments)
 
 
 if __name__ == "__main__":
