@@ -4,8 +4,9 @@
 
 #include <undine/particles/cell_grid.h>
 #include <undine/particles/lanes.h>
-#include <undine/particles/matrix.h>
 #include <undine/particles/neighbours.h>
+#include <undine/particles/rotation.h>
+#include <undine/particles/volume_law.h>
 
 namespace undine::particles
 {
@@ -175,7 +176,7 @@ namespace undine::particles
       const auto F          = lanes.sum(moment) * inverse_moment;
       const auto R          = rotation_of(F, last);
       const auto P =
-        stress(properties, F, R, lanes.sum(rate) * inverse_moment, carried, surface * R);
+        stress(properties, F, R, lanes.sum(rate) * inverse_moment, carried, surface * cofactors(F));
       if (lanes.rank() != 0)
         return;
       bodies.deformations[i] = F;
@@ -269,14 +270,11 @@ namespace undine::particles
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
           square += (F[a][b] - R[a][b]) * (F[a][b] - R[a][b]);
-      const Real strain = double_contraction(R, F) - dim;
       Real       bonds  = 0;
       for_each_bond(i, OneLane(), [&](const Bond &bond) {
         bonds += bond.weight * norm_square(bond.x - F * bond.X);
       });
-      const Real excess = excess_squeeze(strain);
-      return properties.mu * square + properties.lambda / 2 * strain * strain -
-             resistance(properties, excess) * excess / 3 +
+      return properties.mu * square + volume_law(properties).energy(determinant(F)) +
              properties.hourglass * properties.mu * inverse_mean(i) * bonds;
     }
 
@@ -297,20 +295,11 @@ namespace undine::particles
       return bodies.reference[i].inverse_mean;
     }
 
-    /// Linear elasticity lets a body collapse: once a quarter of its volume is gone, squeezing it
-    /// meets a growing resistance, a pressure of 2 (lambda + 2 mu) e^2 where e = s + 1/4 < 0 [Pa].
     UNDINE_HOST_DEVICE
-    static Real
-    resistance(const ElasticMaterial<Real> &properties, const Real excess)
+    static VolumeLaw<Real>
+    volume_law(const ElasticMaterial<Real> &properties)
     {
-      return 2 * (properties.lambda + 2 * properties.mu) * excess * excess;
-    }
-
-    UNDINE_HOST_DEVICE
-    static Real
-    excess_squeeze(const Real strain)
-    {
-      return minimum(strain + Real(0.25), Real(0));
+      return {properties.lambda, properties.lambda + 2 * properties.mu};
     }
 
     /// rho c_p, the scale of damping [kg/m^2 s].
@@ -335,15 +324,14 @@ namespace undine::particles
     {
       const Real bulk_viscosity =
         is_damped ? properties.bulk_damping * sound_impedance(properties) * spacing : Real(0);
-      const Real strain = double_contraction(R, F) - dim; // tr(R^T F - I)
-      const Real pull   = properties.lambda * strain -
-                        resistance(properties, excess_squeeze(strain)) +
-                        bulk_viscosity * double_contraction(R, F_rate);
+      const auto C    = cofactors(F); // dJ/dF
+      const Real pull = volume_law(properties).tension(determinant(F)) +
+                        bulk_viscosity * double_contraction(C, F_rate);
       Matrix<dim, Real> result;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
           result[a][b] =
-            2 * properties.mu * (F[a][b] - R[a][b]) + pull * R[a][b] + carried * surface[a][b];
+            2 * properties.mu * (F[a][b] - R[a][b]) + pull * C[a][b] + carried * surface[a][b];
       return result;
     }
   };
