@@ -213,7 +213,7 @@ namespace undine::particles
       return (1 / properties.density) * lanes.sum(force) - carried;
     }
 
-    /// Changes of F and of P A^{-1} with places that move along u, rotations held.
+    /// Changes of F and of P A^{-1} with places that move along u, R and the cofactors of F held.
     UNDINE_HOST_DEVICE
     void
     differentiate(const int                i,
@@ -226,12 +226,14 @@ namespace undine::particles
         moment.add_outer_product(bond.weight, u[bond.j] - u[i], bond.X);
       });
       const auto       &properties = material(i);
-      const auto        F = moment * bodies.inverse_moments[i], R = bodies.rotations[i];
-      const Real        pull = properties.lambda * double_contraction(R, F);
+      const auto        F = moment * bodies.inverse_moments[i];
+      const auto        C = cofactors(bodies.deformations[i]);
+      const Real        J = determinant(bodies.deformations[i]);
+      const Real        pull = volume_law(properties).stiffness(J) * double_contraction(C, F);
       Matrix<dim, Real> stress;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
-          stress[a][b] = 2 * properties.mu * F[a][b] + pull * R[a][b];
+          stress[a][b] = 2 * properties.mu * F[a][b] + pull * C[a][b];
       F_changes[i]      = F;
       stress_changes[i] = stress * bodies.inverse_moments[i];
     }
@@ -257,6 +259,28 @@ namespace undine::particles
           (a_i * (u_ij - F_i * bond.X) + bond.inverse_mean * (u_ij - F_changes[bond.j] * bond.X));
       });
       return (1 / properties.density) * force;
+    }
+
+    /// The square of the speed of pressure waves where they are fastest, after deform() of all
+    /// [m^2/s^2].
+    UNDINE_HOST_DEVICE
+    Real
+    sound_square(const int i) const
+    {
+      const auto &properties = material(i);
+      const auto  F = bodies.deformations[i], C = cofactors(F);
+      Real        square = 0; // of |C C^T - 1|, which bounds the change of the largest stretch
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          {
+            Real entry = a == b ? Real(-1) : Real(0);
+            for (int c = 0; c < dim; ++c)
+              entry += C[a][c] * C[b][c];
+            square += entry * entry;
+          }
+      return (2 * properties.mu +
+              volume_law(properties).stiffness(determinant(F)) * (1 + sqrt(square))) /
+             properties.density;
     }
 
     /// Density of elastic energy at a particle [J/m^dim], after deform() of all.

@@ -38,6 +38,7 @@ namespace undine::particles
     Real                       carry_share; ///< of the difference, in a sub-step [1]
     Place<dim, Real>          *places;      ///< of the sorted particles; receives the result
     Motion<dim, Real>         *motions;
+    StepBounds                 bounds;
     StepControl               *control;
 
     template <class Team>
@@ -45,33 +46,81 @@ namespace undine::particles
     void
     operator()(Team &team) const
     {
-      const int steps = control->elastic_steps;
-      if (control->done() || steps == 0)
+      if (control->done())
         return;
       ElasticStep now = *this; // its points and points_next change places
-      const Real  h   = static_cast<Real>(control->dt / steps);
       const int   n   = elasticity.bodies.n;
       team.for_each_by_lanes(n, [&](const int i, const auto &lanes) { now.begin(i, lanes); });
       team.sync();
-      if (control->elastic_is_implicit)
+      team.for_each_by_lanes(n, [&](const int i, const auto &lanes) {
+        now.elasticity.deform(i, lanes);
+        now.measure_rate(i, lanes);
+      });
+      team.sync();
+      const int  wanted      = number_of_steps();
+      const bool is_implicit = bounds.most_elastic_steps > 0 && wanted > bounds.most_elastic_steps;
+      const int  steps       = is_implicit ? 1 : wanted;
+      const Real h           = static_cast<Real>(control->dt / steps);
+      if (is_implicit)
         now.move_implicitly(team, h);
       else
         for (int step = 0; step < steps; ++step)
           {
-            team.for_each_by_lanes(
-              n, [&](const int i, const auto &lanes) { now.elasticity.deform(i, lanes); });
-            team.sync();
+            if (step > 0)
+              {
+                team.for_each_by_lanes(
+                  n, [&](const int i, const auto &lanes) { now.elasticity.deform(i, lanes); });
+                team.sync();
+              }
             team.for_each_by_lanes(n,
                                    [&](const int i, const auto &lanes) { now.move(i, h, lanes); });
             team.sync();
             now.swap();
           }
+      if (team.is_first() && purpose != ElasticRun::attempt)
+        control->elastic_steps_total += steps;
       team.for_each(n, [&](const int i) { end(i, now); });
       if (purpose == ElasticRun::final && carry_share > 0)
         carry_pressure(team);
     }
 
   private:
+    /// How far the fastest waves and the hardest contacts are from those of bodies at rest decides
+    /// about the steps. A run that repeats another one knows already.
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    void
+    measure_rate(const int i, const Lanes &lanes) const
+    {
+      if (purpose == ElasticRun::final)
+        return;
+      const Real contacts = contact.frequency_square(i, lanes);
+      if (lanes.rank() != 0)
+        return;
+      const Real square = (elasticity.sound_square(i) / (elasticity.spacing * elasticity.spacing) +
+                           contacts / lattice_frequency_square) /
+                          reserve;
+      if (square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate))
+        atomic_maximum(&control->elastic_rate, static_cast<float>(sqrt(square)));
+    }
+
+    /// Squares of the highest frequency of a lattice of particles over c_p / l0, and by what they
+    /// may grow in contacts and deformed bodies before steps become shorter: explicit steps are
+    /// stable up to about 0.95 l0 / c_p. @{
+    static constexpr Real lattice_frequency_square = Real(4.4);
+    static constexpr Real reserve                  = Real(1.5);
+    /// @}
+
+    UNDINE_HOST_DEVICE
+    int
+    number_of_steps() const
+    {
+      const double rate =
+        maximum(bounds.elastic_rate, static_cast<double>(number_of_bits(control->elastic_rate)));
+      return static_cast<int>(
+        minimum(maximum(ceil(control->dt * rate / bounds.elastic_share), 1.), 1e5));
+    }
+
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
     /// swing with their own sound.
     template <class Team>
