@@ -7,7 +7,7 @@
 namespace undine::particles
 {
   /// Contact of elastic bodies with walls, with each other, and of parts of a body that were not
-  /// neighbours: particles closer than the spacing repel with the force k (q^2 - q) r, q = l0 / |r|,
+  /// neighbours: particles closer than the spacing repel with the force k (q^4 - q^3) r, q = l0 / |r|,
   /// equal and opposite: a spring of stiffness k when they touch, a barrier when they are pressed
   /// into each other. Who may come into contact is listed once for all steps of a run.
   template <int dim, class Real>
@@ -69,7 +69,7 @@ namespace undine::particles
         return force;
       for_each_touch(
         identity, lanes, [&](const Vector<dim, Real> &r, const Real stiffness, const Real q) {
-          force += (stiffness * (q * q - q)) * r;
+          force += (stiffness * (q - 1) * q * q * q) * r;
         });
       return inverse_mass(identity) * lanes.sum(force);
     }
@@ -85,7 +85,7 @@ namespace undine::particles
         return sum;
       for_each_touch(
         identity, lanes, [&](const Vector<dim, Real> &, const Real stiffness, const Real q) {
-          sum += 2 * stiffness * q * q;
+          sum += 2 * stiffness * (3 * q - 2) * q * q * q;
         });
       return inverse_mass(identity) * lanes.sum(sum);
     }

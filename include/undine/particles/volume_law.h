@@ -7,7 +7,7 @@
 namespace undine::particles
 {
   /// What it costs to change the volume of an elastic body to J of that at rest:
-  ///     W(J) = lambda/2 (J - 1)^2 + 2 M (b^2/J - J - 2 b log(b/J)),   M = lambda + 2 mu,
+  ///     W(J) = lambda/2 (J - 1)^2 + 2 M (b^4 / (3 J^3) - 2 b^2 / J - J + 8 b / 3),   M = lambda + 2 mu,
   /// the second term below b = 3/4 only, a barrier without which bodies collapse. Below `flat` the
   /// tension goes on linearly, also for inverted deformations.
   template <class Real>
@@ -17,7 +17,7 @@ namespace undine::particles
     Real modulus; ///< M [Pa]
 
     static constexpr Real onset = Real(0.75); ///< b [1]
-    static constexpr Real flat  = Real(0.1);  ///< [1]
+    static constexpr Real flat  = Real(0.2);  ///< [1]
 
     /// [Pa]
     UNDINE_HOST_DEVICE
@@ -28,7 +28,8 @@ namespace undine::particles
       if (J < onset)
         {
           const Real j = maximum(J, flat), below = J - j;
-          result += 2 * modulus * (onset * onset / j - j - 2 * onset * log(onset / j)) +
+          const Real ratio = onset / j;
+          result += 2 * modulus * (onset * (ratio * (ratio * ratio / 3 - 2) + Real(8) / 3) - j) +
                     below * (barrier(j) + barrier_stiffness(j) * below / 2);
         }
       return result;
@@ -61,7 +62,7 @@ namespace undine::particles
     Real
     barrier(const Real j) const
     {
-      const Real excess = onset / j - 1;
+      const Real ratio = onset / j, excess = ratio * ratio - 1;
       return -2 * modulus * excess * excess;
     }
 
@@ -69,7 +70,8 @@ namespace undine::particles
     Real
     barrier_stiffness(const Real j) const
     {
-      return 4 * modulus * (onset / j - 1) * onset / (j * j);
+      const Real square = onset / j * (onset / j);
+      return 8 * modulus * (square - 1) * square / j;
     }
   };
 } // namespace undine::particles
