@@ -51,32 +51,10 @@ namespace undine::particles
       ElasticStep now = *this; // its points and points_next change places
       const int   n   = elasticity.bodies.n;
       team.for_each_by_lanes(n, [&](const int i, const auto &lanes) { now.begin(i, lanes); });
+      if (team.is_first())
+        control->elastic_rates[0] = control->elastic_rates[1] = 0;
       team.sync();
-      team.for_each_by_lanes(n, [&](const int i, const auto &lanes) {
-        now.elasticity.deform(i, lanes);
-        now.measure_rate(i, lanes);
-      });
-      team.sync();
-      const int  wanted      = number_of_steps();
-      const bool is_implicit = bounds.most_elastic_steps > 0 && wanted > bounds.most_elastic_steps;
-      const int  steps       = is_implicit ? 1 : wanted;
-      const Real h           = static_cast<Real>(control->dt / steps);
-      if (is_implicit)
-        now.move_implicitly(team, h);
-      else
-        for (int step = 0; step < steps; ++step)
-          {
-            if (step > 0)
-              {
-                team.for_each_by_lanes(
-                  n, [&](const int i, const auto &lanes) { now.elasticity.deform(i, lanes); });
-                team.sync();
-              }
-            team.for_each_by_lanes(n,
-                                   [&](const int i, const auto &lanes) { now.move(i, h, lanes); });
-            team.sync();
-            now.swap();
-          }
+      const int steps = is_stiff() ? now.move_implicitly(team) : now.move_explicitly(team);
       if (team.is_first() && purpose != ElasticRun::attempt)
         control->elastic_steps_total += steps;
       team.for_each(n, [&](const int i) { end(i, now); });
@@ -85,15 +63,60 @@ namespace undine::particles
     }
 
   private:
-    /// How far the fastest waves and the hardest contacts are from those of bodies at rest decides
-    /// about the steps. A run that repeats another one knows already.
+    /// Would it take too many explicit steps?
+    UNDINE_HOST_DEVICE
+    bool
+    is_stiff() const
+    {
+      return bounds.most_elastic_steps > 0 &&
+             number_of_steps(control->dt, bounds.elastic_rate) > bounds.most_elastic_steps;
+    }
+
+    /// Explicit steps in `time` [s].
+    UNDINE_HOST_DEVICE
+    int
+    number_of_steps(const double time, const double rate) const
+    {
+      return static_cast<int>(minimum(maximum(ceil(time * rate / bounds.elastic_share), 1.), 1e5));
+    }
+
+    /// Steps follow what the rate is at their beginning. Returns how many they were.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    int
+    move_explicitly(Team &team)
+    {
+      const int n    = bodies().n;
+      double    left = control->dt;
+      for (int step = 0;; ++step)
+        {
+          std::uint32_t *const measured = &control->elastic_rates[step % 2];
+          team.for_each_by_lanes(n, [&](const int i, const auto &lanes) {
+            elasticity.deform(i, lanes);
+            measure_rate(i, lanes, measured);
+          });
+          team.sync();
+          const double rate =
+            maximum(bounds.elastic_rate, static_cast<double>(number_of_bits(*measured)));
+          const int  steps = number_of_steps(left, rate);
+          const Real h     = static_cast<Real>(left / steps);
+          team.for_each_by_lanes(n, [&](const int i, const auto &lanes) { move(i, h, lanes); });
+          if (team.is_first())
+            control->elastic_rates[(step + 1) % 2] = 0;
+          team.sync();
+          swap();
+          if (steps == 1)
+            return step + 1;
+          left -= left / steps;
+        }
+    }
+
+    /// How far the fastest waves and the hardest contacts are from those of bodies at rest.
     template <class Lanes>
     UNDINE_HOST_DEVICE
     void
-    measure_rate(const int i, const Lanes &lanes) const
+    measure_rate(const int i, const Lanes &lanes, std::uint32_t *measured) const
     {
-      if (purpose == ElasticRun::final)
-        return;
       const Real contacts = contact.frequency_square(i, lanes);
       if (lanes.rank() != 0)
         return;
@@ -101,7 +124,7 @@ namespace undine::particles
                            contacts / lattice_frequency_square) /
                           reserve;
       if (square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate))
-        atomic_maximum(&control->elastic_rate, static_cast<float>(sqrt(square)));
+        atomic_maximum(measured, static_cast<float>(sqrt(square)));
     }
 
     /// Squares of the highest frequency of a lattice of particles over c_p / l0, and by what they
@@ -110,16 +133,6 @@ namespace undine::particles
     static constexpr Real lattice_frequency_square = Real(4.4);
     static constexpr Real reserve                  = Real(1.5);
     /// @}
-
-    UNDINE_HOST_DEVICE
-    int
-    number_of_steps() const
-    {
-      const double rate =
-        maximum(bounds.elastic_rate, static_cast<double>(number_of_bits(control->elastic_rate)));
-      return static_cast<int>(
-        minimum(maximum(ceil(control->dt * rate / bounds.elastic_share), 1.), 1e5));
-    }
 
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
     /// swing with their own sound.
@@ -181,10 +194,11 @@ namespace undine::particles
     /// One step of backward Euler; what contacts and pressures do is held constant.
     template <class Team>
     UNDINE_HOST_DEVICE
-    void
-    move_implicitly(Team &team, const Real h)
+    int
+    move_implicitly(Team &team)
     {
-      const int n          = bodies().n;
+      const int  n         = bodies().n;
+      const Real h         = static_cast<Real>(control->dt);
       elasticity.is_damped = false;
       team.for_each_by_lanes(n,
                              [&](const int i, const auto &lanes) { elasticity.deform(i, lanes); });
@@ -201,6 +215,7 @@ namespace undine::particles
       });
       team.sync();
       swap();
+      return 1;
     }
 
     template <class Lanes>

@@ -60,7 +60,8 @@ namespace undine::particles
     double dt                  = 0;     ///< present sub-step [s]
 
     std::uint32_t largest_speed = 0; ///< in the last sub-step, bits of a float [m/s]
-    std::uint32_t elastic_rate  = 0; ///< as in StepBounds, of deformed bodies, bits of a float
+    /// As in StepBounds, of deformed bodies, bits of floats: of this explicit step and the next.
+    std::uint32_t elastic_rates[2] = {};
     unsigned int  failures      = 0; ///< bits of Failure
 
     unsigned int sub_steps                                  = 0; ///< in this frame so far
@@ -106,7 +107,6 @@ namespace undine::particles
       c.elapsed          = parts > 1 ? c.elapsed + c.dt : c.frame;
       c.smallest_dt      = c.sub_steps == 0 ? c.dt : minimum(c.smallest_dt, c.dt);
       c.largest_speed    = 0;
-      c.elastic_rate     = 0;
       ++c.bounded_by[static_cast<int>(bound)];
       ++c.sub_steps;
     }
