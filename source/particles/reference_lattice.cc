@@ -17,7 +17,7 @@ namespace undine::particles
     material_of(const BodySetup &body, const int dim, const double spacing)
     {
       const double E = body.youngs_modulus, nu = body.poissons_ratio;
-      const double lambda  = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
+      const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
       const double contact = body.contact_modulus > 0 ? body.contact_modulus : lambda + 2 * mu;
       return {static_cast<Real>(lambda),
               static_cast<Real>(mu),

@@ -7,9 +7,9 @@
 namespace undine::particles
 {
   /// Contact of elastic bodies with walls, with each other, and of parts of a body that were not
-  /// neighbours: particles closer than the spacing repel with the force k (q^4 - q^3) r, q = l0 / |r|,
-  /// equal and opposite: a spring of stiffness k when they touch, a barrier when they are pressed
-  /// into each other. Who may come into contact is listed once for all steps of a run.
+  /// neighbours: particles closer than the spacing repel with the force k (q^4 - q^3) r, q = l0 /
+  /// |r|, equal and opposite: a spring of stiffness k when they touch, a barrier when they are
+  /// pressed into each other. Who may come into contact is listed once for all steps of a run.
   template <int dim, class Real>
   struct Contact
   {

@@ -226,10 +226,10 @@ namespace undine::particles
         moment.add_outer_product(bond.weight, u[bond.j] - u[i], bond.X);
       });
       const auto       &properties = material(i);
-      const auto        F = moment * bodies.inverse_moments[i];
-      const auto        C = cofactors(bodies.deformations[i]);
-      const Real        J = determinant(bodies.deformations[i]);
-      const Real        pull = volume_law(properties).stiffness(J) * double_contraction(C, F);
+      const auto        F          = moment * bodies.inverse_moments[i];
+      const auto        C          = cofactors(bodies.deformations[i]);
+      const Real        J          = determinant(bodies.deformations[i]);
+      const Real        pull       = volume_law(properties).stiffness(J) * double_contraction(C, F);
       Matrix<dim, Real> stress;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
@@ -294,7 +294,7 @@ namespace undine::particles
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
           square += (F[a][b] - R[a][b]) * (F[a][b] - R[a][b]);
-      Real       bonds  = 0;
+      Real bonds = 0;
       for_each_bond(i, OneLane(), [&](const Bond &bond) {
         bonds += bond.weight * norm_square(bond.x - F * bond.X);
       });

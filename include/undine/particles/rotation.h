@@ -75,8 +75,8 @@ namespace undine::particles
     return {{{c, -s}, {s, c}}};
   }
 
-  /// By Newton's iteration R <- (R + R^{-T}) / 2 [Higham 1986], whose error becomes half its square;
-  /// where F is nearly flat or inverted, by turning R towards F [Mueller et al. 2016].
+  /// By Newton's iteration R <- (R + R^{-T}) / 2 [Higham 1986], whose error becomes half its
+  /// square; where F is nearly flat or inverted, by turning R towards F [Mueller et al. 2016].
   template <class Real>
   UNDINE_HOST_DEVICE
   Matrix<3, Real>

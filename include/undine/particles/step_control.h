@@ -55,14 +55,14 @@ namespace undine::particles
   /// passes read the step from here. After the end of the frame `dt` is zero and they do nothing.
   struct StepControl
   {
-    double frame               = 0;     ///< length of the frame [s]
-    double elapsed             = 0;     ///< of it at the end of the present sub-step [s]
-    double dt                  = 0;     ///< present sub-step [s]
+    double frame   = 0; ///< length of the frame [s]
+    double elapsed = 0; ///< of it at the end of the present sub-step [s]
+    double dt      = 0; ///< present sub-step [s]
 
     std::uint32_t largest_speed = 0; ///< in the last sub-step, bits of a float [m/s]
     /// As in StepBounds, of deformed bodies, bits of floats: of this explicit step and the next.
     std::uint32_t elastic_rates[2] = {};
-    unsigned int  failures      = 0; ///< bits of Failure
+    unsigned int  failures         = 0; ///< bits of Failure
 
     unsigned int sub_steps                                  = 0; ///< in this frame so far
     unsigned int bounded_by[static_cast<int>(Bound::count)] = {};

@@ -7,7 +7,8 @@
 namespace undine::particles
 {
   /// What it costs to change the volume of an elastic body to J of that at rest:
-  ///     W(J) = lambda/2 (J - 1)^2 + 2 M (b^4 / (3 J^3) - 2 b^2 / J - J + 8 b / 3),   M = lambda + 2 mu,
+  ///     W(J) = lambda/2 (J - 1)^2 + 2 M (b^4 / (3 J^3) - 2 b^2 / J - J + 8 b / 3),   M = lambda +
+  ///     2 mu,
   /// the second term below b = 3/4 only, a barrier without which bodies collapse. Below `flat` the
   /// tension goes on linearly, also for inverted deformations.
   template <class Real>
