@@ -350,7 +350,8 @@ namespace undine::particles
         is_damped ? properties.bulk_damping * sound_impedance(properties) * spacing : Real(0);
       const auto C    = cofactors(F); // dJ/dF
       const Real pull = volume_law(properties).tension(determinant(F)) +
-                        bulk_viscosity * double_contraction(C, F_rate);
+                        bulk_viscosity * double_contraction(C, F_rate) /
+                          maximum(Real(1), double_contraction(C, C) / dim);
       Matrix<dim, Real> result;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)

@@ -87,6 +87,7 @@ namespace undine::particles
     move_explicitly(Team &team)
     {
       const int n    = bodies().n;
+      const int most = 100 * number_of_steps(control->dt, bounds.elastic_rate);
       double    left = control->dt;
       for (int step = 0;; ++step)
         {
@@ -107,6 +108,12 @@ namespace undine::particles
           swap();
           if (steps == 1)
             return step + 1;
+          if (step == most)
+            {
+              if (team.is_first())
+                atomic_or(&control->failures, static_cast<unsigned int>(Failure::crushed));
+              return most;
+            }
           left -= left / steps;
         }
     }

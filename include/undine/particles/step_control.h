@@ -22,11 +22,12 @@ namespace undine::particles
   /// What may have gone wrong in a frame, as bits.
   enum class Failure : unsigned int
   {
-    not_a_number   = 1, ///< a speed is
-    neighbours     = 2, ///< a particle has more neighbours than the list can hold
-    outside        = 4, ///< a particle left the box
-    matrix_indices = 8, ///< neighbours are too far apart in memory for packed matrix entries
-    no_reserve     = 16 ///< more particles flow in than wait to
+    not_a_number   = 1,  ///< a speed is
+    neighbours     = 2,  ///< a particle has more neighbours than the list can hold
+    outside        = 4,  ///< a particle left the box
+    matrix_indices = 8,  ///< neighbours are too far apart in memory for packed matrix entries
+    no_reserve     = 16, ///< more particles flow in than wait to
+    crushed        = 32  ///< a body became so stiff that its explicit steps are too many
   };
 
   /// Bounds on sub-steps [s], constant.
