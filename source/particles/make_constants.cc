@@ -108,7 +108,7 @@ namespace undine::particles
 
   template <int dim>
   StepBounds
-  make_bounds(const Setup<dim> &setup, const double elastic)
+  make_bounds(const Setup<dim> &setup, const double elastic_rate)
   {
     const auto  &numerics = setup.numerics;
     const double l0       = setup.spacing;
@@ -122,7 +122,8 @@ namespace undine::particles
     if (setup.fluid_viscosity > 0)
       bounds.viscosity = spread / (4 * dim * setup.fluid_viscosity); // half of what is stable
     bounds.speed_share        = numerics.speed_share * l0;
-    bounds.elastic            = elastic;
+    bounds.elastic_rate       = elastic_rate;
+    bounds.elastic_share      = numerics.elastic_share;
     bounds.most_elastic_steps = numerics.most_elastic_steps;
     return bounds;
   }
