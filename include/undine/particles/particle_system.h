@@ -12,6 +12,7 @@
 #include <undine/particles/neighbour_list.h>
 #include <undine/particles/open_boundaries.h>
 #include <undine/particles/particle_arrays.h>
+#include <undine/particles/pass_results.h>
 #include <undine/particles/phases.h>
 #include <undine/particles/pressure_arrays.h>
 #include <undine/particles/pressure_forces.h>
@@ -33,7 +34,7 @@ namespace undine::particles
       , numerics(setup.numerics)
       , constants(make_constants<dim, Real>(setup))
       , has_fluid(setup.has_fluid)
-      , bounds(make_bounds(setup, lattice.explicit_step(setup.numerics.elastic_share)))
+      , bounds(make_bounds(setup, lattice.rate()))
       , n(n)
       , now(executor, n)
       , next(executor, n)
@@ -118,6 +119,13 @@ namespace undine::particles
         return;
       solve_pressure();
       move_by_pressure();
+    }
+
+    /// What the passes of the last sub-step left behind, in their order.
+    std::vector<PassResult>
+    pass_results() const
+    {
+      return particles::pass_results(now, next, equation, bodies);
     }
 
   private:
@@ -277,6 +285,7 @@ namespace undine::particles
                                  : Real(0),
                                now.places.data(),
                                now.motions.data(),
+                               bounds,
                                control.data()});
     }
 

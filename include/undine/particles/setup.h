@@ -66,7 +66,7 @@ namespace undine::particles
     double hourglass       = 1;    ///< alpha of Elasticity [1]
     double damping         = 0.02; ///< share of critical damping of bonds [1]
     double bulk_damping    = 0.2;  ///< of sound, as a share of rho c_p l0 [1]
-    double contact_modulus = 0;    ///< [Pa]; 0: Young's modulus
+    double contact_modulus = 0;    ///< [Pa]; 0: lambda + 2 mu
   };
 
   /// A side of the box, or a part of space behind a plane, where fluid enters or leaves; see
