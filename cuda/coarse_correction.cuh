@@ -40,7 +40,7 @@ namespace undine::particles
       float        values[most], changes[most]; ///< Z^T-part of the preconditioned residual
     };
 
-    /// `each` blocks make an aggregate.
+    /// `each` blocks make an aggregate, a power of two up to the size of a warp.
     __device__
     CoarseCorrection(Shared &shared, const float *diagonal, const int each)
       : shared(shared)

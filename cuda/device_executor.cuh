@@ -6,12 +6,11 @@
 #include "device_stopwatch.cuh"
 #include "device_team.cuh"
 #include "find_device.h"
-#include "resident_kernel.cuh"
+#include "resident_solver.cuh"
 
 #include <cub/device/device_scan.cuh>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <string>
 
@@ -32,13 +31,13 @@ namespace undine::particles
         f(i);
     }
 
-    template <class Function, int threads, int blocks>
+    template <class Team, class Function, int threads, int blocks>
     __global__ void
     __launch_bounds__(threads, blocks)
-      run(const __grid_constant__ Function f, const DeviceTeam::Workspace workspace)
+      run(const __grid_constant__ Function f, const TeamWorkspace workspace)
     {
-      __shared__ Sums<DeviceTeam::most_sums> of_warps[DeviceTeam::most_warps];
-      DeviceTeam                             team(workspace, of_warps);
+      __shared__ Sums<Team::most_sums> of_warps[Team::most_warps];
+      Team                             team(workspace, of_warps);
       f(team);
     }
   } // namespace kernels
@@ -62,6 +61,7 @@ namespace undine::particles
         throw InputError(reason);
       check_device(cudaGetDeviceProperties(&properties, 0), "to describe itself");
       check_device(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "to start");
+      resident          = ResidentSolver(properties, stream);
       workspace.counter = allocate<unsigned int>(1);
       for (auto &partial : workspace.partial)
         partial = allocate<Sums<Team::most_sums>>(Team::most_blocks);
@@ -72,9 +72,7 @@ namespace undine::particles
     ~DeviceExecutor()
     {
       stopwatch.reset();
-      release(entries_outside);
-      for (auto &exchange : exchanges)
-        exchange.release(*this);
+      resident.release(*this);
       release(workspace.counter);
       for (auto *partial : workspace.partial)
         release(partial);
@@ -178,23 +176,31 @@ namespace undine::particles
     run_team(const int n, const Function &f)
     {
       const int threads = team_threads(n, 32);
-      launch_team(threads > kernels::few_threads ? kernels::run<Function, kernels::team_threads, 2>
-                                                 : kernels::run<Function, kernels::few_threads, 1>,
+      launch_team(threads > kernels::few_threads
+                    ? kernels::run<Team, Function, kernels::team_threads, 2>
+                    : kernels::run<Team, Function, kernels::few_threads, 1>,
                   n,
                   threads,
                   f);
     }
 
+    /// Small passes by one cluster, whose blocks need not wait long for each other.
     template <class Function>
     void
     run_by_lanes(const int n, const Function &f)
     {
-      const int workers = n * DeviceLanes::number, threads = team_threads(workers, 128);
-      launch_team(threads > 128 ? kernels::run<Function, kernels::team_threads, 1>
-                                : kernels::run<Function, 128, 1>,
-                  workers,
-                  threads,
-                  f);
+      const int workers = n * DeviceLanes::number;
+      if (has_clusters && workers <= most_for_cluster)
+        launch_cluster(kernels::run<ClusterTeam, Function, kernels::team_threads, 1>, workers, f);
+      else
+        {
+          const int threads = team_threads(workers, 128);
+          launch_team(threads > 128 ? kernels::run<Team, Function, kernels::team_threads, 1>
+                                    : kernels::run<Team, Function, 128, 1>,
+                      workers,
+                      threads,
+                      f);
+        }
     }
 
     /// Solves systems that fit in the shared memories of the multiprocessors there.
@@ -202,14 +208,10 @@ namespace undine::particles
     void
     run(const int n, const ConjugateGradients<float, PackedEntry, Value> &f)
     {
-      constexpr int count = Components<Value>::count;
-      if (n > (count == 1 ? most_resident_rows : most_resident_vectors) ||
-          resident_room() < least_resident_room ||
-          f.bounds.max_iterations > static_cast<int>(BlockExchange::most_rounds) ||
-          properties.multiProcessorCount > BlockExchange::most_blocks)
-        run_team(n, f);
+      if (resident.can_run(n, f))
+        resident.run(*this, n, f, workspace);
       else
-        run_resident(n, f);
+        run_team(n, f);
     }
 
     void
@@ -270,87 +272,6 @@ namespace undine::particles
         check_device(cudaMemcpyAsync(to, from, n * sizeof(T), kind, stream), "to copy");
     }
 
-    /// Room for what the blocks of a solver exchange. Its rounds must not repeat: long before,
-    /// everything is cleared.
-    class Exchange
-    {
-    public:
-      BlockExchange::Workspace
-      workspace(const DeviceExecutor &executor, const std::size_t n_values, const int rounds)
-      {
-        if (n_values > n)
-          {
-            release(executor);
-            n              = n_values;
-            memory.counter = executor.allocate<unsigned int>(1);
-            memory.values  = executor.allocate<FlaggedWord>(2 * n);
-            memory.sums    = executor.allocate<FlaggedWord>(n_sums);
-            next           = 0;
-          }
-        else if (next > 1u << 31)
-          {
-            executor.clear(memory.values, 2 * n);
-            executor.clear(memory.sums, n_sums);
-            next = 0;
-          }
-        memory.n_values    = static_cast<int>(n);
-        memory.first_round = next;
-        next += rounds;
-        return memory;
-      }
-
-      void
-      release(const DeviceExecutor &executor)
-      {
-        executor.release(memory.counter);
-        executor.release(memory.values);
-        executor.release(memory.sums);
-      }
-
-    private:
-      static constexpr std::size_t n_sums = 2 * BlockExchange::most_blocks * BlockExchange::stride;
-
-      BlockExchange::Workspace memory = {};
-      std::size_t              n      = 0; ///< values
-      unsigned int             next   = 0; ///< round
-    };
-
-    int
-    resident_room() const
-    {
-      return static_cast<int>(properties.sharedMemPerBlockOptin) - static_shared_room;
-    }
-
-    template <class Value>
-    void
-    run_resident(const int n, const ConjugateGradients<float, PackedEntry, Value> &f)
-    {
-      constexpr int count  = Components<Value>::count;
-      const int     blocks = properties.multiProcessorCount;
-      auto          exchange =
-        exchanges[count].workspace(*this,
-                                   std::max(count * n, blocks * BandedInverse::width),
-                                   f.bounds.max_iterations + BlockExchange::rounds_of_setup);
-      if (entries_outside == nullptr)
-        entries_outside = allocate<unsigned int>(std::size_t(room_outside) * blocks);
-      auto         copy        = f;
-      ResidentRoom room        = {resident_room(), room_outside, entries_outside};
-      int          each        = n > few_resident_rows ? 1 : 2;
-      void        *arguments[] = {&copy, &exchange, &workspace, &room, &each};
-      const void  *kernel      = nullptr;
-      if constexpr (count == 1)
-        kernel = reinterpret_cast<const void *>(kernels::solve_corrected);
-      else
-        kernel = reinterpret_cast<const void *>(kernels::solve_plain<Value>);
-      check_device(
-        cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, room.inside),
-        "to plan a pass");
-      check_device(
-        cudaLaunchCooperativeKernel(
-          kernel, dim3(blocks), dim3(kernels::resident_threads), arguments, room.inside, stream),
-        "to start the solver");
-    }
-
     /// Together as many workers as there is work for and room.
     template <class Kernel, class Function>
     void
@@ -369,6 +290,26 @@ namespace undine::particles
                    "to start a pass");
     }
 
+    template <class Kernel, class Function>
+    void
+    launch_cluster(const Kernel kernel, const int n, const Function &f)
+    {
+      const int threads = ((n + cluster_blocks - 1) / cluster_blocks + 31) / 32 * 32;
+      check_device(cudaFuncSetAttribute(kernel, cudaFuncAttributeNonPortableClusterSizeAllowed, 1),
+                   "to plan a pass");
+      cudaLaunchAttribute attribute;
+      attribute.id               = cudaLaunchAttributeClusterDimension;
+      attribute.val.clusterDim.x = cluster_blocks;
+      attribute.val.clusterDim.y = attribute.val.clusterDim.z = 1;
+      cudaLaunchConfig_t config                               = {};
+      config.gridDim                                          = dim3(cluster_blocks);
+      config.blockDim = dim3(std::min(threads, kernels::team_threads));
+      config.stream   = stream;
+      config.attrs    = &attribute;
+      config.numAttrs = 1;
+      check_device(cudaLaunchKernelEx(&config, kernel, f, workspace), "to start a pass");
+    }
+
     /// Small passes spread over all multiprocessors in small blocks.
     int
     team_threads(const int n, const int least) const
@@ -377,20 +318,16 @@ namespace undine::particles
       return std::clamp((each + 31) / 32 * 32, least, kernels::team_threads);
     }
 
-    static constexpr int static_shared_room = 16 * 1024; ///< of a resident solver's block, at most
-    static constexpr int few_resident_rows  = 100000;    ///< for which half the aggregates do
-    static constexpr int most_resident_rows = 400000;
-    static constexpr int most_resident_vectors = 100000;    ///< few iterations do not pay for more
-    static constexpr int room_outside          = 1 << 16;   ///< entries of a block in global memory
-    static constexpr int least_resident_room   = 96 * 1024; ///< shared memory of a block
+    static constexpr int cluster_blocks   = 16;
+    static constexpr int most_for_cluster = 2 * cluster_blocks * kernels::team_threads;
 
-    unsigned int                    *entries_outside = nullptr;
-    std::array<Exchange, 4>          exchanges; ///< by numbers in an unknown
     cudaDeviceProp                   properties;
     cudaStream_t                     stream;
-    Team::Workspace                  workspace   = {};
-    char                            *scan_memory = nullptr;
-    std::size_t                      scan_bytes  = 0;
+    ResidentSolver                   resident;
+    bool                             has_clusters = false; ///< of cluster_blocks
+    TeamWorkspace                    workspace    = {};
+    char                            *scan_memory  = nullptr;
+    std::size_t                      scan_bytes   = 0;
     std::unique_ptr<DeviceStopwatch> stopwatch;
   };
 } // namespace undine::particles
