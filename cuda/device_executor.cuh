@@ -31,13 +31,13 @@ namespace undine::particles
         f(i);
     }
 
-    template <class Team, class Function, int threads, int blocks>
+    template <class Function, int threads, int blocks>
     __global__ void
     __launch_bounds__(threads, blocks)
-      run(const __grid_constant__ Function f, const TeamWorkspace workspace)
+      run(const __grid_constant__ Function f, const DeviceTeam::Workspace workspace)
     {
-      __shared__ Sums<Team::most_sums> of_warps[Team::most_warps];
-      Team                             team(workspace, of_warps);
+      __shared__ Sums<DeviceTeam::most_sums> of_warps[DeviceTeam::most_warps];
+      DeviceTeam                             team(workspace, of_warps);
       f(team);
     }
   } // namespace kernels
@@ -176,31 +176,23 @@ namespace undine::particles
     run_team(const int n, const Function &f)
     {
       const int threads = team_threads(n, 32);
-      launch_team(threads > kernels::few_threads
-                    ? kernels::run<Team, Function, kernels::team_threads, 2>
-                    : kernels::run<Team, Function, kernels::few_threads, 1>,
+      launch_team(threads > kernels::few_threads ? kernels::run<Function, kernels::team_threads, 2>
+                                                 : kernels::run<Function, kernels::few_threads, 1>,
                   n,
                   threads,
                   f);
     }
 
-    /// Small passes by one cluster, whose blocks need not wait long for each other.
     template <class Function>
     void
     run_by_lanes(const int n, const Function &f)
     {
-      const int workers = n * DeviceLanes::number;
-      if (has_clusters && workers <= most_for_cluster)
-        launch_cluster(kernels::run<ClusterTeam, Function, kernels::team_threads, 1>, workers, f);
-      else
-        {
-          const int threads = team_threads(workers, 128);
-          launch_team(threads > 128 ? kernels::run<Team, Function, kernels::team_threads, 1>
-                                    : kernels::run<Team, Function, 128, 1>,
-                      workers,
-                      threads,
-                      f);
-        }
+      const int workers = n * DeviceLanes::number, threads = team_threads(workers, 128);
+      launch_team(threads > 128 ? kernels::run<Function, kernels::team_threads, 1>
+                                : kernels::run<Function, 128, 1>,
+                  workers,
+                  threads,
+                  f);
     }
 
     /// Solves systems that fit in the shared memories of the multiprocessors there.
@@ -290,26 +282,6 @@ namespace undine::particles
                    "to start a pass");
     }
 
-    template <class Kernel, class Function>
-    void
-    launch_cluster(const Kernel kernel, const int n, const Function &f)
-    {
-      const int threads = ((n + cluster_blocks - 1) / cluster_blocks + 31) / 32 * 32;
-      check_device(cudaFuncSetAttribute(kernel, cudaFuncAttributeNonPortableClusterSizeAllowed, 1),
-                   "to plan a pass");
-      cudaLaunchAttribute attribute;
-      attribute.id               = cudaLaunchAttributeClusterDimension;
-      attribute.val.clusterDim.x = cluster_blocks;
-      attribute.val.clusterDim.y = attribute.val.clusterDim.z = 1;
-      cudaLaunchConfig_t config                               = {};
-      config.gridDim                                          = dim3(cluster_blocks);
-      config.blockDim = dim3(std::min(threads, kernels::team_threads));
-      config.stream   = stream;
-      config.attrs    = &attribute;
-      config.numAttrs = 1;
-      check_device(cudaLaunchKernelEx(&config, kernel, f, workspace), "to start a pass");
-    }
-
     /// Small passes spread over all multiprocessors in small blocks.
     int
     team_threads(const int n, const int least) const
@@ -318,16 +290,12 @@ namespace undine::particles
       return std::clamp((each + 31) / 32 * 32, least, kernels::team_threads);
     }
 
-    static constexpr int cluster_blocks   = 16;
-    static constexpr int most_for_cluster = 2 * cluster_blocks * kernels::team_threads;
-
     cudaDeviceProp                   properties;
     cudaStream_t                     stream;
     ResidentSolver                   resident;
-    bool                             has_clusters = false; ///< of cluster_blocks
-    TeamWorkspace                    workspace    = {};
-    char                            *scan_memory  = nullptr;
-    std::size_t                      scan_bytes   = 0;
+    TeamWorkspace                    workspace   = {};
+    char                            *scan_memory = nullptr;
+    std::size_t                      scan_bytes  = 0;
     std::unique_ptr<DeviceStopwatch> stopwatch;
   };
 } // namespace undine::particles

@@ -7,7 +7,6 @@
 #include <undine/particles/sums.h>
 
 #include <cuda_runtime.h>
-#include <nv/target>
 
 namespace undine::particles
 {
@@ -59,26 +58,6 @@ namespace undine::particles
   };
 
 
-  /// The same for blocks that are one cluster: they wait about a third as long. Needs compute
-  /// capability 9.
-  class ClusterBarrier
-  {
-  public:
-    __device__ explicit ClusterBarrier(unsigned int *)
-    {
-    }
-
-    __device__ void
-    wait()
-    {
-      NV_IF_TARGET(NV_PROVIDES_SM_90,
-                   (asm volatile("barrier.cluster.arrive.release.aligned;\n\t"
-                                 "barrier.cluster.wait.acquire.aligned;" ::
-                                   : "memory");))
-    }
-  };
-
-
   /// Works on a part of a pass while the others wait.
   struct LoneBlock
   {
@@ -98,29 +77,23 @@ namespace undine::particles
   };
 
 
-  /// Global memory of a pass.
-  struct TeamWorkspace
-  {
-    static constexpr int most_sums = 8;
-
-    unsigned int    *counter;    ///< of the barrier
-    Sums<most_sums> *partial[2]; ///< one a block
-  };
-
-
   /// The threads of one launch, see HostTeam. Every block has a contiguous share of the indices.
-  template <class Barrier>
-  class TeamOfBlocks
+  class DeviceTeam
   {
   public:
-    static constexpr int most_sums   = TeamWorkspace::most_sums;
+    static constexpr int most_sums   = 8;
     static constexpr int most_blocks = 1024;
     static constexpr int most_warps  = 32; ///< of a block
 
-    using Workspace = TeamWorkspace;
+    /// Global memory of a pass.
+    struct Workspace
+    {
+      unsigned int    *counter;    ///< of the barrier
+      Sums<most_sums> *partial[2]; ///< one a block
+    };
 
     __device__
-    TeamOfBlocks(const Workspace &workspace, Sums<most_sums> *of_warps)
+    DeviceTeam(const Workspace &workspace, Sums<most_sums> *of_warps)
       : barrier(workspace.counter)
       , workspace(workspace)
       , of_warps(of_warps)
@@ -247,14 +220,11 @@ namespace undine::particles
           result->values[k] = total[k];
     }
 
-    Barrier          barrier;
+    GridBarrier      barrier;
     Workspace        workspace;
     Sums<most_sums> *of_warps; ///< shared memory of the block
     int              parity = 0;
   };
-
-  using DeviceTeam  = TeamOfBlocks<GridBarrier>;
-  using ClusterTeam = TeamOfBlocks<ClusterBarrier>;
 } // namespace undine::particles
 
 #endif

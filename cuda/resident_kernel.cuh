@@ -18,7 +18,7 @@ namespace undine::particles
     solve_resident(const ConjugateGradients<float, PackedEntry, Value> &general,
                    BlockExchange                                       &exchange,
                    Correction                                          &correction,
-                   const TeamWorkspace                                 &team_workspace,
+                   const DeviceTeam::Workspace                         &team_workspace,
                    const ResidentRoom                                  &room)
     {
       using Solver = ResidentGradients<Value, Correction>;
@@ -45,8 +45,8 @@ namespace undine::particles
     __launch_bounds__(resident_threads, 1)
       solve_plain(const __grid_constant__ ConjugateGradients<float, PackedEntry, Value> general,
                   const BlockExchange::Workspace                                        exchanged,
-                  const TeamWorkspace team_workspace,
-                  const ResidentRoom  room)
+                  const DeviceTeam::Workspace team_workspace,
+                  const ResidentRoom          room)
     {
       if (general.control->done())
         return;
@@ -61,7 +61,7 @@ namespace undine::particles
     __launch_bounds__(resident_threads, 1)
       solve_corrected(const __grid_constant__ ConjugateGradients<float, PackedEntry, Value> general,
                       const BlockExchange::Workspace exchanged,
-                      const TeamWorkspace            team_workspace,
+                      const DeviceTeam::Workspace    team_workspace,
                       const ResidentRoom             room,
                       const int                      each)
     {

@@ -85,7 +85,7 @@ namespace undine::particles
     run(const Executor                                      &executor,
         const int                                            n,
         const ConjugateGradients<float, PackedEntry, Value> &f,
-        TeamWorkspace                                        team_workspace)
+        DeviceTeam::Workspace                                team_workspace)
     {
       constexpr int count = Components<Value>::count;
       auto          exchange =
