@@ -293,7 +293,7 @@ namespace undine::particles
     cudaDeviceProp                   properties;
     cudaStream_t                     stream;
     ResidentSolver                   resident;
-    TeamWorkspace                    workspace   = {};
+    Team::Workspace                  workspace   = {};
     char                            *scan_memory = nullptr;
     std::size_t                      scan_bytes  = 0;
     std::unique_ptr<DeviceStopwatch> stopwatch;
