@@ -6,6 +6,8 @@
 #include "block_exchange.cuh"
 #include "resident_rows.cuh"
 
+#include <undine/particles/conjugate_gradients.h>
+
 namespace undine::particles
 {
   /// Jacobi's preconditioner alone, see CoarseCorrection.
@@ -22,6 +24,7 @@ namespace undine::particles
   /// away. Aggregates are what blocks own, so that sums over them travel together with the other
   /// sums of an iteration; every block solves for those that its columns belong to. As blocks own
   /// rows in the order of the matrix, E has a narrow band; what might be outside of it is left out.
+  /// Loose rows belong to no aggregate.
   class CoarseCorrection
   {
   public:
@@ -30,21 +33,23 @@ namespace undine::particles
 
     struct Shared
     {
-      int          starts[most];      ///< first rows of the blocks
-      int          first_local[most]; ///< local number of the first column that a block owns
-      int          near[most];        ///< number among those with local columns; -1: none
-      unsigned int couplings[most];   ///< of the own rows, by near aggregate
+      int          starts[most];        ///< first rows of the blocks
+      int          first_local[most];   ///< local number of the first column that a block owns
+      int          near[most];          ///< number among those with local columns; -1: none
+      unsigned int couplings[most + 1]; ///< of the own rows, by near aggregate
       float        of_warps[32];
-      float        sums[most];                  ///< over all aggregates
-      float        solution[most];              ///< of E x = sums, by near aggregate
-      float        values[most], changes[most]; ///< Z^T-part of the preconditioned residual
+      float        sums[most];                      ///< over all aggregates
+      float        solution[most];                  ///< of E x = sums, by near aggregate
+      float        values[most + 1], changes[most]; ///< Z^T-part of the preconditioned residual
     };
+
+    using System = LinearSystem<float, PackedEntry, float>;
 
     /// `each` blocks make an aggregate, a power of two up to the size of a warp.
     __device__
-    CoarseCorrection(Shared &shared, const float *diagonal, const int each)
+    CoarseCorrection(Shared &shared, const System &system, const int each)
       : shared(shared)
-      , diagonal(diagonal)
+      , system(system)
       , each(each)
       , n((static_cast<int>(gridDim.x) + each - 1) / each)
     {
@@ -108,21 +113,24 @@ namespace undine::particles
     }
 
     /// This block's part of E, once columns are numbered; `memory` has room() bytes.
-    /// for_each_entry(f) calls f(local column, root of the coefficient) for the thread's entries.
+    /// for_each_entry(f) calls f(row, local column, root of the coefficient) for the thread's
+    /// entries.
     template <class ForEachEntry>
     __device__ __forceinline__ void
     assemble(const ResidentColumns &columns, char *memory, const ForEachEntry &for_each_entry)
     {
       inverse = reinterpret_cast<float *>(memory);
       owners  = reinterpret_cast<unsigned char *>(inverse + n_near * n);
-      find_owners(columns.n_local);
-      if (threadIdx.x < most)
+      find_owners(columns);
+      if (threadIdx.x <= most)
         shared.couplings[threadIdx.x] = 0;
+      if (threadIdx.x == 0)
+        shared.values[n_near] = 0;
       __syncthreads();
       int          last = 0;
       unsigned int sum  = 0;
-      for_each_entry([&](const int local, const unsigned int root) {
-        const int owner = owners[local];
+      for_each_entry([&](const int row, const int local, const unsigned int root) {
+        const int owner = system.is_loose(row) ? n_near : owners[local];
         if (owner != last)
           {
             atomicAdd(shared.couplings + last, sum);
@@ -134,7 +142,10 @@ namespace undine::particles
       atomicAdd(shared.couplings + last, sum);
       float of_diagonal = 0;
       for (int own = threadIdx.x; own < columns.n_own; own += blockDim.x)
-        of_diagonal += diagonal[columns.global[columns.first_own + own]];
+        {
+          const int row = columns.row_of(columns.first_own + own);
+          of_diagonal += system.is_loose(row) ? 0.f : system.diagonal[row];
+        }
       for (int distance = 16; distance > 0; distance /= 2)
         of_diagonal += __shfl_xor_sync(0xffffffffu, of_diagonal, distance);
       if ((threadIdx.x & 31) == 0)
@@ -249,6 +260,13 @@ namespace undine::particles
         }
     }
 
+    /// Whether a local row belongs to an aggregate: 1 or 0.
+    __device__ __forceinline__ float
+    share_of(const int local) const
+    {
+      return owners[local] == n_near ? 0.f : 1.f;
+    }
+
     /// What is added to a local unknown.
     __device__ __forceinline__ float
     at(const int local) const
@@ -261,19 +279,20 @@ namespace undine::particles
 
     /// Near aggregates of the local columns.
     __device__ __forceinline__ void
-    find_owners(const int n_local) const
+    find_owners(const ResidentColumns &columns) const
     {
       const int blocks = gridDim.x, warps = blockDim.x / 32;
       for (int block = threadIdx.x / 32; block < blocks; block += warps)
         {
-          const int end = block + 1 < blocks ? shared.first_local[block + 1] : n_local;
+          const int end = block + 1 < blocks ? shared.first_local[block + 1] : columns.n_local;
           for (int local = shared.first_local[block] + (threadIdx.x & 31); local < end; local += 32)
-            owners[local] = static_cast<unsigned char>(shared.near[block / each]);
+            owners[local] = static_cast<unsigned char>(
+              system.is_loose(columns.row_of(local)) ? n_near : shared.near[block / each]);
         }
     }
 
     Shared        &shared;
-    const float   *diagonal;          ///< of A
+    const System  &system;
     int            each;              ///< blocks of an aggregate
     int            n;                 ///< aggregates
     int            n_near  = 0;       ///< of them with local columns

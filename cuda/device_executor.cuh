@@ -9,6 +9,7 @@
 #include "resident_solver.cuh"
 
 #include <cub/device/device_scan.cuh>
+#include <nv/target>
 
 #include <algorithm>
 #include <memory>
@@ -22,10 +23,20 @@ namespace undine::particles
     constexpr int team_threads     = 512; ///< of a large team, at most
     constexpr int few_threads      = 64;  ///< of a small team, each with many registers
 
+    /// Lets the next pass get ready while this one runs, and waits until the last one is done: the
+    /// time that a launch takes is hidden.
+    __device__ __forceinline__ void
+    line_up()
+    {
+      NV_IF_TARGET(NV_PROVIDES_SM_90,
+                   (cudaTriggerProgrammaticLaunchCompletion(); cudaGridDependencySynchronize();))
+    }
+
     template <class Function>
     __global__ void
     __launch_bounds__(for_each_threads) for_each(const int n, const Function f)
     {
+      line_up();
       const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
       if (i < n)
         f(i);
@@ -159,9 +170,18 @@ namespace undine::particles
     {
       if (n <= 0)
         return;
-      constexpr int threads = kernels::for_each_threads;
-      kernels::for_each<<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
-      check_device(cudaGetLastError(), "to start a pass");
+      constexpr int       threads = kernels::for_each_threads;
+      cudaLaunchAttribute attribute;
+      attribute.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+      attribute.val.programmaticStreamSerializationAllowed = 1;
+      cudaLaunchConfig_t config                            = {};
+      config.gridDim                                       = dim3((n + threads - 1) / threads);
+      config.blockDim                                      = dim3(threads);
+      config.stream                                        = stream;
+      config.attrs                                         = &attribute;
+      config.numAttrs                                      = properties.major >= 9 ? 1 : 0;
+      check_device(cudaLaunchKernelEx(&config, kernels::for_each<Function>, n, f),
+                   "to start a pass");
     }
 
     template <class Function>

@@ -174,7 +174,7 @@ namespace undine::particles
         w[local] = b;
         put(rows.row_of(local), b);
         if constexpr (Correction::exists)
-          sums[n_sums - 1] += b;
+          sums[n_sums - 1] += correction.share_of(local) * b;
       });
       summation.add(sums);
       __syncthreads();
@@ -261,7 +261,7 @@ namespace undine::particles
         if constexpr (Correction::exists)
           {
             sums[2 * count] += residual * residual * inverse[local];
-            sums[n_sums - 1] += Au;
+            sums[n_sums - 1] += correction.share_of(local) * Au;
           }
       });
       summation.add(sums);

@@ -69,7 +69,7 @@ namespace undine::particles
       if (general.control->done())
         return;
       BlockExchange    exchange(exchanged);
-      CoarseCorrection correction(shared, general.system.diagonal, each);
+      CoarseCorrection correction(shared, general.system, each);
       solve_resident(general, exchange, correction, team_workspace, room);
     }
   } // namespace kernels

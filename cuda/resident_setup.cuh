@@ -335,7 +335,7 @@ namespace undine::particles
       if constexpr (Correction::exists)
         correction.assemble(rows, corrections, [&](const auto &f) {
           for_each_entry(0, [&](const int row, const int, const int, const PackedEntry entry) {
-            f(local_number(row + entry.difference()), entry.bits & PackedEntry::largest);
+            f(row, local_number(row + entry.difference()), entry.bits & PackedEntry::largest);
           });
         });
     }

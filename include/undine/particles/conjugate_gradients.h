@@ -59,6 +59,19 @@ namespace undine::particles
     const Stored               *right_hand_side;
     Stored                     *solution; ///< first the guess
 
+    /// Rows that may not hang together with any known value, as those of a body that flies: they
+    /// have identities below. A preconditioner must not spread anything to them that A does not
+    /// feel; nullptr: there are none.
+    const int *identities = nullptr;
+    int        n_loose    = 0;
+
+    UNDINE_HOST_DEVICE
+    bool
+    is_loose(const int i) const
+    {
+      return identities != nullptr && identities[i] < n_loose;
+    }
+
     UNDINE_HOST_DEVICE
     Value
     row_times(const int i, const Stored *x) const

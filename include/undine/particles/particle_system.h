@@ -329,11 +329,12 @@ namespace undine::particles
            const double                        tolerance,
            SolverRecord StepControl::*record) const
     {
-      return {{matrix(), system_diagonal.data(), b.data(), x.data()},
-              {w, w + n, w + 2 * n, w + 3 * n, w + 4 * n},
-              {tolerance, numerics.max_iterations},
-              control.data(),
-              record};
+      return {
+        {matrix(), system_diagonal.data(), b.data(), x.data(), now.identities.data(), bodies.n},
+        {w, w + n, w + 2 * n, w + 3 * n, w + 4 * n},
+        {tolerance, numerics.max_iterations},
+        control.data(),
+        record};
     }
 
     void
