@@ -92,37 +92,47 @@ TEMPLATE_TEST_CASE_SIG("A drop under a central attraction keeps its exact semi-a
 }
 
 
-TEST_CASE("Water flows through a channel as it flows in", "[particles]")
+TEMPLATE_TEST_CASE_SIG(
+  "Water flows through a channel as it flows in", "[particles]", ((int dim), dim), 2, 3)
 {
-  const double     l0 = .01, speed = .5;
-  const int        length = 40, height = 12;
-  ParticleScene<2> scene(l0);
-  OpenSide         inflow, outflow;
+  const double       l0 = .01, speed = .5;
+  const int          length = dim == 2 ? 40 : 20, height = dim == 2 ? 12 : 8, across = 8;
+  ParticleScene<dim> scene(l0);
+  OpenSide           inflow, outflow;
   inflow.is_inflow            = true;
   inflow.depth                = 3 * l0;
   outflow.plane               = length * l0;
   outflow.inward              = -1;
   scene.setup.open_sides      = {inflow, outflow};
-  scene.setup.lower           = {-5 * l0, -4 * l0};
-  scene.setup.upper           = {(length + 4) * l0, (height + 4) * l0};
   scene.setup.fluid_viscosity = 1e-6;
-  scene.for_each_point({-3, -3}, {length + 3, height + 3}, [&](const Point<2> &x) {
-    const double outside = std::max(-x[1], x[1] - height * l0);
+  auto lower = cube<dim>(0), upper = cube<dim>(across); // periodic across
+  lower[0] = lower[dim - 1] = -3;
+  upper[0]                  = length + 3;
+  upper[dim - 1]            = height + 3;
+  for (int axis = 0; axis < dim; ++axis)
+    {
+      const bool is_across       = axis != 0 && axis != dim - 1;
+      scene.setup.periodic[axis] = is_across;
+      scene.setup.lower[axis]    = is_across ? 0. : (lower[axis] - (axis == 0 ? 2 : 1)) * l0;
+      scene.setup.upper[axis]    = is_across ? across * l0 : (upper[axis] + 1) * l0;
+    }
+  scene.for_each_point(lower, upper, [&](const Point<dim> &x) {
+    const double outside = std::max(-x[dim - 1], x[dim - 1] - height * l0);
     if (outside > 0)
-      scene.add(x, outside < l0 ? Kind::wall : Kind::dummy, 0, Point<2>::zero());
+      scene.add(x, outside < l0 ? Kind::wall : Kind::dummy, 0, Point<dim>::zero());
     else if (x[0] < 0)
-      scene.add(x, x[0] > -l0 ? Kind::wall : Kind::dummy, inflow_material, along<2>(0, speed));
+      scene.add(x, x[0] > -l0 ? Kind::wall : Kind::dummy, inflow_material, along<dim>(0, speed));
     else if (x[0] < length * l0 / 4) // the front has yet to fill the channel
-      scene.add(x, Kind::fluid, 0, along<2>(0, speed));
+      scene.add(x, Kind::fluid, 0, along<dim>(0, speed));
   });
-  const auto       engine = scene.engine();
-  ParticleState<2> state;
-  for (int frame = 0; frame < 150; ++frame)
+  const auto         engine = scene.engine();
+  ParticleState<dim> state;
+  for (int frame = 0; frame < 4 * length; ++frame)
     engine->advance(.01);
   engine->fetch(state);
   const auto n_fluid = std::count_if(
     state.tags.begin(), state.tags.end(), [](const Tag tag) { return tag.kind() == Kind::fluid; });
-  CHECK(n_fluid == Approx(length * height).epsilon(.03));
+  CHECK(n_fluid == Approx(length * height * std::pow(across, dim - 2)).epsilon(.03));
   CHECK(mean(state.tags.size(), [&](const std::size_t i) {
           return state.tags[i].kind() == Kind::fluid ? state.velocities[i][0] : NAN;
         }) == Approx(speed).epsilon(.03));
