@@ -32,6 +32,30 @@ namespace undine::particles
         f(i);
     }
 
+    /// Room in shared memory, in which the numbers of a thread's neighbours lie between its own.
+    template <class Number>
+    struct Room
+    {
+      Number *first;
+
+      __device__ __forceinline__ Number &
+      operator[](const int k) const
+      {
+        return first[k * for_each_threads];
+      }
+    };
+
+    template <int size, class Number, class Function>
+    __global__ void
+    __launch_bounds__(for_each_threads) for_each_with_room(const int n, const Function f)
+    {
+      __shared__ Number rooms[size * for_each_threads];
+      const int         i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+      Room<Number>      room{rooms + threadIdx.x};
+      if (i < n)
+        f(i, room);
+    }
+
     template <class Function, int threads, int blocks>
     __global__ void
     __launch_bounds__(threads, blocks)
@@ -163,6 +187,18 @@ namespace undine::particles
         return;
       constexpr int threads = kernels::for_each_threads;
       kernels::for_each<<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
+      check_device(cudaGetLastError(), "to start a pass");
+    }
+
+    template <int size, class Number, class Function>
+    void
+    for_each_with_room(const int n, const Function &f) const
+    {
+      if (n <= 0)
+        return;
+      constexpr int threads = kernels::for_each_threads;
+      kernels::for_each_with_room<size, Number>
+        <<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
       check_device(cudaGetLastError(), "to start a pass");
     }
 

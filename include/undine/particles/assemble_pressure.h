@@ -117,8 +117,8 @@ namespace undine::particles
       if (!reached)
         atomic_or(&control->failures, static_cast<unsigned int>(Failure::matrix_indices));
       sum += air(i, tag);
-      matrix.counts[i] = count;
-      diagonal[i]      = maximum(sum + compressibility(tag), Real(1e-6));
+      matrix.fill_last_group(i, count);
+      diagonal[i] = maximum(sum + compressibility(tag), Real(1e-6));
       if (closes)
         {
           faces_diagonal[i] = maximum(sum, Real(1e-6));

@@ -32,6 +32,7 @@ namespace undine::particles
       const double goal = base.bounds.tolerance * base.bounds.tolerance * size;
       double       last = 0, last_step = 0, square = 0;
       int          iteration = 0;
+      restrict_residual(team);
       for (;; ++iteration)
         {
           precondition(team);
@@ -45,9 +46,8 @@ namespace undine::particles
             now[0] / (iteration == 0 ? now[1] : now[1] - beta * now[0] / last_step);
           last      = now[0];
           last_step = step;
-          team.for_each(
-            n, [&](const int i) { update(i, static_cast<Real>(step), static_cast<Real>(beta)); });
-          team.sync();
+          update(team, static_cast<Real>(step), static_cast<Real>(beta));
+          restrict_residual(team);
         }
       if (team.is_first())
         base.report(iteration, size > 0 ? sqrt(square / size) : 0.);
@@ -62,7 +62,53 @@ namespace undine::particles
       const Real  b      = system.right_hand_side[i];
       sums[0] += static_cast<double>(b) * b / system.diagonal[i];
       base.vectors.r[i] = b - system.row_times(i, system.solution);
-      base.vectors.p[i] = base.vectors.s[i] = 0;
+      base.vectors.p[i] = base.vectors.s[i] = base.vectors.u[i] = 0;
+    }
+
+    /// This worker's cells of the finest level. Passes that need from others only what is in these
+    /// cells follow each other without waiting for all.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    Share
+    own_cells(const Team &team) const
+    {
+      return team.share(finest().n_active());
+    }
+
+    /// The particles in them; between cells, some that have no unknown, too.
+    UNDINE_HOST_DEVICE
+    Share
+    particles(const Share &own) const
+    {
+      if (own.begin >= own.end)
+        return {0, 0};
+      const auto *cells = finest().active();
+      return {starts[cells[own.begin].index(finest().grid)],
+              starts[cells[own.end - 1].index(finest().grid) + 1]};
+    }
+
+    UNDINE_HOST_DEVICE
+    const MultigridLevel<dim, Real> &
+    finest() const
+    {
+      return cycle.levels.level[0];
+    }
+
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    void
+    restrict_residual(Team &team) const
+    {
+      const auto *cells = finest().active();
+      const auto *r     = base.vectors.r;
+      team.for_each_of(own_cells(team), [&](const int c) {
+        const int cell = cells[c].index(finest().grid);
+        Real      sum  = 0;
+        for (int i = starts[cell]; i < starts[cell + 1]; ++i)
+          sum += r[i];
+        cycle.begin(0, cell, sum);
+      });
+      team.sync();
     }
 
     template <class Team>
@@ -70,24 +116,18 @@ namespace undine::particles
     void
     precondition(Team &team) const
     {
-      const auto &finest = cycle.levels[0];
-      const auto *r      = base.vectors.r;
-      team.for_each_spread(finest.grid.n, [&](const int cell) {
-        if (!finest.is_active(cell))
-          return;
-        Real sum = 0;
-        for (int i = starts[cell]; i < starts[cell + 1]; ++i)
-          sum += r[i];
-        cycle.begin(0, cell, sum);
+      cycle.correct(team);
+      const auto *cells = finest().active();
+      const Share own   = own_cells(team);
+      team.for_each_of(own, [&](const int c) {
+        finest().x[cells[c].index(finest().grid)] = cycle.finish(0, cells[c], OneLane());
       });
-      team.sync();
-      cycle(team);
-      team.for_each(base.system.matrix.n, [&](const int i) {
+      team.sync_own();
+      team.for_each_of(particles(own), [&](const int i) {
         const int cell = cell_of[i];
-        Real      u    = r[i] / base.system.diagonal[i];
         if (cell >= 0)
-          u += cycle.factor * finest.x[cell];
-        base.vectors.u[i] = u;
+          base.vectors.u[i] =
+            base.vectors.r[i] / base.system.diagonal[i] + cycle.factor * finest().x[cell];
       });
       team.sync();
     }
@@ -105,16 +145,30 @@ namespace undine::particles
       sums[2] += static_cast<double>(base.vectors.r[i] / system.diagonal[i]) * r;
     }
 
+    template <class Team>
     UNDINE_HOST_DEVICE
     void
-    update(const int i, const Real alpha, const Real beta) const
+    update(Team &team, const Real alpha, const Real beta) const
     {
       const auto &v = base.vectors;
-      const Real  p = v.u[i] + beta * v.p[i], s = v.w[i] + beta * v.s[i];
-      v.p[i] = p;
-      v.s[i] = s;
-      base.system.solution[i] += alpha * p;
-      v.r[i] -= alpha * s;
+      Real *const x = base.system.solution;
+      struct Row
+      {
+        Real u, w, p, s, x, r;
+      };
+      team.for_each_of(
+        particles(own_cells(team)),
+        [&](const int i) {
+          return Row{v.u[i], v.w[i], v.p[i], v.s[i], x[i], v.r[i]};
+        },
+        [&](const int i, const Row &row) {
+          const Real p = row.u + beta * row.p, s = row.w + beta * row.s;
+          v.p[i] = p;
+          v.s[i] = s;
+          x[i]   = row.x + alpha * p;
+          v.r[i] = row.r - alpha * s;
+        });
+      team.sync_own();
     }
   };
 } // namespace undine::particles
