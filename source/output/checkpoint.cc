@@ -162,7 +162,7 @@ namespace undine
       state.clock.time = file.attribute<double>("time");
 
       if (models.particles)
-        resize_guesses(state.particles, file);
+        resize_particles(state.particles, models.particles->setup().spacing, file);
       auto surface = pack_surface(models, state);
       read_arrays(surface, file, slot, communicator);
       unpack_surface(state, models, surface);

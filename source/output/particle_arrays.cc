@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
 #include <undine/output/particle_arrays.h>
 
 #include <algorithm>
@@ -7,7 +8,8 @@ namespace undine
 {
   namespace
   {
-    const std::string guesses_name = "particles/guesses";
+    const std::string positions_name = "particles/positions", guesses_name = "particles/guesses",
+                      spacing_name = "particles/spacing";
 
 
     StateArray
@@ -42,13 +44,14 @@ namespace undine
 
   template <int dim>
   std::vector<StateArray>
-  pack_particles(const particles::ParticleState<dim> &state)
+  pack_particles(const particles::ParticleState<dim> &state, const double spacing)
   {
     std::vector<double> tags;
     for (const auto tag : state.tags)
       tags.push_back(tag.code);
     std::vector<StateArray> result{
-      array_of("particles/positions", components(state.positions), dim),
+      array_of(spacing_name, {spacing}, 1),
+      array_of(positions_name, components(state.positions), dim),
       array_of("particles/velocities", components(state.velocities), dim),
       array_of("particles/pressures", state.pressures, 1),
       array_of("particles/tags", tags, 1),
@@ -65,7 +68,7 @@ namespace undine
   void
   unpack_particles(particles::ParticleState<dim> &state, const std::vector<StateArray> &arrays)
   {
-    auto array = arrays.begin();
+    auto array = arrays.begin() + 1; // the spacing is the scene's
     set_components(state.positions, (array++)->values);
     set_components(state.velocities, (array++)->values);
     state.pressures = (array++)->values;
@@ -83,22 +86,39 @@ namespace undine
 
   template <int dim>
   void
-  resize_guesses(particles::ParticleState<dim> &state, const HDF5Reader &file)
+  resize_particles(particles::ParticleState<dim> &state,
+                   const double                   spacing,
+                   const HDF5Reader              &file)
   {
-    state.guesses.resize(file.contains(guesses_name) ? file.size(guesses_name)[0] : 0);
+    const auto length = [&file](const std::string &name) {
+      return file.contains(name) ? file.size(name)[0] : 0;
+    };
+    if (length(spacing_name) == 0)
+      throw FileError("the checkpoint has no particles: it belongs to another scene");
+    const double saved = file.read<double>(spacing_name, {{1, 1}, {0, 0}, {1, 1}})[0];
+    if (saved != spacing)
+      throw FileError("the checkpoint's particles are " + std::to_string(saved) +
+                      " m apart, which is not the scene's 'Particles / Spacing'");
+    const auto n = length(positions_name);
+    state.positions.resize(n);
+    state.velocities.resize(n);
+    state.pressures.resize(n);
+    state.tags.resize(n);
+    state.identities.resize(n);
+    state.guesses.resize(length(guesses_name));
   }
 
 
   template std::vector<StateArray>
-  pack_particles(const particles::ParticleState<2> &);
+  pack_particles(const particles::ParticleState<2> &, double);
   template std::vector<StateArray>
-  pack_particles(const particles::ParticleState<3> &);
+  pack_particles(const particles::ParticleState<3> &, double);
   template void
   unpack_particles(particles::ParticleState<2> &, const std::vector<StateArray> &);
   template void
   unpack_particles(particles::ParticleState<3> &, const std::vector<StateArray> &);
   template void
-  resize_guesses(particles::ParticleState<2> &, const HDF5Reader &);
+  resize_particles(particles::ParticleState<2> &, double, const HDF5Reader &);
   template void
-  resize_guesses(particles::ParticleState<3> &, const HDF5Reader &);
+  resize_particles(particles::ParticleState<3> &, double, const HDF5Reader &);
 } // namespace undine

@@ -254,7 +254,7 @@ namespace undine
   pack(const Models<dim> &models, const State<dim> &state)
   {
     if (models.particles)
-      return pack_particles(state.particles);
+      return pack_particles(state.particles, models.particles->setup().spacing);
     std::vector<StateArray> arrays;
     if (models.solid)
       {

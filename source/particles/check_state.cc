@@ -157,7 +157,9 @@ namespace undine::particles
         check_tag(setup, state, i);
         check_place(setup, state, i);
       }
-    CloseParticles<dim>(setup, state, setup.spacing / 2).check();
+    const bool is_computed = !state.guesses.empty(); // in a splash particles come closer than that
+    if (!is_computed)
+      CloseParticles<dim>(setup, state, setup.spacing / 2).check();
   }
 
 

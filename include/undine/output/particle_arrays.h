@@ -10,10 +10,11 @@
 
 namespace undine
 {
-  /// All particles as arrays of a checkpoint, in the order in which the state has them.
+  /// All particles as arrays of a checkpoint, in the order in which the state has them, and their
+  /// spacing [m].
   template <int dim>
   std::vector<StateArray>
-  pack_particles(const particles::ParticleState<dim> &state);
+  pack_particles(const particles::ParticleState<dim> &state, double spacing);
 
   /// The reverse. `arrays` are those of pack_particles() for a state of as many particles and
   /// guesses.
@@ -21,10 +22,11 @@ namespace undine
   void
   unpack_particles(particles::ParticleState<dim> &state, const std::vector<StateArray> &arrays);
 
-  /// Make room for as many guesses as a checkpoint has: their number is the solvers' affair.
+  /// Make room for as many particles and guesses as a checkpoint has: particles flow in and out,
+  /// and guesses are the solvers' affair. Throws FileError if it has none, or of another spacing.
   template <int dim>
   void
-  resize_guesses(particles::ParticleState<dim> &state, const HDF5Reader &file);
+  resize_particles(particles::ParticleState<dim> &state, double spacing, const HDF5Reader &file);
 } // namespace undine
 
 #endif

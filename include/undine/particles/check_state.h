@@ -9,7 +9,7 @@ namespace undine::particles
 {
   /// Throws InputError, naming particles and places, if a state cannot be computed with: arrays of
   /// different lengths, identities or bodies that do not fit the setup, numbers that are not
-  /// finite, particles outside the box, two particles closer than half a spacing.
+  /// finite, particles outside the box, at a start two particles closer than half a spacing.
   template <int dim>
   void
   check_state(const Setup<dim> &setup, const ParticleState<dim> &state);

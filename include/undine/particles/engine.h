@@ -4,6 +4,7 @@
 
 #include <undine/base/core/registry.h>
 #include <undine/particles/particle_state.h>
+#include <undine/particles/pass_results.h>
 #include <undine/particles/setup.h>
 #include <undine/particles/step_control.h>
 
@@ -51,6 +52,10 @@ namespace undine::particles
 
     virtual Balance<dim>
     balance() const = 0;
+
+    /// What the passes of the last sub-step computed, to compare executors with each other.
+    virtual std::vector<PassResult>
+    pass_results() const = 0;
 
     /// Where and in what precision it computes.
     virtual std::string

@@ -123,18 +123,29 @@ namespace undine::particles
           atomic_or(&control->failures, static_cast<unsigned int>(Failure::no_reserve));
           return;
         }
-      Place<dim, Real> place = places[i];
-      for (int b = 0; b < open.n; ++b)
-        {
-          const auto &boundary = open.boundaries[b];
-          // A sub-step moves by less than a spacing: the plane it has just crossed is the nearest.
-          if (boundary.is_inflow && -boundary.behind(place.x) < boundary.depth / 2)
-            place.x[boundary.axis] -= boundary.inward * boundary.depth;
-        }
+      Place<dim, Real> place    = places[i];
+      const auto       boundary = open.boundaries[nearest_inflow(place.x)];
+      place.x[boundary.axis] -= boundary.inward * boundary.depth;
       place.tag              = Tag::of(Kind::dummy, inflow_material);
       places[slot]           = place;
       motions[slot]          = motions[i];
       motions[slot].pressure = 0;
+    }
+
+  private:
+    /// A sub-step moves by less than a spacing: the plane that a particle has just crossed is the
+    /// nearest one behind it.
+    UNDINE_HOST_DEVICE
+    int
+    nearest_inflow(const Vector<dim, Real> &x) const
+    {
+      int nearest = 0;
+      for (int b = 1; b < open.n; ++b)
+        if (open.boundaries[b].is_inflow &&
+            (!open.boundaries[nearest].is_inflow ||
+             open.boundaries[b].behind(x) > open.boundaries[nearest].behind(x)))
+          nearest = b;
+      return nearest;
     }
   };
 } // namespace undine::particles

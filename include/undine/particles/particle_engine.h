@@ -72,6 +72,14 @@ namespace undine::particles
       return result;
     }
 
+    std::vector<PassResult>
+    pass_results() const override
+    {
+      std::vector<PassResult> results;
+      with_system([&](auto &present) { results = present.pass_results(); });
+      return results;
+    }
+
     std::string
     describe() const override
     {

@@ -12,6 +12,7 @@
 #include <undine/particles/neighbour_list.h>
 #include <undine/particles/open_boundaries.h>
 #include <undine/particles/particle_arrays.h>
+#include <undine/particles/pass_results.h>
 #include <undine/particles/phases.h>
 #include <undine/particles/pressure_arrays.h>
 #include <undine/particles/pressure_forces.h>
@@ -118,6 +119,13 @@ namespace undine::particles
         return;
       solve_pressure();
       move_by_pressure();
+    }
+
+    /// What the passes of the last sub-step left behind, in their order.
+    std::vector<PassResult>
+    pass_results() const
+    {
+      return particles::pass_results(now, next, equation, bodies);
     }
 
   private:

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Dam breaks of particles against experiments: the front along the floor (Martin and Moyce 1952, Koshizuka and Oka 1996)
+and the pressure at the wall that it hits (Lobovsky et al. 2014), in the plane and in space.
+
+usage: benchmarks/dam_breaks.py [SCENE...] [--program PROGRAM] [--executor host|device] [--spacing METRES]
+                                [--set SECTION/KEY=VALUE]...
+
+Fronts: z / a over T = t sqrt(2 g / a), a the column's width; the mean and the largest deviation from each experiment
+before T = 2 and from then on. Pressures: over rho g H, time over sqrt(H / g); the largest mean over 15 ms of the 200
+values a second in the first hit (that is before 4), and the mean from 4 to 5.
+"""
+import argparse
+import csv
+import math
+import os
+import sys
+import tempfile
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(ROOT, "tests"))
+import scene_tools  # noqa: E402
+
+FRONT = "dam_break_particles.prm"
+IMPACTS = ["dam_break_impact_particles.prm", "dam_break_impact_particles_3d.prm"]
+GRAVITY, DENSITY = 9.81, 1000.0
+WIDTH = 0.146  # of the column whose front is followed [m]
+HEIGHT = 0.3   # of the column that hits the wall [m]
+HIT = 4.0      # end of the first hit, start of the plateau [sqrt(H / g)]
+PLATEAU_END = 5.0
+WINDOW = 3     # values: 15 ms
+
+
+def reference(name):
+    with open(os.path.join(ROOT, "tests", "reference", name)) as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def run(scene, arguments, more=()):
+    """The columns of the run's statistics by name, and its wall seconds."""
+    with tempfile.TemporaryDirectory() as folder:
+        options = [os.path.join(ROOT, "prm", scene), "--output", folder]
+        for setting in [f"Particles/Executor={arguments.executor}", "Output/Parts=statistics"] + list(more) + arguments.set:
+            options += ["--set", setting]
+        start = time.time()
+        scene_tools.run(arguments.program, options)
+        seconds = time.time() - start
+        names, _, rows = scene_tools.parse(scene_tools.statistics(folder))
+    return {name: [row[k] for row in rows] for k, name in enumerate(names)}, seconds
+
+
+def interpolate(x, xs, ys):
+    for k in range(1, len(xs)):
+        if xs[k] >= x:
+            return ys[k - 1] + (ys[k] - ys[k - 1]) * (x - xs[k - 1]) / (xs[k] - xs[k - 1])
+    return None
+
+
+def compare_front(scene, arguments):
+    columns, seconds = run(scene, arguments)
+    times = [t * math.sqrt(2 * GRAVITY / WIDTH) for t in columns["Time"]]
+    front = [x / WIDTH for x in columns["front"]]
+    wall = 0.95 * 4
+    print(f"{scene}: {seconds:.1f} s")
+    rows = reference("dam_break_front.csv")
+    for source in sorted({row["source"] for row in rows}):
+        for name, first, last in (("T < 2", 0.5, 2.0), ("T >= 2", 2.0, 99.0)):
+            found = []
+            for row in rows:
+                T, measured = float(row["T"]), float(row["z_over_a"])
+                ours = interpolate(T, times, front)
+                if row["source"] == source and first <= T < last and ours is not None and max(ours, measured) < wall:
+                    found.append(ours / measured - 1)
+            if found:
+                print(f"  {source:28s} {name:7s} mean {100 * sum(found) / len(found):+6.1f} %, "
+                      f"largest {100 * max(found, key=abs):+6.1f} %, {len(found)} points")
+
+
+def peak(times, values, end):
+    means = [sum(values[k:k + WINDOW]) / WINDOW for k in range(len(values) - WINDOW + 1) if times[k + WINDOW - 1] < end]
+    return max(means)
+
+
+def compare_pressure(scene, arguments):
+    spacing = [f"Particles/Spacing={arguments.spacing}"] if arguments.spacing else []
+    columns, seconds = run(scene, arguments, spacing)
+    times = [t / math.sqrt(HEIGHT / GRAVITY) for t in columns["Time"]]
+    arrival = interpolate(1.60, columns["front"], times)
+    print(f"{scene}: {seconds:.1f} s, the front arrives at {arrival:.2f} (experiment 2.42)")
+    for probe, name in (("p3", "lobovsky2014_p3_z30mm.csv"), ("p4", "lobovsky2014_p4_z80mm.csv")):
+        values = [p / (DENSITY * GRAVITY * HEIGHT) for p in columns[f"{probe} pressure"]]
+        rows = reference(name)
+        measured = max(float(row["p_star"]) for row in rows if float(row["t_star"]) < HIT)
+        found = peak(times, values, HIT)
+        plateau = [p for t, p in zip(times, values) if HIT <= t < PLATEAU_END]
+        plateau_measured = [float(row["p_star"]) for row in rows if HIT <= float(row["t_star"]) < PLATEAU_END]
+        print(f"  {probe}: first peak {found:.2f}, experiment {measured:.2f} ({100 * (found / measured - 1):+.0f} %); "
+              f"after it {sum(plateau) / len(plateau):.2f}, "
+              f"experiment {sum(plateau_measured) / len(plateau_measured):.2f}", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("scenes", nargs="*", default=[FRONT] + IMPACTS, metavar="SCENE")
+    parser.add_argument("--program", default=os.path.join(ROOT, "build", "undine"))
+    parser.add_argument("--executor", default="host")
+    parser.add_argument("--spacing", type=float, help="of the dam that hits the wall [m]")
+    parser.add_argument("--set", action="append", default=[])
+    arguments = parser.parse_args()
+    for scene in arguments.scenes:
+        (compare_front if scene == FRONT else compare_pressure)(scene, arguments)
+
+
+if __name__ == "__main__":
+    main()
