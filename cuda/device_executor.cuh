@@ -8,6 +8,8 @@
 #include "find_device.h"
 #include "resident_kernel.cuh"
 
+#include <undine/particles/damped_iterations.h>
+
 #include <cub/device/device_scan.cuh>
 
 #include <algorithm>
@@ -265,6 +267,17 @@ namespace undine::particles
                                                room,
                                                stream),
                    "to start the solver");
+    }
+
+    /// Where conjugate gradients are resident, iterations cost so little that they are better.
+    template <class Value>
+    void
+    run(const int n, const DampedIterations<float, PackedEntry, Value> &f)
+    {
+      if (n > most_resident_vectors)
+        run_team(n, f);
+      else
+        run(n, f.base);
     }
 
     void

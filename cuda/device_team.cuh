@@ -132,15 +132,20 @@ namespace undine::particles
     __device__ __forceinline__ void
     for_each_of(const Share &share, const Fetch &fetch, const Function &f) const
     {
-      const int threads = static_cast<int>(blockDim.x);
-      int       i       = share.begin + static_cast<int>(threadIdx.x);
-      for (; i + threads < share.end; i += 2 * threads)
+      constexpr int together = 3;
+      const int     threads  = static_cast<int>(blockDim.x);
+      int           i        = share.begin + static_cast<int>(threadIdx.x);
+      for (; i + (together - 1) * threads < share.end; i += together * threads)
         {
-          const auto first = fetch(i), second = fetch(i + threads);
-          f(i, first);
-          f(i + threads, second);
+          decltype(fetch(0)) fetched[together];
+#pragma unroll
+          for (int k = 0; k < together; ++k)
+            fetched[k] = fetch(i + k * threads);
+#pragma unroll
+          for (int k = 0; k < together; ++k)
+            f(i + k * threads, fetched[k]);
         }
-      if (i < share.end)
+      for (; i < share.end; i += threads)
         f(i, fetch(i));
     }
 

@@ -175,25 +175,11 @@ namespace undine::particles
       team.sync();
     }
 
-    /// By some damped Jacobi steps, from x to `smooth` and back.
+    /// By two damped Jacobi steps: it has few cells.
     template <class Team>
     UNDINE_HOST_DEVICE
     void
     solve_coarsest(Team &team) const
-    {
-      const auto &level = levels.level[levels.n - 1];
-      smooth_coarsest(team, level.smooth, level.x);
-      for (int pair = 0; pair < 2; ++pair)
-        {
-          smooth_coarsest(team, level.x, level.smooth);
-          smooth_coarsest(team, level.smooth, level.x);
-        }
-    }
-
-    template <class Team>
-    UNDINE_HOST_DEVICE
-    void
-    smooth_coarsest(Team &team, const Real *now, Real *next) const
     {
       const auto &level = levels.level[levels.n - 1];
       const auto *cells = level.active();
@@ -206,11 +192,11 @@ namespace undine::particles
           cells[c],
           lanes,
           [&](const int entry, const int j, const int) {
-            sum += level.entry(entry, index) * now[j];
+            sum += level.entry(entry, index) * level.smooth[j];
           });
         sum = level.r[index] - lanes.sum(sum);
         if (lanes.rank() == 0)
-          next[index] = now[index] + damping * level.inverse_diagonal[index] * sum;
+          level.x[index] = level.smooth[index] + damping * level.inverse_diagonal[index] * sum;
       });
       team.sync();
     }

@@ -123,12 +123,20 @@ namespace undine::particles
         finest().x[cells[c].index(finest().grid)] = cycle.finish(0, cells[c], OneLane());
       });
       team.sync_own();
-      team.for_each_of(particles(own), [&](const int i) {
-        const int cell = cell_of[i];
-        if (cell >= 0)
-          base.vectors.u[i] =
-            base.vectors.r[i] / base.system.diagonal[i] + cycle.factor * finest().x[cell];
-      });
+      struct Row
+      {
+        Real r, d, correction;
+      };
+      team.for_each_of(
+        particles(own),
+        [&](const int i) {
+          const int cell = cell_of[i];
+          return Row{
+            base.vectors.r[i], base.system.diagonal[i], cell >= 0 ? finest().x[cell] : Real(0)};
+        },
+        [&](const int i, const Row &row) {
+          base.vectors.u[i] = row.r / row.d + cycle.factor * row.correction;
+        });
       team.sync();
     }
 

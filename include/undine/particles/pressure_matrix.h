@@ -146,7 +146,7 @@ namespace undine::particles
     {
       const int    count = counts[row];
       const Entry *from  = entries + list_slot(row, 0, capacity);
-      Entry        present[group], next[group], after[group];
+      Entry        present[group] = {}, next[group] = {}, after[group] = {};
       fetch(from, 0, count, present);
       fetch(from, group, count, next);
       for (int first = 0; first < count; first += group)
