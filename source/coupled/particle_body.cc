@@ -107,7 +107,7 @@ namespace undine
       "Pa",
       Allowed::not_negative(),
       "Stiffness with which other bodies and walls are kept off, as stress per overlap in "
-      "spacings; the softer one of two bodies counts. 0: Young's modulus.");
+      "spacings; the softer one of two bodies counts. 0: that of pressure waves, lambda + 2 mu.");
     boundaries = read_held_parts<dim>(options.section("Boundaries"));
   }
 

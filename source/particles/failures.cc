@@ -32,6 +32,8 @@ namespace undine::particles
       text << "neighbours are too far apart in memory. ";
     if (has(control, Failure::no_reserve))
       text << "more particles flow in than there is room for. ";
+    if (has(control, Failure::crushed))
+      text << "a body is crushed so hard that its elastic steps become too small. ";
     text << "The fastest particle moved at " << control.fastest
          << " m/s. Try a smaller 'Speed share', smaller particles, a more viscous fluid or a "
             "stiffer body.";

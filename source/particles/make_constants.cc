@@ -49,6 +49,7 @@ namespace undine::particles
     constants.volume         = static_cast<Real>(std::pow(l0, dim));
     constants.number_density = static_cast<Real>(lattice.number_density);
     constants.spread         = static_cast<Real>(lattice.spread * l0 * l0);
+    constants.filling        = static_cast<Real>(lattice.filling);
     for (int axis = 0; axis < dim; ++axis)
       {
         constants.force.gravity[axis] = static_cast<Real>(setup.gravity[axis]);
@@ -56,6 +57,8 @@ namespace undine::particles
       }
     constants.force.attraction = static_cast<Real>(setup.attraction);
     constants.viscosity        = static_cast<Real>(setup.fluid_viscosity);
+    constants.wall_friction    = {static_cast<Real>(setup.wall_viscosity),
+                                  static_cast<Real>(setup.wall_roughness)};
     set_materials(constants, setup);
     constants.source        = numerics.source;
     constants.density_share = static_cast<Real>(numerics.density_share);
@@ -107,7 +110,7 @@ namespace undine::particles
 
   template <int dim>
   StepBounds
-  make_bounds(const Setup<dim> &setup, const double elastic)
+  make_bounds(const Setup<dim> &setup, const double elastic_rate)
   {
     const auto  &numerics = setup.numerics;
     const double l0       = setup.spacing;
@@ -121,7 +124,8 @@ namespace undine::particles
     if (setup.fluid_viscosity > 0)
       bounds.viscosity = spread / (4 * dim * setup.fluid_viscosity); // half of what is stable
     bounds.speed_share        = numerics.speed_share * l0;
-    bounds.elastic            = elastic;
+    bounds.elastic_rate       = elastic_rate;
+    bounds.elastic_share      = numerics.elastic_share;
     bounds.most_elastic_steps = numerics.most_elastic_steps;
     return bounds;
   }

@@ -17,9 +17,10 @@ namespace undine::particles
     material_of(const BodySetup &body, const int dim, const double spacing)
     {
       const double E = body.youngs_modulus, nu = body.poissons_ratio;
-      const double contact = body.contact_modulus > 0 ? body.contact_modulus : E;
-      return {static_cast<Real>(E * nu / ((1 + nu) * (1 - 2 * nu))),
-              static_cast<Real>(E / (2 * (1 + nu))),
+      const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
+      const double contact = body.contact_modulus > 0 ? body.contact_modulus : lambda + 2 * mu;
+      return {static_cast<Real>(lambda),
+              static_cast<Real>(mu),
               static_cast<Real>(body.density),
               static_cast<Real>(body.hourglass),
               static_cast<Real>(body.damping),
@@ -129,7 +130,7 @@ namespace undine::particles
 
   template <int dim, class Real>
   double
-  ReferenceLattice<dim, Real>::explicit_step(const double share) const
+  ReferenceLattice<dim, Real>::rate() const
   {
     double fastest = 0;
     for (const auto &material : materials)
@@ -137,7 +138,7 @@ namespace undine::particles
         fastest = std::max(fastest,
                            std::sqrt(double(material.lambda + 2 * material.mu) / material.density));
       }
-    return fastest > 0 ? share * spacing / fastest : 0.;
+    return fastest / spacing;
   }
 
 

@@ -7,8 +7,9 @@
 namespace undine::particles
 {
   /// Contact of elastic bodies with walls, with each other, and of parts of a body that were not
-  /// neighbours: particles closer than the spacing repel with the potential k (l0 - r)^2 / 2, equal
-  /// and opposite. Who may come into contact is listed once for all steps of a run.
+  /// neighbours: particles closer than the spacing repel with the force k (q^4 - q^3) r, q = l0 /
+  /// |r|, equal and opposite: a spring of stiffness k when they touch, a barrier when they are
+  /// pressed into each other. Who may come into contact is listed once for all steps of a run.
   template <int dim, class Real>
   struct Contact
   {
@@ -63,30 +64,63 @@ namespace undine::particles
     Vector<dim, Real>
     acceleration(const int identity, const Lanes &lanes) const
     {
-      auto      force = Vector<dim, Real>::zero();
-      const int count = counts[identity];
-      if (count == 0)
+      auto force = Vector<dim, Real>::zero();
+      if (counts[identity] == 0)
         return force;
-      const auto &properties = bodies.materials[bodies.bodies[identity]];
-      const auto  x          = bodies.points[identity].x;
-      for (int k = lanes.rank(); k < count; k += lanes.count())
-        {
-          const int  partner = partners[list_slot(identity, k, neighbours.capacity)];
-          const auto other =
-            partner < 0 ? neighbours.places[-1 - partner].x : bodies.points[partner].x;
-          const Real stiffness =
-            partner < 0
-              ? properties.contact
-              : minimum(properties.contact, bodies.materials[bodies.bodies[partner]].contact);
-          const auto r      = neighbours.grid.difference(x, other);
-          const Real square = norm_square(r);
-          if (square < spacing * spacing)
-            force += (stiffness * (spacing * inverse_square_root(square) - 1)) * r;
-        }
-      return (1 / (properties.density * volume)) * lanes.sum(force);
+      for_each_touch(
+        identity, lanes, [&](const Vector<dim, Real> &r, const Real stiffness, const Real q) {
+          force += (stiffness * (q - 1) * q * q * q) * r;
+        });
+      return inverse_mass(identity) * lanes.sum(force);
+    }
+
+    /// A bound on the square of the frequency that contact lets a particle have [1/s^2].
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    Real
+    frequency_square(const int identity, const Lanes &lanes) const
+    {
+      Real sum = 0;
+      if (counts[identity] == 0)
+        return sum;
+      for_each_touch(
+        identity, lanes, [&](const Vector<dim, Real> &, const Real stiffness, const Real q) {
+          sum += 2 * stiffness * (3 * q - 2) * q * q * q;
+        });
+      return inverse_mass(identity) * lanes.sum(sum);
     }
 
   private:
+    /// f(r, stiffness, q) for this lane's share of the partners that touch.
+    template <class Lanes, class Function>
+    UNDINE_HOST_DEVICE
+    void
+    for_each_touch(const int identity, const Lanes &lanes, const Function &f) const
+    {
+      const Real own   = bodies.materials[bodies.bodies[identity]].contact;
+      const auto x     = bodies.points[identity].x;
+      const int  count = counts[identity];
+      for (int k = lanes.rank(); k < count; k += lanes.count())
+        {
+          const int  partner = partners[list_slot(identity, k, neighbours.capacity)];
+          const bool is_wall = partner < 0;
+          const auto other = is_wall ? neighbours.places[-1 - partner].x : bodies.points[partner].x;
+          const auto r     = neighbours.grid.difference(x, other);
+          const Real square = norm_square(r);
+          if (square < spacing * spacing)
+            f(r,
+              is_wall ? own : minimum(own, bodies.materials[bodies.bodies[partner]].contact),
+              spacing * inverse_square_root(square));
+        }
+    }
+
+    UNDINE_HOST_DEVICE
+    Real
+    inverse_mass(const int identity) const
+    {
+      return 1 / (bodies.materials[bodies.bodies[identity]].density * volume);
+    }
+
     /// Is the neighbour at place j of i, where `identity` is? Reads all that it may need at once.
     UNDINE_HOST_DEVICE
     bool

@@ -4,8 +4,9 @@
 
 #include <undine/particles/cell_grid.h>
 #include <undine/particles/lanes.h>
-#include <undine/particles/matrix.h>
 #include <undine/particles/neighbours.h>
+#include <undine/particles/rotation.h>
+#include <undine/particles/volume_law.h>
 
 namespace undine::particles
 {
@@ -175,7 +176,7 @@ namespace undine::particles
       const auto F          = lanes.sum(moment) * inverse_moment;
       const auto R          = rotation_of(F, last);
       const auto P =
-        stress(properties, F, R, lanes.sum(rate) * inverse_moment, carried, surface * R);
+        stress(properties, F, R, lanes.sum(rate) * inverse_moment, carried, surface * cofactors(F));
       if (lanes.rank() != 0)
         return;
       bodies.deformations[i] = F;
@@ -212,7 +213,7 @@ namespace undine::particles
       return (1 / properties.density) * lanes.sum(force) - carried;
     }
 
-    /// Changes of F and of P A^{-1} with places that move along u, rotations held.
+    /// Changes of F and of P A^{-1} with places that move along u, R and the cofactors of F held.
     UNDINE_HOST_DEVICE
     void
     differentiate(const int                i,
@@ -225,12 +226,14 @@ namespace undine::particles
         moment.add_outer_product(bond.weight, u[bond.j] - u[i], bond.X);
       });
       const auto       &properties = material(i);
-      const auto        F = moment * bodies.inverse_moments[i], R = bodies.rotations[i];
-      const Real        pull = properties.lambda * double_contraction(R, F);
+      const auto        F          = moment * bodies.inverse_moments[i];
+      const auto        C          = cofactors(bodies.deformations[i]);
+      const Real        J          = determinant(bodies.deformations[i]);
+      const Real        pull       = volume_law(properties).stiffness(J) * double_contraction(C, F);
       Matrix<dim, Real> stress;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
-          stress[a][b] = 2 * properties.mu * F[a][b] + pull * R[a][b];
+          stress[a][b] = 2 * properties.mu * F[a][b] + pull * C[a][b];
       F_changes[i]      = F;
       stress_changes[i] = stress * bodies.inverse_moments[i];
     }
@@ -258,6 +261,28 @@ namespace undine::particles
       return (1 / properties.density) * force;
     }
 
+    /// The square of the speed of pressure waves where they are fastest, after deform() of all
+    /// [m^2/s^2].
+    UNDINE_HOST_DEVICE
+    Real
+    sound_square(const int i) const
+    {
+      const auto &properties = material(i);
+      const auto  F = bodies.deformations[i], C = cofactors(F);
+      Real        square = 0; // of |C C^T - 1|, which bounds the change of the largest stretch
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          {
+            Real entry = a == b ? Real(-1) : Real(0);
+            for (int c = 0; c < dim; ++c)
+              entry += C[a][c] * C[b][c];
+            square += entry * entry;
+          }
+      return (2 * properties.mu +
+              volume_law(properties).stiffness(determinant(F)) * (1 + sqrt(square))) /
+             properties.density;
+    }
+
     /// Density of elastic energy at a particle [J/m^dim], after deform() of all.
     UNDINE_HOST_DEVICE
     Real
@@ -269,14 +294,11 @@ namespace undine::particles
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
           square += (F[a][b] - R[a][b]) * (F[a][b] - R[a][b]);
-      const Real strain = double_contraction(R, F) - dim;
-      Real       bonds  = 0;
+      Real bonds = 0;
       for_each_bond(i, OneLane(), [&](const Bond &bond) {
         bonds += bond.weight * norm_square(bond.x - F * bond.X);
       });
-      const Real excess = excess_squeeze(strain);
-      return properties.mu * square + properties.lambda / 2 * strain * strain -
-             resistance(properties, excess) * excess / 3 +
+      return properties.mu * square + volume_law(properties).energy(determinant(F)) +
              properties.hourglass * properties.mu * inverse_mean(i) * bonds;
     }
 
@@ -297,20 +319,11 @@ namespace undine::particles
       return bodies.reference[i].inverse_mean;
     }
 
-    /// Linear elasticity lets a body collapse: once a quarter of its volume is gone, squeezing it
-    /// meets a growing resistance, a pressure of 2 (lambda + 2 mu) e^2 where e = s + 1/4 < 0 [Pa].
     UNDINE_HOST_DEVICE
-    static Real
-    resistance(const ElasticMaterial<Real> &properties, const Real excess)
+    static VolumeLaw<Real>
+    volume_law(const ElasticMaterial<Real> &properties)
     {
-      return 2 * (properties.lambda + 2 * properties.mu) * excess * excess;
-    }
-
-    UNDINE_HOST_DEVICE
-    static Real
-    excess_squeeze(const Real strain)
-    {
-      return minimum(strain + Real(0.25), Real(0));
+      return {properties.lambda, properties.lambda + 2 * properties.mu};
     }
 
     /// rho c_p, the scale of damping [kg/m^2 s].
@@ -335,15 +348,15 @@ namespace undine::particles
     {
       const Real bulk_viscosity =
         is_damped ? properties.bulk_damping * sound_impedance(properties) * spacing : Real(0);
-      const Real strain = double_contraction(R, F) - dim; // tr(R^T F - I)
-      const Real pull   = properties.lambda * strain -
-                        resistance(properties, excess_squeeze(strain)) +
-                        bulk_viscosity * double_contraction(R, F_rate);
+      const auto C    = cofactors(F); // dJ/dF
+      const Real pull = volume_law(properties).tension(determinant(F)) +
+                        bulk_viscosity * double_contraction(C, F_rate) /
+                          maximum(Real(1), double_contraction(C, C) / dim);
       Matrix<dim, Real> result;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
           result[a][b] =
-            2 * properties.mu * (F[a][b] - R[a][b]) + pull * R[a][b] + carried * surface[a][b];
+            2 * properties.mu * (F[a][b] - R[a][b]) + pull * C[a][b] + carried * surface[a][b];
       return result;
     }
   };

@@ -38,6 +38,7 @@ namespace undine::particles
     Real                       carry_share; ///< of the difference, in a sub-step [1]
     Place<dim, Real>          *places;      ///< of the sorted particles; receives the result
     Motion<dim, Real>         *motions;
+    StepBounds                 bounds;
     StepControl               *control;
 
     template <class Team>
@@ -45,33 +46,101 @@ namespace undine::particles
     void
     operator()(Team &team) const
     {
-      const int steps = control->elastic_steps;
-      if (control->done() || steps == 0)
+      if (control->done())
         return;
       ElasticStep now = *this; // its points and points_next change places
-      const Real  h   = static_cast<Real>(control->dt / steps);
       const int   n   = elasticity.bodies.n;
       team.for_each_by_lanes(n, [&](const int i, const auto &lanes) { now.begin(i, lanes); });
+      if (team.is_first())
+        control->elastic_rates[0] = control->elastic_rates[1] = 0;
       team.sync();
-      if (control->elastic_is_implicit)
-        now.move_implicitly(team, h);
-      else
-        for (int step = 0; step < steps; ++step)
-          {
-            team.for_each_by_lanes(
-              n, [&](const int i, const auto &lanes) { now.elasticity.deform(i, lanes); });
-            team.sync();
-            team.for_each_by_lanes(n,
-                                   [&](const int i, const auto &lanes) { now.move(i, h, lanes); });
-            team.sync();
-            now.swap();
-          }
+      const int steps = is_stiff() ? now.move_implicitly(team) : now.move_explicitly(team);
+      if (team.is_first() && purpose != ElasticRun::attempt)
+        control->elastic_steps_total += steps;
       team.for_each(n, [&](const int i) { end(i, now); });
       if (purpose == ElasticRun::final && carry_share > 0)
         carry_pressure(team);
     }
 
   private:
+    /// Would it take too many explicit steps?
+    UNDINE_HOST_DEVICE
+    bool
+    is_stiff() const
+    {
+      return bounds.most_elastic_steps > 0 &&
+             number_of_steps(control->dt, bounds.elastic_rate) > bounds.most_elastic_steps;
+    }
+
+    /// Explicit steps in `time` [s].
+    UNDINE_HOST_DEVICE
+    int
+    number_of_steps(const double time, const double rate) const
+    {
+      return static_cast<int>(minimum(maximum(ceil(time * rate / bounds.elastic_share), 1.), 1e5));
+    }
+
+    /// Steps follow what the rate is at their beginning. Returns how many they were.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    int
+    move_explicitly(Team &team)
+    {
+      const int n    = bodies().n;
+      const int most = 100 * number_of_steps(control->dt, bounds.elastic_rate);
+      double    left = control->dt;
+      for (int step = 0;; ++step)
+        {
+          std::uint32_t *const measured = &control->elastic_rates[step % 2];
+          team.for_each_by_lanes(n, [&](const int i, const auto &lanes) {
+            elasticity.deform(i, lanes);
+            measure_rate(i, lanes, measured);
+          });
+          team.sync();
+          const double rate =
+            maximum(bounds.elastic_rate, static_cast<double>(number_of_bits(*measured)));
+          const int  steps = number_of_steps(left, rate);
+          const Real h     = static_cast<Real>(left / steps);
+          team.for_each_by_lanes(n, [&](const int i, const auto &lanes) { move(i, h, lanes); });
+          if (team.is_first())
+            control->elastic_rates[(step + 1) % 2] = 0;
+          team.sync();
+          swap();
+          if (steps == 1)
+            return step + 1;
+          if (step == most)
+            {
+              if (team.is_first())
+                atomic_or(&control->failures, static_cast<unsigned int>(Failure::crushed));
+              return most;
+            }
+          left -= left / steps;
+        }
+    }
+
+    /// How far the fastest waves and the hardest contacts are from those of bodies at rest.
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    void
+    measure_rate(const int i, const Lanes &lanes, std::uint32_t *measured) const
+    {
+      const Real contacts = contact.frequency_square(i, lanes);
+      if (lanes.rank() != 0)
+        return;
+      const Real square = (elasticity.sound_square(i) / (elasticity.spacing * elasticity.spacing) +
+                           contacts / lattice_frequency_square) /
+                          reserve;
+      if (square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate))
+        atomic_maximum(measured, static_cast<float>(sqrt(square)));
+    }
+
+    /// Squares of the highest frequency of a lattice of particles over c_p / l0, and by what they
+    /// may grow in contacts and deformed bodies before steps become shorter: explicit steps are
+    /// stable up to about 0.95 l0 / c_p. @{
+    static constexpr Real lattice_frequency_square = Real(4.4);
+    static constexpr Real reserve                  = Real(1.5);
+    /// @}
+
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
     /// swing with their own sound.
     template <class Team>
@@ -132,10 +201,11 @@ namespace undine::particles
     /// One step of backward Euler; what contacts and pressures do is held constant.
     template <class Team>
     UNDINE_HOST_DEVICE
-    void
-    move_implicitly(Team &team, const Real h)
+    int
+    move_implicitly(Team &team)
     {
-      const int n          = bodies().n;
+      const int  n         = bodies().n;
+      const Real h         = static_cast<Real>(control->dt);
       elasticity.is_damped = false;
       team.for_each_by_lanes(n,
                              [&](const int i, const auto &lanes) { elasticity.deform(i, lanes); });
@@ -152,6 +222,7 @@ namespace undine::particles
       });
       team.sync();
       swap();
+      return 1;
     }
 
     template <class Lanes>

@@ -24,10 +24,10 @@ namespace undine::particles
   double
   bulk_modulus(const BodySetup &body, int dim);
 
-  /// Bounds on the sub-steps of a frame [s]. `elastic` is the explicit step of the bodies.
+  /// Bounds on the sub-steps of a frame [s]. `elastic_rate` is c_p / l0 of the fastest body [1/s].
   template <int dim>
   StepBounds
-  make_bounds(const Setup<dim> &setup, double elastic);
+  make_bounds(const Setup<dim> &setup, double elastic_rate);
 } // namespace undine::particles
 
 #endif

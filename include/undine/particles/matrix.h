@@ -212,35 +212,6 @@ namespace undine::particles
         result[i] += m.entries[SymmetricMatrix<dim, Real>::index(i, j)] * v[j];
     return result;
   }
-
-  /// The rotation R of F = R S with symmetric S, by Newton's iteration R <- (R + R^{-T}) / 2
-  /// [Higham 1986], whose error becomes half its square. A deformation that is nearly flat or
-  /// inverted has no useful rotation: it keeps `last`.
-  template <int dim, class Real>
-  UNDINE_HOST_DEVICE
-  Matrix<dim, Real>
-  rotation_of(const Matrix<dim, Real> &deformation, const Matrix<dim, Real> &last)
-  {
-    const Real enough = sizeof(Real) == 4 ? Real(2e-4) : Real(1e-8);
-    if (!(determinant(deformation) > Real(1e-3)))
-      return last;
-    Matrix<dim, Real> rotation = deformation;
-    for (int iteration = 0; iteration < 20; ++iteration)
-      {
-        const auto other  = inverse_transpose(rotation);
-        Real       change = 0;
-        for (int i = 0; i < dim; ++i)
-          for (int j = 0; j < dim; ++j)
-            {
-              const Real half = (other[i][j] - rotation[i][j]) / 2;
-              rotation[i][j] += half;
-              change = maximum(change, half < 0 ? -half : half);
-            }
-        if (change < enough)
-          break;
-      }
-    return rotation;
-  }
 } // namespace undine::particles
 
 #endif

@@ -35,7 +35,7 @@ namespace undine::particles
       , numerics(setup.numerics)
       , constants(make_constants<dim, Real>(setup))
       , has_fluid(setup.has_fluid)
-      , bounds(make_bounds(setup, lattice.explicit_step(setup.numerics.elastic_share)))
+      , bounds(make_bounds(setup, lattice.rate()))
       , n(n)
       , now(executor, n)
       , next(executor, n)
@@ -288,6 +288,7 @@ namespace undine::particles
                                  : Real(0),
                                now.places.data(),
                                now.motions.data(),
+                               bounds,
                                control.data()});
     }
 

@@ -24,10 +24,9 @@ namespace undine::particles
     std::vector<int>               counts, indices;
     std::vector<Matrix<dim, Real>> inverse_moments;
 
-    /// The step of the fastest body in which a wave crosses `share` of the spacing [s]; 0 without
-    /// bodies.
+    /// c_p / l0 of the fastest body [1/s]; 0 without bodies.
     double
-    explicit_step(double share) const;
+    rate() const;
 
   private:
     void

@@ -66,7 +66,7 @@ namespace undine::particles
     double hourglass       = 1;    ///< alpha of Elasticity [1]
     double damping         = 0.02; ///< share of critical damping of bonds [1]
     double bulk_damping    = 0.2;  ///< of sound, as a share of rho c_p l0 [1]
-    double contact_modulus = 0;    ///< [Pa]; 0: Young's modulus
+    double contact_modulus = 0;    ///< [Pa]; 0: lambda + 2 mu
   };
 
   /// A side of the box, or a part of space behind a plane, where fluid enters or leaves; see
@@ -96,6 +96,8 @@ namespace undine::particles
     bool   has_fluid          = true; ///< else bodies move by elasticity alone
     double fluid_density      = 1000; ///< [kg/m^3]
     double fluid_viscosity    = 0;    ///< kinematic [m^2/s]
+    double wall_viscosity     = 0;    ///< of WallFriction [m^2/s]; 0: none
+    double wall_roughness     = 0;    ///< of WallFriction [m]
     double fluid_bulk_modulus = 0;    ///< [Pa]; 0: incompressible
     double depth              = 0;    ///< of the fluid along gravity, for the waves' speed [m]
 

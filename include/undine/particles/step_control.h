@@ -22,11 +22,12 @@ namespace undine::particles
   /// What may have gone wrong in a frame, as bits.
   enum class Failure : unsigned int
   {
-    not_a_number   = 1, ///< a speed is
-    neighbours     = 2, ///< a particle has more neighbours than the list can hold
-    outside        = 4, ///< a particle left the box
-    matrix_indices = 8, ///< neighbours are too far apart in memory for packed matrix entries
-    no_reserve     = 16 ///< more particles flow in than wait to
+    not_a_number   = 1,  ///< a speed is
+    neighbours     = 2,  ///< a particle has more neighbours than the list can hold
+    outside        = 4,  ///< a particle left the box
+    matrix_indices = 8,  ///< neighbours are too far apart in memory for packed matrix entries
+    no_reserve     = 16, ///< more particles flow in than wait to
+    crushed        = 32  ///< a body became so stiff that its explicit steps are too many
   };
 
   /// Bounds on sub-steps [s], constant.
@@ -36,7 +37,8 @@ namespace undine::particles
     double waves           = 0; ///< share of l0 / sqrt(g H); 0: none
     double viscosity       = 0; ///< share of l0^2 / nu; 0: none
     double speed_share     = 0; ///< of l0 that the fastest particle may cross [m]
-    double elastic         = 0; ///< largest explicit step of the elastic bodies; 0: no bodies
+    double elastic_rate    = 0; ///< c_p / l0 of the fastest body at rest [1/s]; 0: no bodies
+    double elastic_share   = 0; ///< of 1 over that rate, for an explicit step of bodies [1]
     int most_elastic_steps = 0; ///< explicit ones in a sub-step; else one implicit; 0: any number
   };
 
@@ -54,14 +56,14 @@ namespace undine::particles
   /// passes read the step from here. After the end of the frame `dt` is zero and they do nothing.
   struct StepControl
   {
-    double frame               = 0;     ///< length of the frame [s]
-    double elapsed             = 0;     ///< of it at the end of the present sub-step [s]
-    double dt                  = 0;     ///< present sub-step [s]
-    int    elastic_steps       = 0;     ///< of the bodies within it
-    bool   elastic_is_implicit = false; ///< then it is one
+    double frame   = 0; ///< length of the frame [s]
+    double elapsed = 0; ///< of it at the end of the present sub-step [s]
+    double dt      = 0; ///< present sub-step [s]
 
     std::uint32_t largest_speed = 0; ///< in the last sub-step, bits of a float [m/s]
-    unsigned int  failures      = 0; ///< bits of Failure
+    /// As in StepBounds, of deformed bodies, bits of floats: of this explicit step and the next.
+    std::uint32_t elastic_rates[2] = {};
+    unsigned int  failures         = 0; ///< bits of Failure
 
     unsigned int sub_steps                                  = 0; ///< in this frame so far
     unsigned int bounded_by[static_cast<int>(Bound::count)] = {};
@@ -108,12 +110,6 @@ namespace undine::particles
       c.largest_speed    = 0;
       ++c.bounded_by[static_cast<int>(bound)];
       ++c.sub_steps;
-      c.elastic_steps = bounds.elastic > 0 ? static_cast<int>(ceil(c.dt / bounds.elastic)) : 0;
-      c.elastic_is_implicit =
-        bounds.most_elastic_steps > 0 && c.elastic_steps > bounds.most_elastic_steps;
-      if (c.elastic_is_implicit)
-        c.elastic_steps = 1;
-      c.elastic_steps_total += c.elastic_steps;
     }
 
   private:
