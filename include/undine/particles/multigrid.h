@@ -13,30 +13,13 @@ namespace undine::particles
   template <int dim, class Real>
   struct MultigridLevel
   {
-    StencilGrid<dim>        grid;
-    const StencilCell<dim> *all_active; ///< of all levels, one level after the other
-    const int              *first;      ///< where this level's begin; next: where they end
-    const int              *next;
-    Real                   *matrix; ///< entry k of cell i at k n + i
-    Real                   *inverse_diagonal;
-    Real                   *r, *x;
-    Real                   *smooth; ///< omega D^{-1} r
-
-    /// The cells that have unknowns. @{
-    UNDINE_HOST_DEVICE
-    int
-    n_active() const
-    {
-      return *next - *first;
-    }
-
-    UNDINE_HOST_DEVICE
-    const StencilCell<dim> *
-    active() const
-    {
-      return all_active + *first;
-    }
-    /// @}
+    StencilGrid<dim>  grid;
+    StencilCell<dim> *active; ///< the cells that have unknowns
+    int              *n_active;
+    Real             *matrix; ///< entry k of cell i at k n + i
+    Real             *inverse_diagonal;
+    Real             *r, *x;
+    Real             *smooth; ///< omega D^{-1} r
 
     UNDINE_HOST_DEVICE
     Real
@@ -56,6 +39,22 @@ namespace undine::particles
     int                       n;
     MultigridLevel<dim, Real> level[most];
     int                       begins[most + 1]; ///< of their cells among those of all levels
+
+    /// How many cells with unknowns they have, by value: everything else waits for that.
+    struct Counts
+    {
+      int of[most];
+    };
+
+    UNDINE_HOST_DEVICE
+    Counts
+    counts() const
+    {
+      Counts result;
+      for (int k = 0; k < n; ++k)
+        result.of[k] = *level[k].n_active;
+      return result;
+    }
   };
 
 
@@ -68,6 +67,8 @@ namespace undine::particles
   template <int dim, class Real>
   struct MultigridCycle
   {
+    using Counts = typename MultigridLevels<dim, Real>::Counts;
+
     MultigridLevels<dim, Real> levels;
     int                        n_large; ///< levels done by all workers, at least one
     Real                       damping; ///< omega
@@ -87,20 +88,20 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    correct(Team &team) const
+    correct(Team &team, const Counts &counts) const
     {
       for (int k = 0; k < n_large; ++k)
-        descend(team, k);
+        descend(team, counts, k);
       team.alone([&](auto &few) {
         for (int k = n_large; k + 1 < levels.n; ++k)
-          descend(few, k);
-        solve_coarsest(few);
+          descend(few, counts, k);
+        solve_coarsest(few, counts);
         for (int k = levels.n - 2; k >= n_large; --k)
-          ascend(few, k);
+          ascend(few, counts, k);
       });
       team.sync();
       for (int k = n_large - 1; k > 0; --k)
-        ascend(team, k);
+        ascend(team, counts, k);
     }
 
     /// Level k's x in a cell, for the first of the lanes.
@@ -129,11 +130,11 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    descend(Team &team, const int k) const
+    descend(Team &team, const Counts &counts, const int k) const
     {
       const auto &fine = levels.level[k], &coarse = levels.level[k + 1];
-      const auto *cells = coarse.active();
-      team.for_each_by_lanes(coarse.n_active(), [&](const int c, const auto &lanes) {
+      const auto *cells = coarse.active;
+      team.for_each_by_lanes(counts.of[k + 1], [&](const int c, const auto &lanes) {
         const StencilCell<dim> cell = cells[c];
         Real                   sum  = 0;
         UNDINE_UNROLL
@@ -163,11 +164,11 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    ascend(Team &team, const int k) const
+    ascend(Team &team, const Counts &counts, const int k) const
     {
       const auto &level = levels.level[k];
-      const auto *cells = level.active();
-      team.for_each_by_lanes(level.n_active(), [&](const int c, const auto &lanes) {
+      const auto *cells = level.active;
+      team.for_each_by_lanes(counts.of[k], [&](const int c, const auto &lanes) {
         const Real x = finish(k, cells[c], lanes);
         if (lanes.rank() == 0)
           level.x[cells[c].index(level.grid)] = x;
@@ -179,11 +180,11 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    solve_coarsest(Team &team) const
+    solve_coarsest(Team &team, const Counts &counts) const
     {
       const auto &level = levels.level[levels.n - 1];
-      const auto *cells = level.active();
-      team.for_each_by_lanes(level.n_active(), [&](const int c, const auto &lanes) {
+      const auto *cells = level.active;
+      team.for_each_by_lanes(counts.of[levels.n - 1], [&](const int c, const auto &lanes) {
         const int index = cells[c].index(level.grid);
         Real      sum   = 0;
         for_each_around(

@@ -25,6 +25,7 @@ namespace undine::particles
       , marks(executor, n_cells + 1)
       , marks_before(executor, n_cells + 1)
       , active(executor, n_cells)
+      , n_active(executor, grids.size())
     {
       auto &levels     = cycle.levels;
       levels.n         = 0;
@@ -55,7 +56,7 @@ namespace undine::particles
       executor.exclusive_scan(n_cells + 1, marks.data(), marks_before.data());
       executor.for_each(
         n_cells,
-        ListActiveCells<dim, Real>{cycle.levels, marks.data(), marks_before.data(), active.data()});
+        ListActiveCells<dim, Real>{cycle.levels, marks.data(), marks_before.data()});
       executor.template for_each_with_room<StencilGrid<dim>::size, Real>(
         n,
         SumRowByCells<dim, Real, Entry>{
@@ -115,15 +116,15 @@ namespace undine::particles
       const int   begin  = levels.begins[levels.n];
 
       levels.begins[levels.n + 1] = begin + grid.n;
-      levels.level[levels.n++]    = {grid,
-                                     active.data(),
-                                     marks_before.data() + begin,
-                                     marks_before.data() + begin + grid.n,
+      levels.level[levels.n]      = {grid,
+                                     active.data() + begin,
+                                     n_active.data() + levels.n,
                                      matrix,
                                      after,
                                      after + rows,
                                      after + 2 * rows,
                                      after + 3 * rows};
+      ++levels.n;
     }
 
     Executor                           &executor;
@@ -134,7 +135,8 @@ namespace undine::particles
     Buffer<Executor, int>               cell_of;
     Buffer<Executor, Real>              sums; ///< of rows, by cells
     Buffer<Executor, int>               marks, marks_before;
-    Buffer<Executor, StencilCell<dim>>  active;
+    Buffer<Executor, StencilCell<dim>>  active; ///< of all levels
+    Buffer<Executor, int>               n_active;
     std::vector<Buffer<Executor, Real>> memory;
     MultigridCycle<dim, Real>           cycle;
   };

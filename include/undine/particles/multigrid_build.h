@@ -70,21 +70,24 @@ namespace undine::particles
     MultigridLevels<dim, Real> levels;
     const int                 *marks;
     const int                 *marks_before;
-    StencilCell<dim>          *list;
 
     UNDINE_HOST_DEVICE
     void
     operator()(const int place) const
     {
-      if (marks[place] == 0)
-        return;
       int k = 0;
       while (place >= levels.begins[k + 1])
         ++k;
-      auto cell = levels.level[k].grid.cell(place - levels.begins[k]);
+      const auto &level  = levels.level[k];
+      const int   before = marks_before[levels.begins[k]];
+      if (place == levels.begins[k])
+        *level.n_active = marks_before[levels.begins[k + 1]] - before;
+      if (marks[place] == 0)
+        return;
+      auto cell = level.grid.cell(place - levels.begins[k]);
       if (k > 0)
         cell.children = MarkActiveCells<dim, Real>::active_children(levels, marks, k, cell);
-      list[marks_before[place]] = cell;
+      level.active[marks_before[place] - before] = cell;
     }
   };
 
@@ -150,7 +153,8 @@ namespace undine::particles
     void
     operator()(Team &team) const
     {
-      const int n_active = levels.level[0].n_active();
+      const auto counts   = levels.counts();
+      const int  n_active = counts.of[0];
       team.for_each_spread(size * n_active, [&](const int place) {
         sum_rows(place / n_active, place % n_active);
       });
@@ -158,8 +162,8 @@ namespace undine::particles
         {
           team.sync();
           const auto &fine = levels.level[k - 1], &coarse = levels.level[k];
-          team.for_each_by_lanes(coarse.n_active(), [&](const int c, const auto &lanes) {
-            coarsen(fine, coarse, coarse.active()[c], lanes);
+          team.for_each_by_lanes(counts.of[k], [&](const int c, const auto &lanes) {
+            coarsen(fine, coarse, coarse.active[c], lanes);
           });
         }
     }
@@ -170,7 +174,7 @@ namespace undine::particles
     sum_rows(const int entry, const int c) const
     {
       const auto &level = levels.level[0];
-      const int   cell  = level.active()[c].index(level.grid);
+      const int   cell  = level.active[c].index(level.grid);
       Real        sum   = 0;
       for (int i = starts[cell]; i < starts[cell + 1]; ++i)
         if (is_unknown[i])

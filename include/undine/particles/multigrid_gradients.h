@@ -19,6 +19,8 @@ namespace undine::particles
     const int                            *cell_of; ///< of the particles; -1: no unknown
     const int                            *starts;  ///< of the cells
 
+    using Counts = typename MultigridLevels<dim, Real>::Counts;
+
     template <class Team>
     UNDINE_HOST_DEVICE
     void
@@ -26,16 +28,17 @@ namespace undine::particles
     {
       if (base.control->done())
         return;
-      const int    n = base.system.matrix.n;
+      const int    n      = base.system.matrix.n;
+      const Counts counts = cycle.levels.counts();
       const double size =
         team.template sum<1>(n, [&](const int i, Sums<1> &sums) { begin(i, sums); })[0];
       const double goal = base.bounds.tolerance * base.bounds.tolerance * size;
       double       last = 0, last_step = 0, square = 0;
       int          iteration = 0;
-      restrict_residual(team);
+      restrict_residual(team, counts);
       for (;; ++iteration)
         {
-          precondition(team);
+          precondition(team, counts);
           const auto now =
             team.template sum<3>(n, [&](const int i, Sums<3> &sums) { multiply(i, sums); });
           square = now[2];
@@ -46,8 +49,8 @@ namespace undine::particles
             now[0] / (iteration == 0 ? now[1] : now[1] - beta * now[0] / last_step);
           last      = now[0];
           last_step = step;
-          update(team, static_cast<Real>(step), static_cast<Real>(beta));
-          restrict_residual(team);
+          update(team, counts, static_cast<Real>(step), static_cast<Real>(beta));
+          restrict_residual(team, counts);
         }
       if (team.is_first())
         base.report(iteration, size > 0 ? sqrt(square / size) : 0.);
@@ -70,9 +73,9 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     Share
-    own_cells(const Team &team) const
+    own_cells(const Team &team, const Counts &counts) const
     {
-      return team.share(finest().n_active());
+      return team.share(counts.of[0]);
     }
 
     /// The particles in them; between cells, some that have no unknown, too.
@@ -82,7 +85,7 @@ namespace undine::particles
     {
       if (own.begin >= own.end)
         return {0, 0};
-      const auto *cells = finest().active();
+      const auto *cells = finest().active;
       return {starts[cells[own.begin].index(finest().grid)],
               starts[cells[own.end - 1].index(finest().grid) + 1]};
     }
@@ -97,28 +100,53 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    restrict_residual(Team &team) const
+    restrict_residual(Team &team, const Counts &counts) const
     {
-      const auto *cells = finest().active();
-      const auto *r     = base.vectors.r;
-      team.for_each_of(own_cells(team), [&](const int c) {
-        const int cell = cells[c].index(finest().grid);
-        Real      sum  = 0;
-        for (int i = starts[cell]; i < starts[cell + 1]; ++i)
-          sum += r[i];
-        cycle.begin(0, cell, sum);
-      });
+      const auto *cells = finest().active;
+      struct Cell
+      {
+        int index, begin, end;
+      };
+      team.for_each_of(
+        own_cells(team, counts),
+        [&](const int c) {
+          const int index = cells[c].index(finest().grid);
+          return Cell{index, starts[index], starts[index + 1]};
+        },
+        [&](const int, const Cell &cell) {
+          cycle.begin(0, cell.index, sum_of_residuals(cell.begin, cell.end));
+        });
       team.sync();
+    }
+
+    /// Of particles that follow each other.
+    UNDINE_HOST_DEVICE
+    Real
+    sum_of_residuals(const int begin, const int end) const
+    {
+      constexpr int together = 12; // on the way at the same time
+      Real          sum      = 0;
+      for (int first = begin; first < end; first += together)
+        {
+          Real r[together];
+          UNDINE_UNROLL_ALL
+          for (int k = 0; k < together; ++k)
+            r[k] = first + k < end ? base.vectors.r[first + k] : Real(0);
+          UNDINE_UNROLL_ALL
+          for (int k = 0; k < together; ++k)
+            sum += r[k];
+        }
+      return sum;
     }
 
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    precondition(Team &team) const
+    precondition(Team &team, const Counts &counts) const
     {
-      cycle.correct(team);
-      const auto *cells = finest().active();
-      const Share own   = own_cells(team);
+      cycle.correct(team, counts);
+      const auto *cells = finest().active;
+      const Share own   = own_cells(team, counts);
       team.for_each_of(own, [&](const int c) {
         finest().x[cells[c].index(finest().grid)] = cycle.finish(0, cells[c], OneLane());
       });
@@ -156,7 +184,7 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    update(Team &team, const Real alpha, const Real beta) const
+    update(Team &team, const Counts &counts, const Real alpha, const Real beta) const
     {
       const auto &v = base.vectors;
       Real *const x = base.system.solution;
@@ -165,7 +193,7 @@ namespace undine::particles
         Real u, w, p, s, x, r;
       };
       team.for_each_of(
-        particles(own_cells(team)),
+        particles(own_cells(team, counts)),
         [&](const int i) {
           return Row{v.u[i], v.w[i], v.p[i], v.s[i], x[i], v.r[i]};
         },

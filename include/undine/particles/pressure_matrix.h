@@ -138,30 +138,33 @@ namespace undine::particles
 
     /// f(entry, x_j) for the entries of a row, and for the empty ones that fill its last group. The
     /// entries of the next groups are on the way while the numbers that belong to the present one
-    /// are.
+    /// are: as many groups as registers hold.
     template <class Value, class Stored, class Function>
     UNDINE_HOST_DEVICE
     void
     for_each_in_row(const int row, const Stored *x, const Function &f) const
     {
-      const int    count = counts[row];
-      const Entry *from  = entries + list_slot(row, 0, capacity);
-      Entry        present[group] = {}, next[group] = {}, after[group] = {};
-      fetch(from, 0, count, present);
-      fetch(from, group, count, next);
+      constexpr int ahead = sizeof(Value) > sizeof(double) ? 1 : 2;
+      const int     count = counts[row];
+      const Entry  *from  = entries + list_slot(row, 0, capacity);
+      Entry         entry[ahead + 1][group] = {};
+      UNDINE_UNROLL
+      for (int g = 0; g < ahead; ++g)
+        fetch(from, g * group, count, entry[g]);
       for (int first = 0; first < count; first += group)
         {
           Value value[group];
           UNDINE_UNROLL
           for (int k = 0; k < group; ++k)
-            value[k] = x[row + present[k].difference()];
-          fetch(from, first + 2 * group, count, after);
+            value[k] = x[row + entry[0][k].difference()];
+          fetch(from, first + ahead * group, count, entry[ahead]);
           UNDINE_UNROLL
           for (int k = 0; k < group; ++k)
             {
-              f(present[k], value[k]);
-              present[k] = next[k];
-              next[k]    = after[k];
+              f(entry[0][k], value[k]);
+              UNDINE_UNROLL
+              for (int g = 0; g < ahead; ++g)
+                entry[g][k] = entry[g + 1][k];
             }
         }
     }
