@@ -203,6 +203,8 @@ namespace undine::particles
                                            equation.diagonal.data(),
                                            closed ? equation.faces_diagonal.data() : nullptr,
                                            equation.gaps.data(),
+                                           now.motions.data(),
+                                           equation.right_hand_side.data(),
                                            control.data()});
       executor.enter(Phase::faces);
       if (closed)
@@ -216,10 +218,11 @@ namespace undine::particles
                                                  &StepControl::faces)});
       executor.enter(Phase::assembly);
       executor.for_each(n,
-                        MeasureSource<dim, Real>{constants,
+                        MeasureSource<dim, Real, Entry>{constants,
                                                  neighbours(),
                                                  equation.neighbourhood(),
                                                  faces(),
+                                                 matrix(),
                                                  now.motions.data(),
                                                  equation.right_hand_side.data(),
                                                  equation.pressures.data(),

@@ -56,7 +56,7 @@ namespace undine::particles
     Buffer<Executor, Real>                       densities, fillings;
     Buffer<Executor, int>                        is_unknown;
     Buffer<Executor, unsigned char>              is_covered;
-    Buffer<Executor, SymmetricMatrix<dim, Real>> corrections;
+    Buffer<Executor, StoredCorrection<dim, Real>> corrections;
     Buffer<Executor, int>                        counts;
     Buffer<Executor, Entry>                      entries;
     Buffer<Executor, Real>                    diagonal, right_hand_side, pressures, faces_diagonal;

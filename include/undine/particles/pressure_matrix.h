@@ -139,10 +139,10 @@ namespace undine::particles
     /// f(entry, x_j) for the entries of a row, and for the empty ones that fill its last group. The
     /// entries of the next groups are on the way while the numbers that belong to the present one
     /// are: as many groups as registers hold.
-    template <class Value, class Stored, class Function>
+    template <class Value, class Numbers, class Function>
     UNDINE_HOST_DEVICE
     void
-    for_each_in_row(const int row, const Stored *x, const Function &f) const
+    for_each_in_row(const int row, const Numbers &x, const Function &f) const
     {
       constexpr int ahead = sizeof(Value) > sizeof(double) ? 1 : 2;
       const int     count = counts[row];
