@@ -78,7 +78,7 @@ namespace undine::particles
     using Team = DeviceTeam;
 
     /// Particles.
-    static constexpr int multigrid_pays_from = 300000;
+    static constexpr int multigrid_pays_from = 150000;
 
     /// Throws InputError if there is no device.
     DeviceExecutor()

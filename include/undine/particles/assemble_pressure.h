@@ -276,8 +276,8 @@ namespace undine::particles
       Real sum = right_hand_side[i];
       if (faces.potentials == nullptr || !neighbourhood.is_covered[i] || !tag.is_free())
         return sum;
-      const Others            others{motions, faces.potentials};
-      const Other             own = others[i];
+      const Others others{motions, faces.potentials};
+      const Other  own = others[i];
       matrix.template for_each_in_row<Other>(i, others, [&](const Entry entry, const Other &other) {
         sum += entry.coefficient(matrix.scale) * ((other.v - own.v) * (own.L - other.L));
       });

@@ -8,13 +8,13 @@ namespace undine::particles
 {
   /// Chebyshev's iteration for a system of ConjugateGradients, for a good guess and a coarse
   /// tolerance: it damps what is in the range of eigenvalues of D^{-1} A from `lowest` to `highest`
-  /// and needs no products of vectors for it, so that an iteration is one pass over the matrix. Where
-  /// that does not suffice, conjugate gradients finish. No eigenvalue is larger than two.
+  /// and needs no products of vectors for it, so that an iteration is one pass over the matrix.
+  /// Where that does not suffice, conjugate gradients finish. No eigenvalue is larger than two.
   template <class Real, class Entry, class Value>
   struct DampedIterations
   {
     static constexpr Real lowest = Real(0.2), highest = Real(2);
-    static constexpr int  most   = 12; ///< iterations
+    static constexpr int  most = 12; ///< iterations
 
     ConjugateGradients<Real, Entry, Value> base;
 
@@ -26,7 +26,7 @@ namespace undine::particles
       if (base.control->done())
         return;
       constexpr Real middle = (highest + lowest) / 2, half = (highest - lowest) / 2;
-      const int      n      = base.system.matrix.n;
+      const int      n   = base.system.matrix.n;
       Stored        *now = base.system.solution, *next = base.vectors.u;
       Real           rho       = 0;
       int            iteration = 0;
@@ -38,9 +38,8 @@ namespace undine::particles
           rho                 = is_first ? half / middle : 1 / (2 * middle / half - last);
           const Real step     = is_first ? 1 / middle : 2 * rho / half;
           const Real memory   = is_first ? Real(0) : rho * last;
-          sizes               = team.template sum<2>(n, [&](const int i, Sums<2> &sums) {
-            iterate(i, now, next, step, memory, sums);
-          });
+          sizes               = team.template sum<2>(
+            n, [&](const int i, Sums<2> &sums) { iterate(i, now, next, step, memory, sums); });
           if (has_converged(sizes) || iteration == most)
             break;
           Stored *const other = now;
@@ -84,7 +83,8 @@ namespace undine::particles
           const Real rest     = b_k - r_k;
           sums[0] += static_cast<double>(rest) * rest * inverse;
           sums[1] += static_cast<double>(b_k) * b_k * inverse;
-          change_k = memory != 0 ? memory * change_k + step * inverse * rest : step * inverse * rest;
+          change_k =
+            memory != 0 ? memory * change_k + step * inverse * rest : step * inverse * rest;
           Components<Value>::of(x, k) += change_k;
         }
       base.vectors.p[i] = change;

@@ -114,11 +114,7 @@ namespace undine::particles
       const int   index = cell.index(fine.grid);
       Real        sum   = 0;
       for_each_around(
-        fine.grid,
-        coarse.grid,
-        cell,
-        lanes,
-        [&](const int entry, const int j, const int parent) {
+        fine.grid, coarse.grid, cell, lanes, [&](const int entry, const int j, const int parent) {
           sum += fine.entry(entry, index) * (fine.smooth[j] + factor * coarse.x[parent]);
         });
       const Real mine = fine.smooth[index] + factor * coarse.x[cell.parent(coarse.grid)];
@@ -188,11 +184,7 @@ namespace undine::particles
         const int index = cells[c].index(level.grid);
         Real      sum   = 0;
         for_each_around(
-          level.grid,
-          level.grid,
-          cells[c],
-          lanes,
-          [&](const int entry, const int j, const int) {
+          level.grid, level.grid, cells[c], lanes, [&](const int entry, const int j, const int) {
             sum += level.entry(entry, index) * level.smooth[j];
           });
         sum = level.r[index] - lanes.sum(sum);

@@ -21,6 +21,8 @@ namespace undine::particles
       , grids(make_grids(cells))
       , n_cells(count_cells(grids))
       , cell_of(executor, n)
+      , places_in_cells(executor, n)
+      , functions(executor, grids.front().n)
       , sums(executor, static_cast<std::size_t>(n) * StencilGrid<dim>::size)
       , marks(executor, n_cells + 1)
       , marks_before(executor, n_cells + 1)
@@ -55,12 +57,18 @@ namespace undine::particles
                    MarkActiveCells<dim, Real>{cycle.levels, starts, is_unknown, marks.data()});
       executor.exclusive_scan(n_cells + 1, marks.data(), marks_before.data());
       executor.for_each(
-        n_cells,
-        ListActiveCells<dim, Real>{cycle.levels, marks.data(), marks_before.data()});
+        n_cells, ListActiveCells<dim, Real>{cycle.levels, marks.data(), marks_before.data()});
       executor.template for_each_with_room<StencilGrid<dim>::size, Real>(
         n,
-        SumRowByCells<dim, Real, Entry>{
-          cells, finest, places, is_unknown, matrix, diagonal, cell_of.data(), sums.data()});
+        SumRowByCells<dim, Real, Entry>{cells,
+                                        finest,
+                                        places,
+                                        is_unknown,
+                                        matrix,
+                                        diagonal,
+                                        cell_of.data(),
+                                        places_in_cells.data(),
+                                        sums.data()});
       executor.run(finest.n,
                    BuildLevels<dim, Real>{cycle.levels, starts, is_unknown, sums.data(), n});
     }
@@ -70,7 +78,13 @@ namespace undine::particles
     void
     solve(const ConjugateGradients<Real, Entry, Real> &base, const int *starts) const
     {
-      executor.run(n, MultigridGradients<dim, Real, Entry>{base, cycle, cell_of.data(), starts});
+      executor.run(n,
+                   MultigridGradients<dim, Real, Entry>{base,
+                                                        cycle,
+                                                        {grids.front(), functions.data()},
+                                                        cell_of.data(),
+                                                        places_in_cells.data(),
+                                                        starts});
     }
 
   private:
@@ -127,18 +141,20 @@ namespace undine::particles
       ++levels.n;
     }
 
-    Executor                           &executor;
-    CellGrid<dim, Real>                 cells;
-    int                                 n; ///< particles
-    std::vector<StencilGrid<dim>>       grids;
-    int                                 n_cells; ///< of all levels
-    Buffer<Executor, int>               cell_of;
-    Buffer<Executor, Real>              sums; ///< of rows, by cells
-    Buffer<Executor, int>               marks, marks_before;
-    Buffer<Executor, StencilCell<dim>>  active; ///< of all levels
-    Buffer<Executor, int>               n_active;
-    std::vector<Buffer<Executor, Real>> memory;
-    MultigridCycle<dim, Real>           cycle;
+    Executor                                 &executor;
+    CellGrid<dim, Real>                       cells;
+    int                                       n; ///< particles
+    std::vector<StencilGrid<dim>>             grids;
+    int                                       n_cells; ///< of all levels
+    Buffer<Executor, int>                     cell_of;
+    Buffer<Executor, PlaceInCell<dim, Real>>  places_in_cells;
+    Buffer<Executor, LinearInCell<dim, Real>> functions;
+    Buffer<Executor, Real>                    sums; ///< of rows, by cells
+    Buffer<Executor, int>                     marks, marks_before;
+    Buffer<Executor, StencilCell<dim>>        active; ///< of all levels
+    Buffer<Executor, int>                     n_active;
+    std::vector<Buffer<Executor, Real>>       memory;
+    MultigridCycle<dim, Real>                 cycle;
   };
 } // namespace undine::particles
 

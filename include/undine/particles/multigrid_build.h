@@ -2,6 +2,7 @@
 #ifndef undine_particles_multigrid_build_h
 #define undine_particles_multigrid_build_h
 
+#include <undine/particles/cell_interpolation.h>
 #include <undine/particles/multigrid.h>
 #include <undine/particles/particle.h>
 #include <undine/particles/pressure_matrix.h>
@@ -84,10 +85,30 @@ namespace undine::particles
         *level.n_active = marks_before[levels.begins[k + 1]] - before;
       if (marks[place] == 0)
         return;
-      auto cell = level.grid.cell(place - levels.begins[k]);
-      if (k > 0)
-        cell.children = MarkActiveCells<dim, Real>::active_children(levels, marks, k, cell);
+      auto cell     = level.grid.cell(place - levels.begins[k]);
+      cell.children = k > 0 ? MarkActiveCells<dim, Real>::active_children(levels, marks, k, cell)
+                            : active_next(cell);
       level.active[marks_before[place] - before] = cell;
+    }
+
+  private:
+    /// As bits.
+    UNDINE_HOST_DEVICE
+    unsigned int
+    active_next(const StencilCell<dim> &cell) const
+    {
+      const auto  &grid   = levels.level[0].grid;
+      unsigned int result = 0;
+      for (int axis = 0; axis < dim; ++axis)
+        for (const int step : {-1, 1})
+          {
+            auto      other         = cell;
+            const int c             = cell.coordinates[axis];
+            other.coordinates[axis] = grid.next_to(c, step, axis);
+            if (other.coordinates[axis] != c && marks[other.index(grid)] != 0)
+              result |= StencilCell<dim>::bit_of_next(axis, step);
+          }
+      return result;
     }
   };
 
@@ -103,7 +124,8 @@ namespace undine::particles
     PressureMatrix<Real, Entry> matrix;
     const Real                 *diagonal;
     int                        *cell_of; ///< of the particle; -1: has no unknown
-    Real                       *sums;    ///< entry k of particle i at k n + i
+    PlaceInCell<dim, Real>     *places_in_cells;
+    Real                       *sums; ///< entry k of particle i at k n + i
 
     /// `row` has room for a stencil.
     template <class Row>
@@ -118,17 +140,18 @@ namespace undine::particles
       StencilCell<dim> here = {};
       for (int axis = 0; axis < dim; ++axis)
         here.coordinates[axis] = cells.coordinate(places[i].x, axis);
-      cell_of[i] = here.index(grid);
+      cell_of[i]         = here.index(grid);
+      places_in_cells[i] = PlaceInCell<dim, Real>::of(cells, places[i].x);
       for (int k = 0; k < size; ++k)
         row[k] = k == size / 2 ? diagonal[i] : Real(0);
       matrix.template for_each_in_row<Place<dim, Real>>(
         i, places, [&](const Entry entry, const Place<dim, Real> &other) {
-        int where = 0;
-        for (int axis = dim - 1; axis >= 0; --axis)
-          where = 3 * where + 1 +
-                  grid.difference(cells.coordinate(other.x, axis), here.coordinates[axis], axis);
-        row[where] -= entry.coefficient(matrix.scale);
-      });
+          int where = 0;
+          for (int axis = dim - 1; axis >= 0; --axis)
+            where = 3 * where + 1 +
+                    grid.difference(cells.coordinate(other.x, axis), here.coordinates[axis], axis);
+          row[where] -= entry.coefficient(matrix.scale);
+        });
       for (int k = 0; k < size; ++k)
         sums[static_cast<std::size_t>(k) * matrix.n + i] = row[k];
     }
@@ -155,9 +178,8 @@ namespace undine::particles
     {
       const auto counts   = levels.counts();
       const int  n_active = counts.of[0];
-      team.for_each_spread(size * n_active, [&](const int place) {
-        sum_rows(place / n_active, place % n_active);
-      });
+      team.for_each_spread(size * n_active,
+                           [&](const int place) { sum_rows(place / n_active, place % n_active); });
       for (int k = 1; k < levels.n; ++k)
         {
           team.sync();

@@ -2,6 +2,7 @@
 #ifndef undine_particles_multigrid_gradients_h
 #define undine_particles_multigrid_gradients_h
 
+#include <undine/particles/cell_interpolation.h>
 #include <undine/particles/conjugate_gradients.h>
 #include <undine/particles/multigrid.h>
 
@@ -9,15 +10,17 @@ namespace undine::particles
 {
   /// Conjugate gradients as ConjugateGradients, preconditioned by Jacobi's method on the particles
   /// plus a multigrid cycle on the cells that particles are sorted by: u = D^{-1} r + c P V P^T r,
-  /// where P gives particles the value of their cell. The number of iterations hardly grows with
+  /// where P interpolates between cells. The number of iterations hardly grows with
   /// that of particles.
   template <int dim, class Real, class Entry>
   struct MultigridGradients
   {
     ConjugateGradients<Real, Entry, Real> base;
     MultigridCycle<dim, Real>             cycle;
+    CellInterpolation<dim, Real>          interpolation;
     const int                            *cell_of; ///< of the particles; -1: no unknown
-    const int                            *starts;  ///< of the cells
+    const PlaceInCell<dim, Real>         *places_in_cells;
+    const int                            *starts; ///< of the cells
 
     using Counts = typename MultigridLevels<dim, Real>::Counts;
 
@@ -114,29 +117,39 @@ namespace undine::particles
           return Cell{index, starts[index], starts[index + 1]};
         },
         [&](const int, const Cell &cell) {
-          cycle.begin(0, cell.index, sum_of_residuals(cell.begin, cell.end));
+          interpolation.functions[cell.index] = sums_of_residuals(cell.begin, cell.end);
         });
+      team.sync();
+      team.for_each_of(own_cells(team, counts), [&](const int c) {
+        const int index = cells[c].index(finest().grid);
+        cycle.begin(0, index, interpolation.number(cells[c], index));
+      });
       team.sync();
     }
 
-    /// Of particles that follow each other.
+    /// Of particles that follow each other in a cell.
     UNDINE_HOST_DEVICE
-    Real
-    sum_of_residuals(const int begin, const int end) const
+    LinearInCell<dim, Real>
+    sums_of_residuals(const int begin, const int end) const
     {
-      constexpr int together = 12; // on the way at the same time
-      Real          sum      = 0;
+      constexpr int together = 6; // on the way at the same time
+      auto          result   = LinearInCell<dim, Real>::zero();
       for (int first = begin; first < end; first += together)
         {
-          Real r[together];
-          UNDINE_UNROLL_ALL
+          Real                   r[together];
+          PlaceInCell<dim, Real> place[together];
+          UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
-            r[k] = first + k < end ? base.vectors.r[first + k] : Real(0);
-          UNDINE_UNROLL_ALL
+            {
+              const int i = minimum(first + k, end - 1);
+              r[k]        = first + k < end ? base.vectors.r[i] : Real(0);
+              place[k]    = places_in_cells[i];
+            }
+          UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
-            sum += r[k];
+            result.add(r[k], place[k]);
         }
-      return sum;
+      return result;
     }
 
     template <class Team>
@@ -150,6 +163,11 @@ namespace undine::particles
       team.for_each_of(own, [&](const int c) {
         finest().x[cells[c].index(finest().grid)] = cycle.finish(0, cells[c], OneLane());
       });
+      team.sync();
+      team.for_each_of(own, [&](const int c) {
+        const int index                = cells[c].index(finest().grid);
+        interpolation.functions[index] = interpolation.function(cells[c], index, finest().x);
+      });
       team.sync_own();
       struct Row
       {
@@ -159,8 +177,9 @@ namespace undine::particles
         particles(own),
         [&](const int i) {
           const int cell = cell_of[i];
-          return Row{
-            base.vectors.r[i], base.system.diagonal[i], cell >= 0 ? finest().x[cell] : Real(0)};
+          return Row{base.vectors.r[i],
+                     base.system.diagonal[i],
+                     cell >= 0 ? interpolation.functions[cell].at(places_in_cells[i]) : Real(0)};
         },
         [&](const int i, const Row &row) {
           base.vectors.u[i] = row.r / row.d + cycle.factor * row.correction;

@@ -49,8 +49,7 @@ namespace undine::particles
     /// Among the particles begin ... end-1, seen from x.
     UNDINE_HOST_DEVICE
     void
-    collect(
-      const int i, const Vector<dim, Real> &x, const int begin, const int end, Row &row) const
+    collect(const int i, const Vector<dim, Real> &x, const int begin, const int end, Row &row) const
     {
       constexpr int together = 4; // their places are on the way at the same time
       int           first    = begin;

@@ -15,10 +15,10 @@ namespace undine::particles
   template <int dim, class Real>
   struct Neighbourhood
   {
-    Real                       *densities;   ///< number density n* [1]
-    Real                       *fillings;    ///< sum of filling() over that of a full lattice [1]
-    int                        *is_unknown;  ///< 1: has a row in the pressure equation
-    unsigned char              *is_covered;  ///< 0: at the free surface
+    Real          *densities;  ///< number density n* [1]
+    Real          *fillings;   ///< sum of filling() over that of a full lattice [1]
+    int           *is_unknown; ///< 1: has a row in the pressure equation
+    unsigned char *is_covered; ///< 0: at the free surface
     /// M, which makes gradients exact for linear fields.
     StoredCorrection<dim, Real> *corrections;
   };
@@ -59,12 +59,12 @@ namespace undine::particles
         if (pair.tag.kind() != Kind::dummy || tag.kind() == Kind::wall)
           moment.add_square(pair.weight_over_square(), pair.r);
       });
-      const bool covered   = is_covered(tag, identities[i], n, side);
-      result.densities[i]  = n;
-      result.fillings[i]   = f / constants.filling;
-      result.is_covered[i] = covered ? 1 : 0;
-      const bool unknown   = has_pressure(tag, n, covered);
-      result.is_unknown[i] = unknown ? 1 : 0;
+      const bool covered    = is_covered(tag, identities[i], n, side);
+      result.densities[i]   = n;
+      result.fillings[i]    = f / constants.filling;
+      result.is_covered[i]  = covered ? 1 : 0;
+      const bool unknown    = has_pressure(tag, n, covered);
+      result.is_unknown[i]  = unknown ? 1 : 0;
       result.corrections[i] = StoredCorrection<dim, Real>::of(
         covered || tag.kind() == Kind::solid ? correction(moment) : identity, unknown);
     }

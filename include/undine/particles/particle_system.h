@@ -219,14 +219,14 @@ namespace undine::particles
       executor.enter(Phase::assembly);
       executor.for_each(n,
                         MeasureSource<dim, Real, Entry>{constants,
-                                                 neighbours(),
-                                                 equation.neighbourhood(),
-                                                 faces(),
-                                                 matrix(),
-                                                 now.motions.data(),
-                                                 equation.right_hand_side.data(),
-                                                 equation.pressures.data(),
-                                                 control.data()});
+                                                        neighbours(),
+                                                        equation.neighbourhood(),
+                                                        faces(),
+                                                        matrix(),
+                                                        now.motions.data(),
+                                                        equation.right_hand_side.data(),
+                                                        equation.pressures.data(),
+                                                        control.data()});
       solve_pressure_equation();
       executor.for_each(n,
                         TakePressures<dim, Real>{equation.is_unknown.data(),

@@ -144,9 +144,9 @@ namespace undine::particles
     void
     for_each_in_row(const int row, const Numbers &x, const Function &f) const
     {
-      constexpr int ahead = sizeof(Value) > sizeof(double) ? 1 : 2;
-      const int     count = counts[row];
-      const Entry  *from  = entries + list_slot(row, 0, capacity);
+      constexpr int ahead                   = sizeof(Value) > sizeof(double) ? 1 : 2;
+      const int     count                   = counts[row];
+      const Entry  *from                    = entries + list_slot(row, 0, capacity);
       Entry         entry[ahead + 1][group] = {};
       UNDINE_UNROLL
       for (int g = 0; g < ahead; ++g)

@@ -69,7 +69,8 @@ namespace undine::particles
     }
   };
 
-  /// A cell that has unknowns, with which of its children in the finer grid do, as bits.
+  /// A cell that has unknowns, with which of its children in the finer grid do, as bits; in the
+  /// finest grid, which of its next ones along each axis do.
   template <int dim>
   struct alignas(dim == 3 ? 16 : 4) StencilCell
   {
@@ -95,6 +96,20 @@ namespace undine::particles
       for (int axis = 0; axis < dim; ++axis)
         result.coordinates[axis] = 2 * coordinates[axis] + (child >> axis & 1);
       return result;
+    }
+
+    UNDINE_HOST_DEVICE
+    static unsigned int
+    bit_of_next(const int axis, const int step)
+    {
+      return 1u << (2 * axis + (step > 0 ? 1 : 0));
+    }
+
+    UNDINE_HOST_DEVICE
+    bool
+    has_next(const int axis, const int step) const
+    {
+      return (children & bit_of_next(axis, step)) != 0;
     }
 
     /// The index of its parent.
@@ -126,12 +141,12 @@ namespace undine::particles
     UNDINE_UNROLL_ALL
     for (int axis = 0; axis < dim; ++axis)
       UNDINE_UNROLL_ALL
-      for (int step = 0; step < 3; ++step)
-        {
-          const int c         = grid.next_to(cell.coordinates[axis], step - 1, axis);
-          indices[axis][step] = c * grid.strides[axis];
-          parents[axis][step] = c / 2 * coarser.strides[axis];
-        }
+    for (int step = 0; step < 3; ++step)
+      {
+        const int c         = grid.next_to(cell.coordinates[axis], step - 1, axis);
+        indices[axis][step] = c * grid.strides[axis];
+        parents[axis][step] = c / 2 * coarser.strides[axis];
+      }
     UNDINE_UNROLL_ALL
     for (int first = 0; first < size; first += Lanes::count())
       {
@@ -142,7 +157,9 @@ namespace undine::particles
           {
             const int step = rest % 3;
             other += step == 0 ? indices[axis][0] : step == 1 ? indices[axis][1] : indices[axis][2];
-            parent += step == 0 ? parents[axis][0] : step == 1 ? parents[axis][1] : parents[axis][2];
+            parent += step == 0   ? parents[axis][0]
+                      : step == 1 ? parents[axis][1]
+                                  : parents[axis][2];
           }
         if (entry < size)
           f(entry, other, parent);

@@ -81,10 +81,10 @@ namespace undine::particles
       UNDINE_UNROLL
       for (int k = 0; k < M.size; ++k)
         {
-          const int value = k < 4 ? signed_bits(words[k < 4 ? k : 0] << 11) >> 11 :
-                                    (signed_bits(words[k < 4 ? 0 : 2 * k - 8]) >> 21) * 1024 +
+          const int value = k < 4 ? signed_bits(words[k < 4 ? k : 0] << 11) >> 11
+                                  : (signed_bits(words[k < 4 ? 0 : 2 * k - 8]) >> 21) * 1024 +
                                       static_cast<int>(words[k < 4 ? 0 : 2 * k - 7] >> 21 & 0x3ff);
-          M.entries[k] = identity(k) + static_cast<float>(value) * (1 / steps);
+          M.entries[k]    = identity(k) + static_cast<float>(value) * (1 / steps);
         }
       return M;
     }
