@@ -72,7 +72,7 @@ namespace undine::particles
   /// A cell that has unknowns, with which of its children in the finer grid do, as bits; in the
   /// finest grid, which of its next ones along each axis do.
   template <int dim>
-  struct alignas(dim == 3 ? 16 : 4) StencilCell
+  struct alignas(16) StencilCell
   {
     int          coordinates[dim];
     unsigned int children;

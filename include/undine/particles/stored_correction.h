@@ -45,9 +45,9 @@ namespace undine::particles
   /// 2^-17, 21 bits each. Both sides of a face see the same rounded M, so that faces stay equal and
   /// opposite.
   template <int dim>
-  struct alignas(16) StoredCorrection<dim, float>
+  struct StoredCorrection<dim, float>
   {
-    std::uint32_t words[4];
+    alignas(16) std::uint32_t words[4];
 
     static constexpr float bound = 8;
 
