@@ -3,13 +3,14 @@
 #define undine_cuda_device_executor_cuh
 
 #include "device_error.cuh"
+#include "device_kernels.cuh"
 #include "device_stopwatch.cuh"
-#include "device_team.cuh"
 #include "find_device.h"
 #include "resident_solver.cuh"
 
+#include <undine/particles/damped_iterations.h>
+
 #include <cub/device/device_scan.cuh>
-#include <nv/target>
 
 #include <algorithm>
 #include <memory>
@@ -17,43 +18,6 @@
 
 namespace undine::particles
 {
-  namespace kernels
-  {
-    constexpr int for_each_threads = 128;
-    constexpr int team_threads     = 512; ///< of a large team, at most
-    constexpr int few_threads      = 64;  ///< of a small team, each with many registers
-
-    /// Lets the next pass get ready while this one runs, and waits until the last one is done: the
-    /// time that a launch takes is hidden.
-    __device__ __forceinline__ void
-    line_up()
-    {
-      NV_IF_TARGET(NV_PROVIDES_SM_90,
-                   (cudaTriggerProgrammaticLaunchCompletion(); cudaGridDependencySynchronize();))
-    }
-
-    template <class Function>
-    __global__ void
-    __launch_bounds__(for_each_threads) for_each(const int n, const Function f)
-    {
-      line_up();
-      const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
-      if (i < n)
-        f(i);
-    }
-
-    template <class Function, int threads, int blocks>
-    __global__ void
-    __launch_bounds__(threads, blocks)
-      run(const __grid_constant__ Function f, const DeviceTeam::Workspace workspace)
-    {
-      __shared__ Sums<DeviceTeam::most_sums> of_warps[DeviceTeam::most_warps];
-      DeviceTeam                             team(workspace, of_warps);
-      f(team);
-    }
-  } // namespace kernels
-
-
   /// Runs passes on a CUDA device, see HostExecutor. Passes are enqueued; download() and wait()
   /// wait for them.
   class DeviceExecutor
@@ -170,18 +134,16 @@ namespace undine::particles
     {
       if (n <= 0)
         return;
-      constexpr int       threads = kernels::for_each_threads;
-      cudaLaunchAttribute attribute;
-      attribute.id = cudaLaunchAttributeProgrammaticStreamSerialization;
-      attribute.val.programmaticStreamSerializationAllowed = 1;
-      cudaLaunchConfig_t config                            = {};
-      config.gridDim                                       = dim3((n + threads - 1) / threads);
-      config.blockDim                                      = dim3(threads);
-      config.stream                                        = stream;
-      config.attrs                                         = &attribute;
-      config.numAttrs                                      = properties.major >= 9 ? 1 : 0;
-      check_device(cudaLaunchKernelEx(&config, kernels::for_each<Function>, n, f),
-                   "to start a pass");
+      launch(kernels::for_each<Function>, n, f);
+    }
+
+    template <int size, class Number, class Function>
+    void
+    for_each_with_room(const int n, const Function &f) const
+    {
+      if (n <= 0)
+        return;
+      launch(kernels::for_each_with_room<size, Number, Function>, n, f);
     }
 
     template <class Function>
@@ -222,6 +184,17 @@ namespace undine::particles
     {
       if (resident.can_run(n, f))
         resident.run(*this, n, f, workspace);
+      else
+        run_team(n, f);
+    }
+
+    /// Where conjugate gradients are resident, iterations cost so little that they are better.
+    template <class Value>
+    void
+    run(const int n, const DampedIterations<float, PackedEntry, Value> &f)
+    {
+      if (resident.can_run(n, f.base))
+        run(n, f.base);
       else
         run_team(n, f);
     }
@@ -282,6 +255,24 @@ namespace undine::particles
     {
       if (n > 0)
         check_device(cudaMemcpyAsync(to, from, n * sizeof(T), kind, stream), "to copy");
+    }
+
+    /// A pass that lines up behind the last one, see kernels::line_up().
+    template <class Kernel, class Function>
+    void
+    launch(const Kernel kernel, const int n, const Function &f) const
+    {
+      constexpr int       threads = kernels::for_each_threads;
+      cudaLaunchAttribute attribute;
+      attribute.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+      attribute.val.programmaticStreamSerializationAllowed = 1;
+      cudaLaunchConfig_t config                            = {};
+      config.gridDim                                       = dim3((n + threads - 1) / threads);
+      config.blockDim                                      = dim3(threads);
+      config.stream                                        = stream;
+      config.attrs                                         = &attribute;
+      config.numAttrs                                      = properties.major >= 9 ? 1 : 0;
+      check_device(cudaLaunchKernelEx(&config, kernel, n, f), "to start a pass");
     }
 
     /// Together as many workers as there is work for and room.

@@ -6,6 +6,7 @@
 #include <undine/particles/matrix.h>
 #include <undine/particles/neighbours.h>
 #include <undine/particles/step_control.h>
+#include <undine/particles/stored_correction.h>
 
 namespace undine::particles
 {
@@ -19,15 +20,15 @@ namespace undine::particles
   template <int dim, class Real>
   struct VirtualFaces
   {
-    Real                              factor;      ///< dim / n0
-    const SymmetricMatrix<dim, Real> *corrections; ///< M
-    const StoredVector<dim, Real>    *potentials;  ///< L; nullptr: faces are not used
+    Real                               factor;      ///< dim / n0
+    const StoredCorrection<dim, Real> *corrections; ///< M
+    const StoredVector<dim, Real>     *potentials;  ///< L; nullptr: faces are not used
 
     /// What a particle contributes to its faces.
     struct Side
     {
-      SymmetricMatrix<dim, Real> M;
-      Vector<dim, Real>          L;
+      StoredCorrection<dim, Real> M;
+      StoredVector<dim, Real>     L;
     };
 
     UNDINE_HOST_DEVICE
@@ -35,7 +36,8 @@ namespace undine::particles
     side(const int i) const
     {
       if (potentials == nullptr)
-        return {SymmetricMatrix<dim, Real>::diagonal(1), Vector<dim, Real>::zero()};
+        return {StoredCorrection<dim, Real>::of(SymmetricMatrix<dim, Real>::diagonal(1), false),
+                {}};
       return {corrections[i], potentials[i]};
     }
 
@@ -49,12 +51,16 @@ namespace undine::particles
       return (factor / 2 * pair.weight_over_square()) * (M_i * pair.r + M_j * pair.r);
     }
 
-    /// `k` is the pair's coefficient in the pressure equation.
+    /// `k` is the pair's coefficient in the pressure equation. Only between particles with unknown
+    /// pressures faces have a part by potentials.
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
     closed(const Side &i, const Side &j, const Real k, const Pair<dim, Real> &pair) const
     {
-      return open(i.M, j.M, pair) + k * (i.L - j.L);
+      const auto face = open(i.M.matrix(), j.M.matrix(), pair);
+      if (!i.M.has_unknown() || !j.M.has_unknown())
+        return face;
+      return face + k * (Vector<dim, Real>(i.L) - Vector<dim, Real>(j.L));
     }
   };
 } // namespace undine::particles
