@@ -10,8 +10,8 @@
 
 namespace undine::particles
 {
-  /// The virtual face between two particles i and j, as its area vector (out of i) over half the
-  /// volume of a particle [1/m]:
+  /// The virtual face between two particles i and j, as its area vector (out of i) over twice
+  /// the volume of a particle [1/m]:
   ///     a_ij = (dim / n0) (w / r^2) (M_i + M_j) / 2 r_ij + k_ij (L_i - L_j),   a_ij = -a_ji.
   /// The potentials L [1/m] are such that the faces of each covered particle close, sum_j a_ij = 0,
   /// as those of cells do [Trask, Bochev, Perego 2020]. The divergence of velocities and the forces
