@@ -94,8 +94,8 @@ namespace undine::particles
       const bool is_inner = closes && neighbourhood.is_covered[i] && tag.is_free();
       auto       gap      = Vector<dim, Real>::zero();
       int        count    = 0;
-      Real       sum = 0, known = 0, flow = 0;
-      bool       reached = true;
+      Real       sum = 0, flow = 0;
+      bool       reached = true, has_given = false;
       struct Other
       {
         StoredCorrection<dim, Real> M;
@@ -117,13 +117,10 @@ namespace undine::particles
           gap -= open;
           const Entry entry =
             Entry::of(j - i, pressure_coefficient(constants, tag, pair), matrix.scale);
-          const Real k = entry.coefficient(matrix.scale);
-          sum += k;
+          sum += entry.coefficient(matrix.scale);
+          has_given = has_given || !other.M.has_unknown();
           if (!other.M.has_unknown())
-            {
-              known += k;
-              return;
-            }
+            return;
           reached                                              = reached && Entry::can_reach(j - i);
           matrix.entries[list_slot(i, count, matrix.capacity)] = entry;
           ++count;
@@ -136,9 +133,12 @@ namespace undine::particles
       divergences[i] = flow;
       if (closes)
         {
-          faces_diagonal[i] = maximum(sum - known, Real(1e-6));
+          faces_diagonal[i] = maximum(sum, Real(1e-6));
           if (is_inner)
-            gaps[i] = gap;
+            {
+              gaps[i]                     = gap;
+              neighbourhood.is_covered[i] = has_given ? 2 : 1;
+            }
         }
     }
 
@@ -280,6 +280,21 @@ namespace undine::particles
       const Other  own = others[i];
       matrix.template for_each_in_row<Other>(i, others, [&](const Entry entry, const Other &other) {
         sum += entry.coefficient(matrix.scale) * ((other.v - own.v) * (own.L - other.L));
+      });
+      return neighbourhood.is_covered[i] == 2 ? sum + beside_given(i, tag, own) : sum;
+    }
+
+    /// The same for neighbours whose pressure is given, which have no entries.
+    UNDINE_HOST_DEVICE
+    Real
+    beside_given(const int i, const Tag tag, const Other &own) const
+    {
+      Real sum = 0;
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        if (pair.tag.kind() == Kind::dummy || neighbourhood.is_unknown[j])
+          return;
+        const Entry entry = Entry::of(0, pressure_coefficient(constants, tag, pair), matrix.scale);
+        sum += entry.coefficient(matrix.scale) * ((motions[j].v - own.v) * own.L);
       });
       return sum;
     }

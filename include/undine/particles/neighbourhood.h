@@ -18,7 +18,7 @@ namespace undine::particles
     Real          *densities;  ///< number density n* [1]
     Real          *fillings;   ///< sum of filling() over that of a full lattice [1]
     int           *is_unknown; ///< 1: has a row in the pressure equation
-    unsigned char *is_covered; ///< 0: at the free surface
+    unsigned char *is_covered; ///< 0: at the free surface; 2: covered, beside given pressures
     /// M, which makes gradients exact for linear fields.
     StoredCorrection<dim, Real> *corrections;
   };

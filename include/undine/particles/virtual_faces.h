@@ -29,6 +29,14 @@ namespace undine::particles
     {
       StoredCorrection<dim, Real> M;
       StoredVector<dim, Real>     L;
+
+      /// Zero where the pressure is given.
+      UNDINE_HOST_DEVICE
+      Vector<dim, Real>
+      potential() const
+      {
+        return M.has_unknown() ? Vector<dim, Real>(L) : Vector<dim, Real>::zero();
+      }
     };
 
     UNDINE_HOST_DEVICE
@@ -51,16 +59,12 @@ namespace undine::particles
       return (factor / 2 * pair.weight_over_square()) * (M_i * pair.r + M_j * pair.r);
     }
 
-    /// `k` is the pair's coefficient in the pressure equation. Only between particles with unknown
-    /// pressures faces have a part by potentials.
+    /// `k` is the pair's coefficient in the pressure equation.
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
     closed(const Side &i, const Side &j, const Real k, const Pair<dim, Real> &pair) const
     {
-      const auto face = open(i.M.matrix(), j.M.matrix(), pair);
-      if (!i.M.has_unknown() || !j.M.has_unknown())
-        return face;
-      return face + k * (Vector<dim, Real>(i.L) - Vector<dim, Real>(j.L));
+      return open(i.M.matrix(), j.M.matrix(), pair) + k * (i.potential() - j.potential());
     }
   };
 } // namespace undine::particles
