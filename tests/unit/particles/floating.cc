@@ -101,5 +101,5 @@ TEST_CASE("A cylinder floats at its depth", "[particles]")
 
 TEST_CASE("A ball floats at its depth", "[particles]")
 {
-  CHECK(floats<3>(.8, 4, 14, .6) == Approx(depth_of<3>(.8)).margin(.05));
+  CHECK(floats<3>(.8, 4, 12, .5) == Approx(depth_of<3>(.8)).margin(.05));
 }
