@@ -177,13 +177,34 @@ namespace
     });
   }
 
+  /// Executors precondition in different ways: what they find is the same only as far as they
+  /// solve.
+  template <int dim>
+  void
+  solve_tightly(ParticleScene<dim> &scene)
+  {
+    scene.setup.numerics.tolerance       = 1e-6;
+    scene.setup.numerics.faces_tolerance = 1e-5;
+  }
+
+  /// After a second on the host: a cubic lattice of water at rest is not stable, and its disorder
+  /// would start from rounding.
+  template <int dim>
+  ParticleScene<dim>
+  settled(ParticleScene<dim> scene)
+  {
+    const auto engine = scene.engine();
+    for (int frame = 0; frame < 100; ++frame)
+      engine->advance(0.01);
+    engine->fetch(scene.state);
+    return scene;
+  }
+
   template <int dim>
   void
   check_hundred_steps(ParticleScene<dim> scene)
   {
-    if (is_skipped<dim>())
-      return;
-    scene.setup.numerics.tolerance = 1e-6; // the executors precondition in different ways
+    solve_tightly(scene);
     const auto   host = engine_on("host", scene), device = engine_on("device", scene);
     unsigned int steps = 0;
     while (steps < 100)
@@ -238,7 +259,8 @@ TEMPLATE_TEST_CASE_SIG("After a hundred steps at rest particles are where they a
                        2,
                        3)
 {
-  check_hundred_steps(tank<dim>(12, 8, Ball::without));
+  if (!is_skipped<dim>())
+    check_hundred_steps(settled(tank<dim>(12, 8, Ball::without)));
 }
 
 
@@ -248,7 +270,8 @@ TEMPLATE_TEST_CASE_SIG("After a hundred steps of a drift particles are where the
                        2,
                        3)
 {
-  check_hundred_steps(drifting<dim>());
+  if (!is_skipped<dim>())
+    check_hundred_steps(drifting<dim>());
 }
 
 
@@ -260,8 +283,8 @@ TEMPLATE_TEST_CASE_SIG("One frame on the device is that on the host, particle by
 {
   if (is_skipped<dim>())
     return;
-  auto scene                     = tank<dim>(12, 8);
-  scene.setup.numerics.tolerance = 1e-6;
+  auto scene = tank<dim>(12, 8);
+  solve_tightly(scene);
   const auto host = engine_on("host", scene), device = engine_on("device", scene);
   host->advance(0.002);
   device->advance(0.002);
@@ -276,9 +299,9 @@ TEMPLATE_TEST_CASE_SIG("One frame in single precision is that in double, particl
                        2,
                        3)
 {
-  auto scene                     = tank<dim>(12, 8);
-  scene.setup.numerics.tolerance = 1e-6;
-  const auto exact               = scene.engine(Precision::double_precision);
+  auto scene = tank<dim>(12, 8);
+  solve_tightly(scene);
+  const auto exact = scene.engine(Precision::double_precision);
   exact->advance(0.002);
   for (const auto &executor : executors<dim>())
     {
