@@ -6,6 +6,7 @@
 #include <undine/particles/matrix.h>
 #include <undine/particles/neighbours.h>
 #include <undine/particles/step_control.h>
+#include <undine/particles/ways_in.h>
 
 namespace undine::particles
 {
@@ -17,6 +18,7 @@ namespace undine::particles
     int                        *is_unknown;  ///< 1: has a row in the pressure equation
     unsigned char              *is_covered;  ///< 0: at the free surface
     SymmetricMatrix<dim, Real> *corrections; ///< M, which makes gradients exact for linear fields
+    StoredVector<dim, Real>    *ways_in;     ///< as by MeasureWaysIn; nullptr: no bodies
   };
 
   /// Measures them, over all kinds of neighbours; but M of fluid and bodies without dummies, which
@@ -41,17 +43,23 @@ namespace undine::particles
       result.is_covered[i]  = 0;
       result.densities[i]   = 0;
       result.corrections[i] = SymmetricMatrix<dim, Real>::diagonal(1);
+      if (result.ways_in != nullptr)
+        result.ways_in[i] = Vector<dim, Real>::zero();
       if (tag.kind() == Kind::dummy || control->done())
         return;
-      auto side   = Vector<dim, Real>::zero();
-      auto moment = SymmetricMatrix<dim, Real>::diagonal(0);
-      Real n      = 0;
+      auto                    side   = Vector<dim, Real>::zero();
+      auto                    moment = SymmetricMatrix<dim, Real>::diagonal(0);
+      Real                    n      = 0;
+      BodiesAround<dim, Real> bodies;
       neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) {
         n += pair.weight;
+        bodies.add(pair);
         side += (pair.weight * pair.inverse_distance) * pair.r;
         if (pair.tag.kind() != Kind::dummy || tag.kind() == Kind::wall)
           moment.add_square(pair.weight_over_square(), pair.r);
       });
+      if (result.ways_in != nullptr && tag.kind() == Kind::fluid)
+        result.ways_in[i] = bodies.way_in(constants.number_density);
       const bool covered   = is_covered(tag, identities[i], n, side);
       result.densities[i]  = n;
       result.is_covered[i] = covered ? 1 : 0;

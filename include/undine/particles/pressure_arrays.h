@@ -15,12 +15,13 @@ namespace undine::particles
   {
     static constexpr int capacity = NeighbourList<Executor, dim, Real>::capacity;
 
-    PressureArrays(const Executor &executor, const int n)
+    PressureArrays(const Executor &executor, const int n, const int n_solid)
       : n(n)
       , densities(executor, n)
       , is_unknown(executor, n)
       , is_covered(executor, n)
       , corrections(executor, n)
+      , ways_in(executor, n_solid > 0 ? n : 0)
       , counts(executor, n)
       , entries(executor, list_slot((n + 31) / 32 * 32, 0, capacity))
       , diagonal(executor, n)
@@ -36,7 +37,14 @@ namespace undine::particles
     Neighbourhood<dim, Real>
     neighbourhood() const
     {
-      return {densities.data(), is_unknown.data(), is_covered.data(), corrections.data()};
+      return {densities.data(), is_unknown.data(), is_covered.data(), corrections.data(), ways()};
+    }
+
+    /// nullptr without bodies
+    StoredVector<dim, Real> *
+    ways() const
+    {
+      return ways_in.size() > 0 ? ways_in.data() : nullptr;
     }
 
     /// `scale` is the largest coefficient.
@@ -52,6 +60,7 @@ namespace undine::particles
     Buffer<Executor, int>                        is_unknown;
     Buffer<Executor, unsigned char>              is_covered;
     Buffer<Executor, SymmetricMatrix<dim, Real>> corrections;
+    Buffer<Executor, StoredVector<dim, Real>>    ways_in;
     Buffer<Executor, int>                        counts;
     Buffer<Executor, Entry>                      entries;
     Buffer<Executor, Real>                    diagonal, right_hand_side, pressures, faces_diagonal;
