@@ -8,7 +8,7 @@ namespace undine::particles
   Lattice
   full_lattice(const int dim, const double reach)
   {
-    Lattice   lattice{0, 0};
+    Lattice   lattice{0, 0, 0};
     const int layers = static_cast<int>(std::ceil(reach));
     const int side   = 2 * layers + 1;
     const int points = static_cast<int>(std::lround(std::pow(side, dim)));
@@ -23,6 +23,7 @@ namespace undine::particles
         const double weight = reach / distance - 1;
         lattice.number_density += weight;
         lattice.spread += weight * square;
+        lattice.filling += filling(square / (reach * reach));
       }
     lattice.spread /= lattice.number_density;
     return lattice;

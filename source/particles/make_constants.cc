@@ -49,6 +49,7 @@ namespace undine::particles
     constants.volume         = static_cast<Real>(std::pow(l0, dim));
     constants.number_density = static_cast<Real>(lattice.number_density);
     constants.spread         = static_cast<Real>(lattice.spread * l0 * l0);
+    constants.filling        = static_cast<Real>(lattice.filling);
     for (int axis = 0; axis < dim; ++axis)
       {
         constants.force.gravity[axis] = static_cast<Real>(setup.gravity[axis]);

@@ -149,9 +149,10 @@ namespace undine::particles
 
   /// The right-hand side of the pressure equation, rho_f lambda n0 / (2 dim) s; runs after the
   /// potentials are known. In the fluid
-  ///     s = -div v* / dt + gamma (n* - n0) / (n0 dt^2)  [1/s^2]
-  /// or one of the other sources; none in bodies: pressure takes them along as if they were fluid
-  /// of another density, and elasticity keeps their volume.
+  ///     s = -div v* / dt + gamma (f / f0 - 1) / dt^2  [1/s^2]
+  /// with the sum f of filling(), or by one of the other sources the error of the number density,
+  /// (n* - n0) / (n0 dt^2), or a share of it; none in bodies: pressure takes them along as if they
+  /// were fluid of another density, and elasticity keeps their volume.
   template <int dim, class Real>
   struct MeasureSource
   {
@@ -201,8 +202,7 @@ namespace undine::particles
     Real
     fluid_source(const int i, const Tag tag, const Real dt) const
     {
-      const Real n0    = constants.number_density;
-      const Real error = (neighbourhood.densities[i] - n0) / (n0 * dt * dt);
+      const Real error = (neighbourhood.densities[i] / constants.number_density - 1) / (dt * dt);
       switch (constants.source)
         {
           case Source::density:
@@ -210,7 +210,8 @@ namespace undine::particles
           case Source::relaxed:
             return constants.density_share * error;
           default:
-            return share(dt) * error + crowding(i) / (dt * dt) - divergence(i, tag) / dt;
+            return (share(dt) * (neighbourhood.fillings[i] - 1) + crowding(i)) / (dt * dt) -
+                   divergence(i, tag) / dt;
         }
     }
 

@@ -45,6 +45,7 @@ namespace undine::particles
     Real                volume;         ///< of a particle, l0^dim [m^dim]
     Real                number_density; ///< n0 [1]
     Real                spread;         ///< lambda [m^2]
+    Real                filling;        ///< f0, of filling() [1]
 
     BodyForce<dim, Real> force;
     Real                 viscosity;                ///< kinematic, of the fluid [m^2/s]

@@ -3,6 +3,7 @@
 #define undine_particles_neighbourhood_h
 
 #include <undine/particles/constants.h>
+#include <undine/particles/lattice.h>
 #include <undine/particles/matrix.h>
 #include <undine/particles/neighbours.h>
 #include <undine/particles/step_control.h>
@@ -15,6 +16,7 @@ namespace undine::particles
   struct Neighbourhood
   {
     Real                       *densities;   ///< number density n* [1]
+    Real                       *fillings;    ///< sum of filling() over that of a full lattice [1]
     int                        *is_unknown;  ///< 1: has a row in the pressure equation
     unsigned char              *is_covered;  ///< 0: at the free surface
     SymmetricMatrix<dim, Real> *corrections; ///< M, which makes gradients exact for linear fields
@@ -42,6 +44,7 @@ namespace undine::particles
       result.is_unknown[i]  = 0;
       result.is_covered[i]  = 0;
       result.densities[i]   = 0;
+      result.fillings[i]    = 0;
       result.corrections[i] = SymmetricMatrix<dim, Real>::diagonal(1);
       if (result.ways_in != nullptr)
         result.ways_in[i] = Vector<dim, Real>::zero();
@@ -49,10 +52,11 @@ namespace undine::particles
         return;
       auto                    side   = Vector<dim, Real>::zero();
       auto                    moment = SymmetricMatrix<dim, Real>::diagonal(0);
-      Real                    n      = 0;
+      Real                    n = 0, f = 0;
       BodiesAround<dim, Real> bodies;
       neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) {
         n += pair.weight;
+        f += filling(pair.square / (constants.reach * constants.reach));
         bodies.add(pair);
         side += (pair.weight * pair.inverse_distance) * pair.r;
         if (pair.tag.kind() != Kind::dummy || tag.kind() == Kind::wall)
@@ -62,6 +66,7 @@ namespace undine::particles
         result.ways_in[i] = bodies.way_in(constants.number_density);
       const bool covered   = is_covered(tag, identities[i], n, side);
       result.densities[i]  = n;
+      result.fillings[i]   = f / constants.filling;
       result.is_covered[i] = covered ? 1 : 0;
       result.is_unknown[i] = has_pressure(tag, n, covered) ? 1 : 0;
       if (covered || tag.kind() == Kind::solid)

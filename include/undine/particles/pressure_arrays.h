@@ -18,6 +18,7 @@ namespace undine::particles
     PressureArrays(const Executor &executor, const int n, const int n_solid)
       : n(n)
       , densities(executor, n)
+      , fillings(executor, n)
       , is_unknown(executor, n)
       , is_covered(executor, n)
       , corrections(executor, n)
@@ -37,7 +38,12 @@ namespace undine::particles
     Neighbourhood<dim, Real>
     neighbourhood() const
     {
-      return {densities.data(), is_unknown.data(), is_covered.data(), corrections.data(), ways()};
+      return {densities.data(),
+              fillings.data(),
+              is_unknown.data(),
+              is_covered.data(),
+              corrections.data(),
+              ways()};
     }
 
     /// nullptr without bodies
@@ -56,7 +62,7 @@ namespace undine::particles
 
     int n;
 
-    Buffer<Executor, Real>                       densities;
+    Buffer<Executor, Real>                       densities, fillings;
     Buffer<Executor, int>                        is_unknown;
     Buffer<Executor, unsigned char>              is_covered;
     Buffer<Executor, SymmetricMatrix<dim, Real>> corrections;

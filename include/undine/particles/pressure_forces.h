@@ -57,6 +57,12 @@ namespace undine::particles
   /// that makes both particles of a pair accelerate alike, and virtual faces a_ij by PairForce;
   /// then the correction of velocity and place (the source's equations 8 to 10), and a shift
   /// towards even spacing. For bodies the acceleration is only kept.
+  ///
+  /// Inside the fluid the body force f = -grad phi, of which the particles already have all, is
+  /// replaced by that through the same faces,
+  ///     sum_j a_ij (phi_i - phi_j) - f(x_i),
+  /// so that it weighs the volume on which pressure acts: else particles that are locally a little
+  /// too dense or too sparse sink or rise like cold and warm water, and keep water at rest moving.
   template <int dim, class Real>
   struct PressureForces
   {
@@ -81,7 +87,7 @@ namespace undine::particles
       Motion<dim, Real> motion = motions[i];
       if (!control->done() && place.tag.is_free())
         {
-          const Sum sum = this->sum(i, place.tag, motion.pressure);
+          Sum sum = this->sum(i, place.tag, motion.pressure);
           if (place.tag.kind() == Kind::solid)
             {
               const int identity              = identities[i];
@@ -91,8 +97,11 @@ namespace undine::particles
             }
           else
             {
+              const bool inside = neighbourhood.is_covered[i] != 0;
+              if (inside && constants.pair_force == PairForce::balanced)
+                sum.acceleration += sum.weight - constants.force.acceleration(place.x);
               move(place, motion, sum.acceleration);
-              if (neighbourhood.is_covered[i])
+              if (inside)
                 place.x += shift(sum.crowd);
               place.x += way_out(sum);
               place.x = constants.grid.wrapped(place.x);
@@ -109,6 +118,7 @@ namespace undine::particles
     struct Sum
     {
       Vector<dim, Real> acceleration = Vector<dim, Real>::zero(); ///< [m/s^2]
+      Vector<dim, Real> weight       = Vector<dim, Real>::zero(); ///< f by the faces [m/s^2]
       Vector<dim, Real> crowd        = Vector<dim, Real>::zero(); ///< sum w r / r^2 [1/m]
       Vector<dim, Real> bodies       = Vector<dim, Real>::zero(); ///< the same of bodies only [1/m]
       Real              body_density = 0; ///< their part of the number density [1]
@@ -124,6 +134,7 @@ namespace undine::particles
     {
       const auto M       = neighbourhood.corrections[i];
       const auto side    = faces.side(i);
+      const auto x       = neighbours.places[i].x;
       const Real density = constants.densities[tag.material()];
       const Real least =
         constants.pair_force == PairForce::minimum ? least_pressure(i, P) : Real(0);
@@ -157,6 +168,7 @@ namespace undine::particles
           else if (constants.pair_force == PairForce::minimum)
             value = other.pressure - least;
           sum.acceleration += (-value / density) * face;
+          sum.weight += (constants.force.acceleration(x + Real(0.5) * pair.r) * pair.r) * face;
           if (tag.kind() == Kind::solid && pair.tag.code == tag.code)
             {
               sum.surface -= (2 / density) * face;
