@@ -141,8 +141,11 @@ namespace undine::particles
     static constexpr Real reserve                  = Real(1.5);
     /// @}
 
+    static constexpr Real release = 10; ///< how much faster pressure is given back than taken over
+
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
-    /// swing with their own sound.
+    /// swing with their own sound. A pressure that has gone is given back faster: it would squeeze
+    /// on after an impact, and nothing would do that work.
     template <class Team>
     UNDINE_HOST_DEVICE
     void
@@ -158,7 +161,11 @@ namespace undine::particles
               add[1] += 1;
             });
           if (team.is_first())
-            carried[body] += carry_share * (static_cast<Real>(sums[0] / sums[1]) - carried[body]);
+            {
+              const Real change = static_cast<Real>(sums[0] / sums[1]) - carried[body];
+              const Real share  = change < 0 ? release * carry_share : carry_share;
+              carried[body] += minimum(share, Real(1)) * change;
+            }
         }
     }
 
