@@ -141,11 +141,10 @@ namespace undine::particles
     static constexpr Real reserve                  = Real(1.5);
     /// @}
 
-    static constexpr Real release = 10; ///< how much faster pressure is given back than taken over
-
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
-    /// swing with their own sound. A pressure that has gone is given back faster: it would squeeze
-    /// on after an impact, and nothing would do that work.
+    /// swing with their own sound. What it carries beyond twice the pressure is given back
+    /// `release` times as fast: after an impact it would squeeze on, and nothing would do that
+    /// work.
     template <class Team>
     UNDINE_HOST_DEVICE
     void
@@ -162,12 +161,15 @@ namespace undine::particles
             });
           if (team.is_first())
             {
-              const Real change = static_cast<Real>(sums[0] / sums[1]) - carried[body];
-              const Real share  = change < 0 ? release * carry_share : carry_share;
-              carried[body] += minimum(share, Real(1)) * change;
+              const Real pressure = static_cast<Real>(sums[0] / sums[1]);
+              const Real gone     = maximum(Real(0), carried[body] - 2 * pressure);
+              carried[body] += carry_share * (pressure - carried[body]) -
+                               minimum(release * carry_share, Real(1)) * gone;
             }
         }
     }
+
+    static constexpr Real release = 10;
 
     UNDINE_HOST_DEVICE
     ElasticBodies<dim, Real> &
