@@ -127,19 +127,15 @@ namespace undine::particles
       const Real contacts = contact.frequency_square(i, lanes);
       if (lanes.rank() != 0)
         return;
-      const Real square = (elasticity.sound_square(i) / (elasticity.spacing * elasticity.spacing) +
-                           contacts / lattice_frequency_square) /
-                          reserve;
+      const Real square = elasticity.sound_square(i) / (elasticity.spacing * elasticity.spacing) +
+                          contacts / lattice_frequency_square;
       if (square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate))
         atomic_maximum(measured, static_cast<float>(sqrt(square)));
     }
 
-    /// Squares of the highest frequency of a lattice of particles over c_p / l0, and by what they
-    /// may grow in contacts and deformed bodies before steps become shorter: explicit steps are
-    /// stable up to about 0.95 l0 / c_p. @{
+    /// Square of the highest frequency of a lattice of particles over c_p / l0: explicit steps are
+    /// stable up to about 0.95 l0 / c_p.
     static constexpr Real lattice_frequency_square = Real(4.4);
-    static constexpr Real reserve                  = Real(1.5);
-    /// @}
 
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
     /// swing with their own sound. What it carries beyond twice the pressure is given back
