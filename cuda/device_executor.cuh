@@ -3,10 +3,12 @@
 #define undine_cuda_device_executor_cuh
 
 #include "device_error.cuh"
+#include "device_kernels.cuh"
 #include "device_stopwatch.cuh"
-#include "device_team.cuh"
 #include "find_device.h"
 #include "resident_kernel.cuh"
+
+#include <undine/particles/damped_iterations.h>
 
 #include <cub/device/device_scan.cuh>
 
@@ -17,33 +19,6 @@
 
 namespace undine::particles
 {
-  namespace kernels
-  {
-    constexpr int for_each_threads = 128;
-    constexpr int team_threads     = 512; ///< of a large team, at most
-    constexpr int few_threads      = 64;  ///< of a small team, each with many registers
-
-    template <class Function>
-    __global__ void
-    __launch_bounds__(for_each_threads) for_each(const int n, const Function f)
-    {
-      const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
-      if (i < n)
-        f(i);
-    }
-
-    template <class Function, int threads, int blocks>
-    __global__ void
-    __launch_bounds__(threads, blocks)
-      run(const __grid_constant__ Function f, const DeviceTeam::Workspace workspace)
-    {
-      __shared__ Sums<DeviceTeam::most_sums> of_warps[DeviceTeam::most_warps];
-      DeviceTeam                             team(workspace, of_warps);
-      f(team);
-    }
-  } // namespace kernels
-
-
   /// Runs passes on a CUDA device, see HostExecutor. Passes are enqueued; download() and wait()
   /// wait for them.
   class DeviceExecutor
@@ -52,7 +27,7 @@ namespace undine::particles
     using Team = DeviceTeam;
 
     /// Particles.
-    static constexpr int multigrid_pays_from = 300000;
+    static constexpr int multigrid_pays_from = 150000;
 
     /// Throws InputError if there is no device.
     DeviceExecutor()
@@ -166,6 +141,18 @@ namespace undine::particles
       check_device(cudaGetLastError(), "to start a pass");
     }
 
+    template <int size, class Number, class Function>
+    void
+    for_each_with_room(const int n, const Function &f) const
+    {
+      if (n <= 0)
+        return;
+      constexpr int threads = kernels::for_each_threads;
+      kernels::for_each_with_room<size, Number>
+        <<<(n + threads - 1) / threads, threads, 0, stream>>>(n, f);
+      check_device(cudaGetLastError(), "to start a pass");
+    }
+
     template <class Function>
     void
     run(const int n, const Function &f)
@@ -229,6 +216,17 @@ namespace undine::particles
                                                room,
                                                stream),
                    "to start the solver");
+    }
+
+    /// Where conjugate gradients are resident, iterations cost so little that they are better.
+    template <class Value>
+    void
+    run(const int n, const DampedIterations<float, PackedEntry, Value> &f)
+    {
+      if (n > most_resident_vectors)
+        run_team(n, f);
+      else
+        run(n, f.base);
     }
 
     void

@@ -4,6 +4,7 @@
 
 #include "device_lanes.cuh"
 
+#include <undine/particles/share.h>
 #include <undine/particles/sums.h>
 
 #include <cuda_runtime.h>
@@ -69,6 +70,15 @@ namespace undine::particles
         f(i);
     }
 
+    template <class Function>
+    __device__ __forceinline__ void
+    for_each_by_lanes(const int n, const Function &f) const
+    {
+      for (int i = static_cast<int>(threadIdx.x) / DeviceLanes::count(); i < n;
+           i += static_cast<int>(blockDim.x) / DeviceLanes::count())
+        f(i, DeviceLanes());
+    }
+
     __device__ void
     sync() const
     {
@@ -100,17 +110,50 @@ namespace undine::particles
     {
     }
 
+    __device__ __forceinline__ Share
+    share(const int n) const
+    {
+      const int each =
+        ((n + static_cast<int>(gridDim.x) - 1) / static_cast<int>(gridDim.x) + 31) / 32 * 32;
+      const int begin = static_cast<int>(blockIdx.x) * each;
+      return {min(n, begin), min(n, begin + each)};
+    }
+
+    template <class Function>
+    __device__ __forceinline__ void
+    for_each_of(const Share &share, const Function &f) const
+    {
+      for (int i = share.begin + static_cast<int>(threadIdx.x); i < share.end;
+           i += static_cast<int>(blockDim.x))
+        f(i);
+    }
+
+    template <class Fetch, class Function>
+    __device__ __forceinline__ void
+    for_each_of(const Share &share, const Fetch &fetch, const Function &f) const
+    {
+      constexpr int together = 3;
+      const int     threads  = static_cast<int>(blockDim.x);
+      int           i        = share.begin + static_cast<int>(threadIdx.x);
+      for (; i + (together - 1) * threads < share.end; i += together * threads)
+        {
+          decltype(fetch(0)) fetched[together];
+#pragma unroll
+          for (int k = 0; k < together; ++k)
+            fetched[k] = fetch(i + k * threads);
+#pragma unroll
+          for (int k = 0; k < together; ++k)
+            f(i + k * threads, fetched[k]);
+        }
+      for (; i < share.end; i += threads)
+        f(i, fetch(i));
+    }
+
     template <class Function>
     __device__ __forceinline__ void
     for_each(const int n, const Function &f) const
     {
-      const int share =
-        ((n + static_cast<int>(gridDim.x) - 1) / static_cast<int>(gridDim.x) + 31) / 32 * 32;
-      const int begin = static_cast<int>(blockIdx.x) * share;
-      const int end   = min(n, begin + share);
-      for (int i = begin + static_cast<int>(threadIdx.x); i < end;
-           i += static_cast<int>(blockDim.x))
-        f(i);
+      for_each_of(share(n), f);
     }
 
     template <class Function>
@@ -179,6 +222,12 @@ namespace undine::particles
     sync()
     {
       barrier.wait();
+    }
+
+    __device__ void
+    sync_own() const
+    {
+      __syncthreads();
     }
 
     __device__ bool

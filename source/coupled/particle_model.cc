@@ -162,8 +162,8 @@ namespace undine
           .section(effects.names[e])
           .error("",
                  "this effect is one of fluids on a grid or of bodies of finite elements",
-                 "Remove the section: particles know 'gravity', 'viscosity' and 'central "
-                 "attraction', and always carry their momentum.");
+                 "Remove the section: particles know 'gravity', 'viscosity', 'wall friction' and "
+                 "'central attraction', and always carry their momentum.");
   }
 
 

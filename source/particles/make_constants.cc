@@ -57,6 +57,8 @@ namespace undine::particles
       }
     constants.force.attraction = static_cast<Real>(setup.attraction);
     constants.viscosity        = static_cast<Real>(setup.fluid_viscosity);
+    constants.wall_friction    = {static_cast<Real>(setup.wall_viscosity),
+                                  static_cast<Real>(setup.wall_roughness)};
     set_materials(constants, setup);
     constants.source        = numerics.source;
     constants.density_share = static_cast<Real>(numerics.density_share);

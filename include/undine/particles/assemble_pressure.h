@@ -62,6 +62,8 @@ namespace undine::particles
     Real                       *diagonal;
     Real                       *faces_diagonal; ///< nullptr: faces are left open
     StoredVector<dim, Real>    *gaps;           ///< right-hand side of the potentials
+    const Motion<dim, Real>    *motions;
+    Real                       *divergences; ///< of velocities, by faces without potentials [1/s]
     StepControl                *control;
 
     UNDINE_HOST_DEVICE
@@ -70,6 +72,7 @@ namespace undine::particles
     {
       matrix.counts[i] = 0;
       diagonal[i]      = 1;
+      divergences[i]   = 0;
       if (faces_diagonal != nullptr)
         {
           faces_diagonal[i] = 1;
@@ -84,31 +87,39 @@ namespace undine::particles
     void
     fill_row(const int i) const
     {
-      const Tag  tag     = neighbours.places[i].tag;
-      const auto M       = neighbourhood.corrections[i];
-      const bool closes  = faces_diagonal != nullptr;
-      auto       gap     = Vector<dim, Real>::zero();
-      int        count   = 0;
-      Real       sum     = 0;
-      bool       reached = true;
+      const Tag  tag      = neighbours.places[i].tag;
+      const auto M        = neighbourhood.corrections[i].matrix();
+      const auto v        = motions[i].v;
+      const bool closes   = faces_diagonal != nullptr;
+      const bool is_inner = closes && neighbourhood.is_covered[i] && tag.is_free();
+      auto       gap      = Vector<dim, Real>::zero();
+      int        count    = 0;
+      Real       sum = 0, flow = 0;
+      bool       reached = true, has_given = false;
       struct Other
       {
-        SymmetricMatrix<dim, Real> M;
-        bool                       is_unknown;
+        StoredCorrection<dim, Real> M;
+        Vector<dim, Real>           v;
       };
       const auto fetch = [&](const int j) {
-        return Other{closes ? neighbourhood.corrections[j] : M, neighbourhood.is_unknown[j] != 0};
+        return Other{neighbourhood.corrections[j], motions[j].v};
       };
       neighbours.for_each(
         i, fetch, [&](const int j, const Pair<dim, Real> &pair, const Other &other) {
+          const auto plain = (faces.factor * pair.weight_over_square()) * pair.r;
           if (pair.tag.kind() == Kind::dummy)
-            return;
+            {
+              flow += (other.v - v) * plain;
+              return;
+            }
+          const auto open = is_inner ? faces.open(M, other.M.matrix(), pair) : plain;
+          flow += (other.v - v) * open;
+          gap -= open;
           const Entry entry =
             Entry::of(j - i, pressure_coefficient(constants, tag, pair), matrix.scale);
           sum += entry.coefficient(matrix.scale);
-          if (closes)
-            gap -= faces.open(M, other.M, pair);
-          if (!other.is_unknown)
+          has_given = has_given || !other.M.has_unknown();
+          if (!other.M.has_unknown())
             return;
           reached                                              = reached && Entry::can_reach(j - i);
           matrix.entries[list_slot(i, count, matrix.capacity)] = entry;
@@ -117,13 +128,17 @@ namespace undine::particles
       if (!reached)
         atomic_or(&control->failures, static_cast<unsigned int>(Failure::matrix_indices));
       sum += air(i, tag);
-      matrix.counts[i] = count;
-      diagonal[i]      = maximum(sum + compressibility(tag), Real(1e-6));
+      matrix.fill_last_group(i, count);
+      diagonal[i]    = maximum(sum + compressibility(tag), Real(1e-6));
+      divergences[i] = flow;
       if (closes)
         {
           faces_diagonal[i] = maximum(sum, Real(1e-6));
-          if (neighbourhood.is_covered[i] && tag.is_free())
-            gaps[i] = gap;
+          if (is_inner)
+            {
+              gaps[i]                     = gap;
+              neighbourhood.is_covered[i] = has_given ? 2 : 1;
+            }
         }
     }
 
@@ -153,29 +168,29 @@ namespace undine::particles
   /// with the sum f of filling(), or by one of the other sources the error of the number density,
   /// (n* - n0) / (n0 dt^2), or a share of it; none in bodies: pressure takes them along as if they
   /// were fluid of another density, and elasticity keeps their volume.
-  template <int dim, class Real>
+  template <int dim, class Real, class Entry>
   struct MeasureSource
   {
-    Constants<dim, Real>     constants;
-    Neighbours<dim, Real>    neighbours;
-    Neighbourhood<dim, Real> neighbourhood;
-    VirtualFaces<dim, Real>  faces;
-    const Motion<dim, Real> *motions;
-    Real                    *right_hand_side;
-    Real                    *guess; ///< of the pressures
-    const StepControl       *control;
+    Constants<dim, Real>        constants;
+    Neighbours<dim, Real>       neighbours;
+    Neighbourhood<dim, Real>    neighbourhood;
+    VirtualFaces<dim, Real>     faces;
+    PressureMatrix<Real, Entry> matrix;
+    const Motion<dim, Real>    *motions;
+    Real                       *right_hand_side; ///< first the divergences of AssemblePressure
+    Real                       *guess;           ///< of the pressures
+    const StepControl          *control;
 
     UNDINE_HOST_DEVICE
     void
     operator()(const int i) const
     {
-      right_hand_side[i] = 0;
-      guess[i]           = 0;
-      if (!neighbourhood.is_unknown[i])
-        return;
-      guess[i]      = motions[i].pressure;
-      const Tag tag = neighbours.places[i].tag;
-      if (tag.kind() != Kind::solid)
+      const bool is_unknown = neighbourhood.is_unknown[i] != 0;
+      const Tag  tag        = neighbours.places[i].tag;
+      guess[i]              = is_unknown ? motions[i].pressure : Real(0);
+      if (!is_unknown || tag.kind() == Kind::solid)
+        right_hand_side[i] = 0;
+      else
         right_hand_side[i] =
           given_pressures(i, tag) +
           pressure_scale(constants) * fluid_source(i, tag, static_cast<Real>(control->dt));
@@ -234,31 +249,53 @@ namespace undine::particles
                                            : constants.density_share;
     }
 
+    /// What a neighbour contributes to the divergence.
+    struct Other
+    {
+      Vector<dim, Real> v, L;
+    };
+
+    struct Others
+    {
+      const Motion<dim, Real>       *motions;
+      const StoredVector<dim, Real> *potentials;
+
+      UNDINE_HOST_DEVICE
+      Other
+      operator[](const int j) const
+      {
+        return {motions[j].v, potentials[j]};
+      }
+    };
+
     /// By the same faces as the forces of pressures, where faces close.
     UNDINE_HOST_DEVICE
     Real
     divergence(const int i, const Tag tag) const
     {
-      const auto v = motions[i].v;
-      const bool closed =
-        faces.potentials != nullptr && neighbourhood.is_covered[i] && tag.is_free();
-      struct Other
-      {
-        Vector<dim, Real>                      v;
-        typename VirtualFaces<dim, Real>::Side side;
-      };
-      const auto side  = faces.side(i);
-      const auto fetch = [&](const int j) { return Other{motions[j].v, faces.side(j)}; };
-      Real       sum   = 0;
-      neighbours.for_each(
-        i, fetch, [&](const int, const Pair<dim, Real> &pair, const Other &other) {
-          const auto difference = other.v - v;
-          if (closed && pair.tag.kind() != Kind::dummy)
-            sum += difference *
-                   faces.closed(side, other.side, pressure_coefficient(constants, tag, pair), pair);
-          else
-            sum += faces.factor * pair.weight_over_square() * (difference * pair.r);
-        });
+      Real sum = right_hand_side[i];
+      if (faces.potentials == nullptr || !neighbourhood.is_covered[i] || !tag.is_free())
+        return sum;
+      const Others others{motions, faces.potentials};
+      const Other  own = others[i];
+      matrix.template for_each_in_row<Other>(i, others, [&](const Entry entry, const Other &other) {
+        sum += entry.coefficient(matrix.scale) * ((other.v - own.v) * (own.L - other.L));
+      });
+      return neighbourhood.is_covered[i] == 2 ? sum + beside_given(i, tag, own) : sum;
+    }
+
+    /// The same for neighbours whose pressure is given, which have no entries.
+    UNDINE_HOST_DEVICE
+    Real
+    beside_given(const int i, const Tag tag, const Other &own) const
+    {
+      Real sum = 0;
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        if (pair.tag.kind() == Kind::dummy || neighbourhood.is_unknown[j])
+          return;
+        const Entry entry = Entry::of(0, pressure_coefficient(constants, tag, pair), matrix.scale);
+        sum += entry.coefficient(matrix.scale) * ((motions[j].v - own.v) * own.L);
+      });
       return sum;
     }
   };

@@ -5,6 +5,7 @@
 #include <undine/particles/body_force.h>
 #include <undine/particles/cell_grid.h>
 #include <undine/particles/particle.h>
+#include <undine/particles/wall_friction.h>
 
 namespace undine::particles
 {
@@ -49,6 +50,7 @@ namespace undine::particles
 
     BodyForce<dim, Real> force;
     Real                 viscosity;                ///< kinematic, of the fluid [m^2/s]
+    WallFriction<Real>   wall_friction;            ///< instead of friction by pairs on walls
     Real                 densities[max_materials]; ///< [kg/m^3]; material 0 is the fluid
     /// 1 / K of the materials' volumes in the pressure equation [1/Pa]; 0: incompressible.
     Real compressibilities[max_materials];

@@ -13,7 +13,8 @@ namespace undine::particles
   /// source's equations 1-4, with the step that 1 and 3 lack), and the kick that friction and
   /// collisions give to elastic bodies. Friction between two particles is the weighted difference
   /// of their velocities with the fluid's viscosity, collisions are inelastic impacts of particles
-  /// that come closer than `collision_distance`: both are equal and opposite.
+  /// that come closer than `collision_distance`: both are equal and opposite. Walls may have
+  /// friction by the law of the wall instead, see WallFriction.
   template <int dim, class Real>
   struct ExplicitForces
   {
@@ -40,6 +41,8 @@ namespace undine::particles
             {
               motion.v += velocity_change(i, place.tag, motion.v, dt) +
                           dt * constants.force.acceleration(place.x);
+              if (constants.wall_friction.acts())
+                motion.v += friction_of_walls(i, motion.v, dt);
               place.x = constants.grid.wrapped(place.x + dt * motion.v);
             }
           else if (place.tag.kind() == Kind::solid)
@@ -68,10 +71,11 @@ namespace undine::particles
               (pair.tag.kind() == Kind::solid || pair.tag.kind() == Kind::dummy))
             return; // elasticity and contact act between these
           const Vector<dim, Real> approach = other - v;
-          change += (friction * pair.weight) * approach;
-          const Real their = constants.densities[pair.tag.material()];
+          const Real              their    = constants.densities[pair.tag.material()];
           change += tag.kind() == Kind::fluid ? entry.of_fluid(i, pair, their, approach)
                                               : entry.of_solid(j, pair, density, approach);
+          if (pair.tag.is_free() || !constants.wall_friction.acts())
+            change += (friction * pair.weight) * approach;
           const Real speed = approach * pair.r;
           if (pair.square < collision_square && speed < 0)
             {
@@ -80,6 +84,31 @@ namespace undine::particles
             }
         });
       return change;
+    }
+
+    /// Walls and obstacles touch the particle with the area 2 V |W|, W = (d / n0) sum w r / r^2
+    /// over their particles: the sum of the open virtual faces. Its speed is that of the fluid's
+    /// first layer, at half a spacing from the wall; it is not reversed in a sub-step however long.
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    friction_of_walls(const int i, const Vector<dim, Real> &v, const Real dt) const
+    {
+      auto wall = Vector<dim, Real>::zero();
+      neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) {
+        if (!pair.tag.is_free() && pair.tag.material() == 0)
+          wall += pair.weight_over_square() * pair.r;
+      });
+      wall *= dim / constants.number_density;
+      const Real square = norm_square(wall);
+      if (!(square > 0))
+        return wall;
+      const auto along = v - ((v * wall) / square) * wall;
+      const Real speed = sqrt(norm_square(along));
+      if (!(speed > 0))
+        return Vector<dim, Real>::zero();
+      const Real u    = constants.wall_friction.friction_velocity(speed, constants.spacing / 2);
+      const Real drag = dt * 2 * sqrt(square) * u * u / speed;
+      return (-drag / (1 + drag)) * along;
     }
   };
 } // namespace undine::particles

@@ -4,6 +4,7 @@
 
 #include <undine/particles/lanes.h>
 #include <undine/particles/phases.h>
+#include <undine/particles/share.h>
 #include <undine/particles/sums.h>
 
 #include <omp.h>
@@ -25,6 +26,14 @@ namespace undine::particles
     {
       for (int i = 0; i < n; ++i)
         f(i);
+    }
+
+    template <class Function>
+    void
+    for_each_by_lanes(const int n, const Function &f) const
+    {
+      for (int i = 0; i < n; ++i)
+        f(i, OneLane());
     }
 
     void
@@ -56,15 +65,44 @@ namespace undine::particles
     {
     }
 
-    /// f(i) for the i of 0 ... n-1 that are this worker's; always the same ones for the same n.
+    /// Those of 0 ... n-1 that are this worker's; always the same ones for the same n. On the
+    /// device those of a block, whose threads work on them together.
+    Share
+    share(const int n) const
+    {
+      const int each = (n + size - 1) / size;
+      return {std::min(n, rank * each), std::min(n, (rank + 1) * each)};
+    }
+
+    /// f(i) for all i of a share.
+    template <class Function>
+    void
+    for_each_of(const Share &share, const Function &f) const
+    {
+      for (int i = share.begin; i < share.end; ++i)
+        f(i);
+    }
+
+    /// f(i, fetch(i)): what is fetched for several i is on the way together.
+    template <class Fetch, class Function>
+    void
+    for_each_of(const Share &share, const Fetch &fetch, const Function &f) const
+    {
+      for (int i = share.begin; i < share.end; ++i)
+        f(i, fetch(i));
+    }
+
+    /// Wait for those who work on the same share.
+    void
+    sync_own() const
+    {
+    }
+
     template <class Function>
     void
     for_each(const int n, const Function &f) const
     {
-      const int share = (n + size - 1) / size;
-      const int end   = std::min(n, (rank + 1) * share);
-      for (int i = rank * share; i < end; ++i)
-        f(i);
+      for_each_of(share(n), f);
     }
 
     /// f(i, lanes): some lanes work on each i where there are more workers than that.
@@ -221,6 +259,17 @@ namespace undine::particles
     {
       _Pragma("omp parallel for num_threads(threads) schedule(dynamic, 256)") //
         for (int i = 0; i < n; ++i) f(i);
+    }
+
+    /// f(i, room) where room[k] is memory for `size` numbers that f may use.
+    template <int size, class Number, class Function>
+    void
+    for_each_with_room(const int n, const Function &f) const
+    {
+      for_each(n, [&](const int i) {
+        Number room[size];
+        f(i, room);
+      });
     }
 
     /// f(team) by all workers at once; loops in it go up to `n`.

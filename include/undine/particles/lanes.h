@@ -18,7 +18,7 @@ namespace undine::particles
     }
 
     UNDINE_HOST_DEVICE
-    static int
+    static constexpr int
     count()
     {
       return 1;

@@ -2,9 +2,10 @@
 #ifndef undine_particles_multigrid_h
 #define undine_particles_multigrid_h
 
-#include <undine/particles/buffer.h>
-#include <undine/particles/pressure_matrix.h>
+#include <undine/particles/lanes.h>
 #include <undine/particles/stencil_grid.h>
+
+#include <type_traits>
 
 namespace undine::particles
 {
@@ -12,141 +13,46 @@ namespace undine::particles
   template <int dim, class Real>
   struct MultigridLevel
   {
-    StencilGrid<dim> grid;
-    Real            *matrix; ///< entry k of cell i at k n + i
-    Real            *inverse_diagonal;
-    Real            *r, *x;
-    Real            *smooth; ///< omega D^{-1} r
-    Real            *rest;   ///< r - A smooth
+    StencilGrid<dim>  grid;
+    StencilCell<dim> *active; ///< the cells that have unknowns
+    int              *n_active;
+    Real             *matrix; ///< entry k of cell i at k n + i
+    Real             *inverse_diagonal;
+    Real             *r, *x;
+    Real             *smooth; ///< omega D^{-1} r
 
     UNDINE_HOST_DEVICE
-    bool
-    is_active(const int cell) const
+    Real
+    entry(const int k, const int index) const
     {
-      return inverse_diagonal[cell] > 0;
+      return matrix[static_cast<std::size_t>(k) * grid.n + index];
     }
   };
 
 
-  /// A particle's row of the matrix, summed over the particles of each cell around it.
-  template <int dim, class Real, class Entry>
-  struct SumRowByCells
-  {
-    CellGrid<dim, Real>         cells;
-    StencilGrid<dim>            grid;
-    const Place<dim, Real>     *places;
-    const int                  *is_unknown;
-    PressureMatrix<Real, Entry> matrix;
-    const Real                 *diagonal;
-    int                        *cell_of; ///< of the particle; -1: has no unknown
-    Real                       *sums;    ///< entry k of particle i at k n + i
-
-    UNDINE_HOST_DEVICE
-    void
-    operator()(const int i) const
-    {
-      constexpr int size = StencilGrid<dim>::size;
-      cell_of[i]         = is_unknown[i] ? cells.cell_of(places[i].x) : -1;
-      if (!is_unknown[i])
-        return;
-      int here[dim];
-      for (int axis = 0; axis < dim; ++axis)
-        here[axis] = cells.coordinate(places[i].x, axis);
-      Real row[size] = {};
-      row[size / 2]  = diagonal[i];
-      for (int k = 0; k < matrix.counts[i]; ++k)
-        {
-          const Entry entry = matrix.entries[list_slot(i, k, matrix.capacity)];
-          const auto  x     = places[i + entry.difference()].x;
-          int         where = 0;
-          for (int axis = dim - 1; axis >= 0; --axis)
-            where = 3 * where + 1 + grid.difference(cells.coordinate(x, axis), here[axis], axis);
-          row[where] -= entry.coefficient(matrix.scale);
-        }
-      for (int k = 0; k < size; ++k)
-        sums[static_cast<std::size_t>(k) * matrix.n + i] = row[k];
-    }
-  };
-
-
-  /// The matrix of the finest level, from the sums of SumRowByCells.
+  /// The levels of a multigrid method, from the finest one on.
   template <int dim, class Real>
-  struct SumRows
+  struct MultigridLevels
   {
-    MultigridLevel<dim, Real> level;
-    const int                *starts; ///< of the cells
-    const int                *cell_of;
-    const Real               *sums;
+    static constexpr int most = 16;
+
     int                       n;
+    MultigridLevel<dim, Real> level[most];
+    int                       begins[most + 1]; ///< of their cells among those of all levels
+
+    /// How many cells with unknowns they have, by value: everything else waits for that.
+    struct Counts
+    {
+      int of[most];
+    };
 
     UNDINE_HOST_DEVICE
-    void
-    operator()(const int place) const
+    Counts
+    counts() const
     {
-      const int entry = place / level.grid.n, cell = place % level.grid.n;
-      Real      sum = 0;
-      for (int i = starts[cell]; i < starts[cell + 1]; ++i)
-        if (cell_of[i] >= 0)
-          sum += sums[static_cast<std::size_t>(entry) * n + i];
-      level.matrix[place] = sum;
-      if (entry == StencilGrid<dim>::size / 2)
-        level.inverse_diagonal[cell] = sum > Real(1e-6) ? 1 / sum : Real(0);
-    }
-  };
-
-
-  /// The matrix of a coarser level, sums of the finer one's.
-  template <int dim, class Real>
-  struct CoarsenMatrix
-  {
-    MultigridLevel<dim, Real> fine, coarse;
-
-    UNDINE_HOST_DEVICE
-    void
-    operator()(const int cell) const
-    {
-      constexpr int size      = StencilGrid<dim>::size;
-      Real          row[size] = {};
-      int           here[dim];
-      for (int axis = 0; axis < dim; ++axis)
-        here[axis] = coarse.grid.coordinate(cell, axis);
-      for (int child = 0; child < (1 << dim); ++child)
-        {
-          int  index  = 0;
-          bool exists = true;
-          for (int axis = 0; axis < dim; ++axis)
-            {
-              const int c = 2 * here[axis] + (child >> axis & 1);
-              exists      = exists && c < fine.grid.cells[axis];
-              index += c * fine.grid.strides[axis];
-            }
-          if (!exists || !fine.is_active(index))
-            continue;
-          for (int entry = 0; entry < size; ++entry)
-            {
-              const Real value = fine.matrix[static_cast<std::size_t>(entry) * fine.grid.n + index];
-              if (value != 0)
-                row[entry_of(here, child, entry)] += value;
-            }
-        }
-      for (int entry = 0; entry < size; ++entry)
-        coarse.matrix[static_cast<std::size_t>(entry) * coarse.grid.n + cell] = row[entry];
-      coarse.inverse_diagonal[cell] = row[size / 2] > Real(1e-6) ? 1 / row[size / 2] : Real(0);
-    }
-
-  private:
-    /// To which entry of the coarse cell's stencil an entry of a child's belongs.
-    UNDINE_HOST_DEVICE
-    int
-    entry_of(const int (&here)[dim], const int child, const int entry) const
-    {
-      int result = 0, factor = 1, rest = entry;
-      for (int axis = 0; axis < dim; ++axis, rest /= 3, factor *= 3)
-        {
-          const int c     = 2 * here[axis] + (child >> axis & 1);
-          const int other = fine.grid.next_to(c, rest % 3 - 1, axis) / 2;
-          result += factor * (1 + coarse.grid.difference(other, here[axis], axis));
-        }
+      Counts result;
+      for (int k = 0; k < n; ++k)
+        result.of[k] = *level[k].n_active;
       return result;
     }
   };
@@ -155,138 +61,135 @@ namespace undine::particles
   /// One V-cycle over all levels, with one damped Jacobi step before and after each coarser level
   /// and `factor` times the coarser level's correction, which piecewise constant functions
   /// underestimate. Symmetric. Small levels are done by few workers, which saves waiting.
+  ///
+  /// The finest level's part is in pieces: what is before and after a piece can be done by those
+  /// who did the same cells, without waiting for others.
   template <int dim, class Real>
   struct MultigridCycle
   {
-    static constexpr int most_levels = 12;
+    using Counts = typename MultigridLevels<dim, Real>::Counts;
 
-    MultigridLevel<dim, Real> levels[most_levels];
-    int                       n_levels;
-    int                       n_large; ///< levels done by all workers
-    Real                      damping; ///< omega
-    Real                      factor;
-
-    /// From r of the finest level to its x.
-    template <class Team>
-    UNDINE_HOST_DEVICE
-    void
-    operator()(Team &team) const
-    {
-      for (int k = 0; k < n_large; ++k)
-        descend(team, k);
-      team.alone([&](auto &few) {
-        for (int k = n_large; k + 1 < n_levels; ++k)
-          descend(few, k);
-        solve_coarsest(few);
-        for (int k = n_levels - 2; k >= n_large; --k)
-          ascend(few, k);
-      });
-      team.sync();
-      for (int k = n_large - 1; k >= 0; --k)
-        ascend(team, k);
-    }
+    MultigridLevels<dim, Real> levels;
+    int                        n_large; ///< levels done by all workers, at least one
+    Real                       damping; ///< omega
+    Real                       factor;
 
     /// What the level k begins with.
     UNDINE_HOST_DEVICE
     void
-    begin(const int k, const int cell, const Real residual) const
+    begin(const int k, const int index, const Real residual) const
     {
-      const auto &level  = levels[k];
-      level.r[cell]      = residual;
-      level.smooth[cell] = damping * level.inverse_diagonal[cell] * residual;
+      const auto &level   = levels.level[k];
+      level.r[index]      = residual;
+      level.smooth[index] = damping * level.inverse_diagonal[index] * residual;
     }
 
-  private:
+    /// From what the finest level began with to x of the next one.
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    descend(Team &team, const int k) const
+    correct(Team &team, const Counts &counts) const
     {
-      const auto &fine = levels[k], &coarse = levels[k + 1];
-      team.for_each_spread(fine.grid.n, [&](const int cell) {
-        if (!fine.is_active(cell))
-          return;
-        Real sum = 0;
-        for_each_around(fine.grid, fine.grid, cell, [&](const int entry, const int j, const int) {
-          sum += fine.matrix[static_cast<std::size_t>(entry) * fine.grid.n + cell] * fine.smooth[j];
-        });
-        fine.rest[cell] = fine.r[cell] - sum;
+      for (int k = 0; k < n_large; ++k)
+        descend(team, counts, k);
+      team.alone([&](auto &few) {
+        for (int k = n_large; k + 1 < levels.n; ++k)
+          descend(few, counts, k);
+        solve_coarsest(few, counts);
+        for (int k = levels.n - 2; k >= n_large; --k)
+          ascend(few, counts, k);
       });
       team.sync();
-      team.for_each_spread(coarse.grid.n, [&](const int cell) {
-        if (coarse.is_active(cell))
-          begin(k + 1, cell, sum_over_children(fine, coarse, cell));
+      for (int k = n_large - 1; k > 0; --k)
+        ascend(team, counts, k);
+    }
+
+    /// Level k's x in a cell, for the first of the lanes.
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    Real
+    finish(const int k, const StencilCell<dim> &cell, const Lanes &lanes) const
+    {
+      const auto &fine = levels.level[k], &coarse = levels.level[k + 1];
+      const int   index = cell.index(fine.grid);
+      Real        sum   = 0;
+      for_each_around(
+        fine.grid, coarse.grid, cell, lanes, [&](const int entry, const int j, const int parent) {
+          sum += fine.entry(entry, index) * (fine.smooth[j] + factor * coarse.x[parent]);
+        });
+      const Real mine = fine.smooth[index] + factor * coarse.x[cell.parent(coarse.grid)];
+      return mine + damping * fine.inverse_diagonal[index] * (fine.r[index] - lanes.sum(sum));
+    }
+
+  private:
+    /// The residual of `smooth`, summed over the children of each cell: a lane for each child.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    void
+    descend(Team &team, const Counts &counts, const int k) const
+    {
+      const auto &fine = levels.level[k], &coarse = levels.level[k + 1];
+      const auto *cells = coarse.active;
+      team.for_each_by_lanes(counts.of[k + 1], [&](const int c, const auto &lanes) {
+        const StencilCell<dim> cell = cells[c];
+        Real                   sum  = 0;
+        UNDINE_UNROLL
+        for (int first = 0; first < (1 << dim); first += std::decay_t<decltype(lanes)>::count())
+          if (cell.children >> (first + lanes.rank()) & 1)
+            sum += residual(fine, cell.child(first + lanes.rank()));
+        sum = lanes.sum(sum);
+        if (lanes.rank() == 0)
+          begin(k + 1, cell.index(coarse.grid), sum);
       });
       team.sync();
     }
 
     UNDINE_HOST_DEVICE
     static Real
-    sum_over_children(const MultigridLevel<dim, Real> &fine,
-                      const MultigridLevel<dim, Real> &coarse,
-                      const int                        cell)
+    residual(const MultigridLevel<dim, Real> &level, const StencilCell<dim> &cell)
     {
-      Real sum = 0;
-      for (int child = 0; child < (1 << dim); ++child)
-        {
-          int  index  = 0;
-          bool exists = true;
-          for (int axis = 0; axis < dim; ++axis)
-            {
-              const int c = 2 * coarse.grid.coordinate(cell, axis) + (child >> axis & 1);
-              exists      = exists && c < fine.grid.cells[axis];
-              index += c * fine.grid.strides[axis];
-            }
-          if (exists && fine.is_active(index))
-            sum += fine.rest[index];
-        }
-      return sum;
+      const int index = cell.index(level.grid);
+      Real      sum   = 0;
+      for_each_around(
+        level.grid, level.grid, cell, OneLane(), [&](const int entry, const int j, const int) {
+          sum += level.entry(entry, index) * level.smooth[j];
+        });
+      return level.r[index] - sum;
     }
 
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    solve_coarsest(Team &team) const
+    ascend(Team &team, const Counts &counts, const int k) const
     {
-      const auto &level = levels[n_levels - 1];
-      Real       *now = level.smooth, *next = level.rest;
-      for (int sweep = 0; sweep < 8; ++sweep)
-        {
-          team.for_each_spread(level.grid.n, [&](const int cell) {
-            Real sum = 0;
-            for_each_around(
-              level.grid, level.grid, cell, [&](const int entry, const int j, const int) {
-                sum += level.matrix[static_cast<std::size_t>(entry) * level.grid.n + cell] * now[j];
-              });
-            next[cell] = now[cell] + damping * level.inverse_diagonal[cell] * (level.r[cell] - sum);
-          });
-          team.sync();
-          Real *const last = now;
-          now              = next;
-          next             = last;
-        }
-      team.for_each_spread(level.grid.n, [&](const int cell) { level.x[cell] = now[cell]; });
+      const auto &level = levels.level[k];
+      const auto *cells = level.active;
+      team.for_each_by_lanes(counts.of[k], [&](const int c, const auto &lanes) {
+        const Real x = finish(k, cells[c], lanes);
+        if (lanes.rank() == 0)
+          level.x[cells[c].index(level.grid)] = x;
+      });
       team.sync();
     }
 
+    /// By two damped Jacobi steps: it has few cells.
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    ascend(Team &team, const int k) const
+    solve_coarsest(Team &team, const Counts &counts) const
     {
-      const auto &fine = levels[k], &coarse = levels[k + 1];
-      team.for_each_spread(fine.grid.n, [&](const int cell) {
-        if (!fine.is_active(cell))
-          return;
-        Real sum = 0, mine = 0;
+      const auto &level = levels.level[levels.n - 1];
+      const auto *cells = level.active;
+      team.for_each_by_lanes(counts.of[levels.n - 1], [&](const int c, const auto &lanes) {
+        const int index = cells[c].index(level.grid);
+        Real      sum   = 0;
         for_each_around(
-          fine.grid, coarse.grid, cell, [&](const int entry, const int j, const int parent) {
-            const Real y = fine.smooth[j] + factor * coarse.x[parent];
-            sum += fine.matrix[static_cast<std::size_t>(entry) * fine.grid.n + cell] * y;
-            if (entry == StencilGrid<dim>::size / 2)
-              mine = y;
+          level.grid, level.grid, cells[c], lanes, [&](const int entry, const int j, const int) {
+            sum += level.entry(entry, index) * level.smooth[j];
           });
-        fine.x[cell] = mine + damping * fine.inverse_diagonal[cell] * (fine.r[cell] - sum);
+        sum = level.r[index] - lanes.sum(sum);
+        if (lanes.rank() == 0)
+          level.x[index] = level.smooth[index] + damping * level.inverse_diagonal[index] * sum;
       });
       team.sync();
     }

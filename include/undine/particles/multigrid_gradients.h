@@ -2,6 +2,7 @@
 #ifndef undine_particles_multigrid_gradients_h
 #define undine_particles_multigrid_gradients_h
 
+#include <undine/particles/cell_interpolation.h>
 #include <undine/particles/conjugate_gradients.h>
 #include <undine/particles/multigrid.h>
 
@@ -9,15 +10,19 @@ namespace undine::particles
 {
   /// Conjugate gradients as ConjugateGradients, preconditioned by Jacobi's method on the particles
   /// plus a multigrid cycle on the cells that particles are sorted by: u = D^{-1} r + c P V P^T r,
-  /// where P gives particles the value of their cell. The number of iterations hardly grows with
+  /// where P interpolates between cells. The number of iterations hardly grows with
   /// that of particles.
   template <int dim, class Real, class Entry>
   struct MultigridGradients
   {
     ConjugateGradients<Real, Entry, Real> base;
     MultigridCycle<dim, Real>             cycle;
+    CellInterpolation<dim, Real>          interpolation;
     const int                            *cell_of; ///< of the particles; -1: no unknown
-    const int                            *starts;  ///< of the cells
+    const PlaceInCell<dim, Real>         *places_in_cells;
+    const int                            *starts; ///< of the cells
+
+    using Counts = typename MultigridLevels<dim, Real>::Counts;
 
     template <class Team>
     UNDINE_HOST_DEVICE
@@ -26,15 +31,17 @@ namespace undine::particles
     {
       if (base.control->done())
         return;
-      const int    n = base.system.matrix.n;
+      const int    n      = base.system.matrix.n;
+      const Counts counts = cycle.levels.counts();
       const double size =
         team.template sum<1>(n, [&](const int i, Sums<1> &sums) { begin(i, sums); })[0];
       const double goal = base.bounds.tolerance * base.bounds.tolerance * size;
       double       last = 0, last_step = 0, square = 0;
       int          iteration = 0;
+      restrict_residual(team, counts);
       for (;; ++iteration)
         {
-          precondition(team);
+          precondition(team, counts);
           const auto now =
             team.template sum<3>(n, [&](const int i, Sums<3> &sums) { multiply(i, sums); });
           square = now[2];
@@ -45,9 +52,8 @@ namespace undine::particles
             now[0] / (iteration == 0 ? now[1] : now[1] - beta * now[0] / last_step);
           last      = now[0];
           last_step = step;
-          team.for_each(
-            n, [&](const int i) { update(i, static_cast<Real>(step), static_cast<Real>(beta)); });
-          team.sync();
+          update(team, counts, static_cast<Real>(step), static_cast<Real>(beta));
+          restrict_residual(team, counts);
         }
       if (team.is_first())
         base.report(iteration, size > 0 ? sqrt(square / size) : 0.);
@@ -62,33 +68,122 @@ namespace undine::particles
       const Real  b      = system.right_hand_side[i];
       sums[0] += static_cast<double>(b) * b / system.diagonal[i];
       base.vectors.r[i] = b - system.row_times(i, system.solution);
-      base.vectors.p[i] = base.vectors.s[i] = 0;
+      base.vectors.p[i] = base.vectors.s[i] = base.vectors.u[i] = 0;
+    }
+
+    /// This worker's cells of the finest level. Passes that need from others only what is in these
+    /// cells follow each other without waiting for all.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    Share
+    own_cells(const Team &team, const Counts &counts) const
+    {
+      return team.share(counts.of[0]);
+    }
+
+    /// The particles in them; between cells, some that have no unknown, too.
+    UNDINE_HOST_DEVICE
+    Share
+    particles(const Share &own) const
+    {
+      if (own.begin >= own.end)
+        return {0, 0};
+      const auto *cells = finest().active;
+      return {starts[cells[own.begin].index(finest().grid)],
+              starts[cells[own.end - 1].index(finest().grid) + 1]};
+    }
+
+    UNDINE_HOST_DEVICE
+    const MultigridLevel<dim, Real> &
+    finest() const
+    {
+      return cycle.levels.level[0];
     }
 
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    precondition(Team &team) const
+    restrict_residual(Team &team, const Counts &counts) const
     {
-      const auto &finest = cycle.levels[0];
-      const auto *r      = base.vectors.r;
-      team.for_each_spread(finest.grid.n, [&](const int cell) {
-        if (!finest.is_active(cell))
-          return;
-        Real sum = 0;
-        for (int i = starts[cell]; i < starts[cell + 1]; ++i)
-          sum += r[i];
-        cycle.begin(0, cell, sum);
+      const auto *cells = finest().active;
+      struct Cell
+      {
+        int index, begin, end;
+      };
+      team.for_each_of(
+        own_cells(team, counts),
+        [&](const int c) {
+          const int index = cells[c].index(finest().grid);
+          return Cell{index, starts[index], starts[index + 1]};
+        },
+        [&](const int, const Cell &cell) {
+          interpolation.functions[cell.index] = sums_of_residuals(cell.begin, cell.end);
+        });
+      team.sync();
+      team.for_each_of(own_cells(team, counts), [&](const int c) {
+        const int index = cells[c].index(finest().grid);
+        cycle.begin(0, index, interpolation.number(cells[c], index));
       });
       team.sync();
-      cycle(team);
-      team.for_each(base.system.matrix.n, [&](const int i) {
-        const int cell = cell_of[i];
-        Real      u    = r[i] / base.system.diagonal[i];
-        if (cell >= 0)
-          u += cycle.factor * finest.x[cell];
-        base.vectors.u[i] = u;
+    }
+
+    /// Of particles that follow each other in a cell.
+    UNDINE_HOST_DEVICE
+    LinearInCell<dim, Real>
+    sums_of_residuals(const int begin, const int end) const
+    {
+      constexpr int together = 6; // on the way at the same time
+      auto          result   = LinearInCell<dim, Real>::zero();
+      for (int first = begin; first < end; first += together)
+        {
+          Real                   r[together];
+          PlaceInCell<dim, Real> place[together];
+          UNDINE_UNROLL
+          for (int k = 0; k < together; ++k)
+            {
+              const int i = minimum(first + k, end - 1);
+              r[k]        = first + k < end ? base.vectors.r[i] : Real(0);
+              place[k]    = places_in_cells[i];
+            }
+          UNDINE_UNROLL
+          for (int k = 0; k < together; ++k)
+            result.add(r[k], place[k]);
+        }
+      return result;
+    }
+
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    void
+    precondition(Team &team, const Counts &counts) const
+    {
+      cycle.correct(team, counts);
+      const auto *cells = finest().active;
+      const Share own   = own_cells(team, counts);
+      team.for_each_of(own, [&](const int c) {
+        finest().x[cells[c].index(finest().grid)] = cycle.finish(0, cells[c], OneLane());
       });
+      team.sync();
+      team.for_each_of(own, [&](const int c) {
+        const int index                = cells[c].index(finest().grid);
+        interpolation.functions[index] = interpolation.function(cells[c], index, finest().x);
+      });
+      team.sync_own();
+      struct Row
+      {
+        Real r, d, correction;
+      };
+      team.for_each_of(
+        particles(own),
+        [&](const int i) {
+          const int cell = cell_of[i];
+          return Row{base.vectors.r[i],
+                     base.system.diagonal[i],
+                     cell >= 0 ? interpolation.functions[cell].at(places_in_cells[i]) : Real(0)};
+        },
+        [&](const int i, const Row &row) {
+          base.vectors.u[i] = row.r / row.d + cycle.factor * row.correction;
+        });
       team.sync();
     }
 
@@ -105,16 +200,30 @@ namespace undine::particles
       sums[2] += static_cast<double>(base.vectors.r[i] / system.diagonal[i]) * r;
     }
 
+    template <class Team>
     UNDINE_HOST_DEVICE
     void
-    update(const int i, const Real alpha, const Real beta) const
+    update(Team &team, const Counts &counts, const Real alpha, const Real beta) const
     {
       const auto &v = base.vectors;
-      const Real  p = v.u[i] + beta * v.p[i], s = v.w[i] + beta * v.s[i];
-      v.p[i] = p;
-      v.s[i] = s;
-      base.system.solution[i] += alpha * p;
-      v.r[i] -= alpha * s;
+      Real *const x = base.system.solution;
+      struct Row
+      {
+        Real u, w, p, s, x, r;
+      };
+      team.for_each_of(
+        particles(own_cells(team, counts)),
+        [&](const int i) {
+          return Row{v.u[i], v.w[i], v.p[i], v.s[i], x[i], v.r[i]};
+        },
+        [&](const int i, const Row &row) {
+          const Real p = row.u + beta * row.p, s = row.w + beta * row.s;
+          v.p[i] = p;
+          v.s[i] = s;
+          x[i]   = row.x + alpha * p;
+          v.r[i] = row.r - alpha * s;
+        });
+      team.sync_own();
     }
   };
 } // namespace undine::particles

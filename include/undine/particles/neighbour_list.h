@@ -27,39 +27,68 @@ namespace undine::particles
     operator()(const int i) const
     {
       const Place<dim, Real> place = places[i];
-      int                    count = 0;
+      Row                    row{indices + list_slot(i, 0, capacity), 0};
       if (place.tag.kind() != Kind::dummy && !place.tag.is_parked())
         grid.for_each_run_around(
           place.x, [&](const int first_cell, const int end_cell, const Vector<dim, Real> &x) {
-            collect(i, x, starts[first_cell], starts[end_cell], count);
+            collect(i, x, starts[first_cell], starts[end_cell], row);
           });
-      if (count > capacity)
+      if (row.count > capacity)
         atomic_or(&control->failures, static_cast<unsigned int>(Failure::neighbours));
-      counts[i] = minimum(count, capacity);
+      counts[i] = minimum(row.count, capacity);
     }
 
   private:
+    /// Those that were found.
+    struct Row
+    {
+      int *next; ///< where the next one goes
+      int  count;
+    };
+
     /// Among the particles begin ... end-1, seen from x.
     UNDINE_HOST_DEVICE
     void
-    collect(
-      const int i, const Vector<dim, Real> &x, const int begin, const int end, int &count) const
+    collect(const int i, const Vector<dim, Real> &x, const int begin, const int end, Row &row) const
     {
       constexpr int together = 4; // their places are on the way at the same time
-      for (int first = begin; first < end; first += together)
+      int           first    = begin;
+      for (; first + together <= end; first += together)
         {
-          Vector<dim, Real> other[together];
+          Place<dim, Real> other[together];
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
-            other[k] = places[minimum(first + k, end - 1)].x;
+            other[k] = places[first + k];
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
-            if (norm_square(other[k] - x) < reach * reach && first + k < end && first + k != i)
-              {
-                if (count < capacity)
-                  indices[list_slot(i, count, capacity)] = first + k;
-                ++count;
-              }
+            look_at(i, x, first + k, other[k], row);
+        }
+      if (first == end)
+        return;
+      Place<dim, Real> other[together - 1];
+      UNDINE_UNROLL
+      for (int k = 0; k < together - 1; ++k)
+        other[k] = places[minimum(first + k, end - 1)];
+      UNDINE_UNROLL
+      for (int k = 0; k < together - 1; ++k)
+        if (first + k < end)
+          look_at(i, x, first + k, other[k], row);
+    }
+
+    UNDINE_HOST_DEVICE
+    void
+    look_at(const int                i,
+            const Vector<dim, Real> &x,
+            const int                j,
+            const Place<dim, Real>  &other,
+            Row                     &row) const
+    {
+      if (norm_square(other.x - x) < reach * reach && j != i)
+        {
+          if (row.count < capacity)
+            *row.next = j;
+          row.next += 32; // as in list_slot()
+          ++row.count;
         }
     }
   };

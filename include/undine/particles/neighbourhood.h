@@ -7,6 +7,7 @@
 #include <undine/particles/matrix.h>
 #include <undine/particles/neighbours.h>
 #include <undine/particles/step_control.h>
+#include <undine/particles/stored_correction.h>
 #include <undine/particles/ways_in.h>
 
 namespace undine::particles
@@ -15,12 +16,13 @@ namespace undine::particles
   template <int dim, class Real>
   struct Neighbourhood
   {
-    Real                       *densities;   ///< number density n* [1]
-    Real                       *fillings;    ///< sum of filling() over that of a full lattice [1]
-    int                        *is_unknown;  ///< 1: has a row in the pressure equation
-    unsigned char              *is_covered;  ///< 0: at the free surface
-    SymmetricMatrix<dim, Real> *corrections; ///< M, which makes gradients exact for linear fields
-    StoredVector<dim, Real>    *ways_in;     ///< as by MeasureWaysIn; nullptr: no bodies
+    Real          *densities;  ///< number density n* [1]
+    Real          *fillings;   ///< sum of filling() over that of a full lattice [1]
+    int           *is_unknown; ///< 1: has a row in the pressure equation
+    unsigned char *is_covered; ///< 0: at the free surface; 2: covered, beside given pressures
+    /// M, which makes gradients exact for linear fields.
+    StoredCorrection<dim, Real> *corrections;
+    StoredVector<dim, Real>     *ways_in; ///< as by MeasureWaysIn; nullptr: no bodies
   };
 
   /// Measures them, over all kinds of neighbours; but M of fluid and bodies without dummies, which
@@ -45,7 +47,8 @@ namespace undine::particles
       result.is_covered[i]  = 0;
       result.densities[i]   = 0;
       result.fillings[i]    = 0;
-      result.corrections[i] = SymmetricMatrix<dim, Real>::diagonal(1);
+      const auto identity   = SymmetricMatrix<dim, Real>::diagonal(1);
+      result.corrections[i] = StoredCorrection<dim, Real>::of(identity, false);
       if (result.ways_in != nullptr)
         result.ways_in[i] = Vector<dim, Real>::zero();
       if (tag.kind() == Kind::dummy || control->done())
@@ -64,13 +67,14 @@ namespace undine::particles
       });
       if (result.ways_in != nullptr && tag.kind() == Kind::fluid)
         result.ways_in[i] = bodies.way_in(constants.number_density);
-      const bool covered   = is_covered(tag, identities[i], n, side);
-      result.densities[i]  = n;
-      result.fillings[i]   = f / constants.filling;
-      result.is_covered[i] = covered ? 1 : 0;
-      result.is_unknown[i] = has_pressure(tag, n, covered) ? 1 : 0;
-      if (covered || tag.kind() == Kind::solid)
-        result.corrections[i] = correction(moment);
+      const bool covered    = is_covered(tag, identities[i], n, side);
+      result.densities[i]   = n;
+      result.fillings[i]    = f / constants.filling;
+      result.is_covered[i]  = covered ? 1 : 0;
+      const bool unknown    = has_pressure(tag, n, covered);
+      result.is_unknown[i]  = unknown ? 1 : 0;
+      result.corrections[i] = StoredCorrection<dim, Real>::of(
+        covered || tag.kind() == Kind::solid ? correction(moment) : identity, unknown);
     }
 
   private:
@@ -111,9 +115,14 @@ namespace undine::particles
       for (int i = 0; i < dim; ++i)
         for (int j = 0; j < dim; ++j)
           scaled[i][j] *= dim / constants.number_density;
+      auto result = SymmetricMatrix<dim, Real>::diagonal(1);
       if (!(determinant(scaled) > Real(0.1)))
-        return SymmetricMatrix<dim, Real>::diagonal(1);
-      return SymmetricMatrix<dim, Real>::of(inverse_transpose(scaled));
+        return result;
+      const auto inverse = SymmetricMatrix<dim, Real>::of(inverse_transpose(scaled));
+      Real       largest = 0;
+      for (int k = 0; k < result.size; ++k)
+        largest = maximum(largest, absolute(inverse.entries[k] - result.entries[k]));
+      return largest < StoredCorrection<dim, Real>::bound ? inverse : result;
     }
   };
 } // namespace undine::particles

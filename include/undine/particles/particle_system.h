@@ -4,6 +4,7 @@
 
 #include <undine/particles/cell_sort.h>
 #include <undine/particles/conjugate_gradients.h>
+#include <undine/particles/damped_iterations.h>
 #include <undine/particles/elastic_arrays.h>
 #include <undine/particles/elastic_step.h>
 #include <undine/particles/explicit_forces.h>
@@ -205,25 +206,30 @@ namespace undine::particles
                                            equation.diagonal.data(),
                                            closed ? equation.faces_diagonal.data() : nullptr,
                                            equation.gaps.data(),
+                                           now.motions.data(),
+                                           equation.right_hand_side.data(),
                                            control.data()});
       executor.enter(Phase::faces);
       if (closed)
-        solve<Vector<dim, Real>>(equation.faces_diagonal,
-                                 equation.gaps,
-                                 now.potentials,
-                                 equation.vectors,
-                                 numerics.faces_tolerance,
-                                 &StepControl::faces);
+        executor.run(n,
+                     DampedIterations<Real, Entry, Vector<dim, Real>>{
+                       system<Vector<dim, Real>>(equation.faces_diagonal,
+                                                 equation.gaps,
+                                                 now.potentials,
+                                                 equation.vectors.data(),
+                                                 numerics.faces_tolerance,
+                                                 &StepControl::faces)});
       executor.enter(Phase::assembly);
       executor.for_each(n,
-                        MeasureSource<dim, Real>{constants,
-                                                 neighbours(),
-                                                 equation.neighbourhood(),
-                                                 faces(),
-                                                 now.motions.data(),
-                                                 equation.right_hand_side.data(),
-                                                 equation.pressures.data(),
-                                                 control.data()});
+                        MeasureSource<dim, Real, Entry>{constants,
+                                                        neighbours(),
+                                                        equation.neighbourhood(),
+                                                        faces(),
+                                                        matrix(),
+                                                        now.motions.data(),
+                                                        equation.right_hand_side.data(),
+                                                        equation.pressures.data(),
+                                                        control.data()});
       solve_pressure_equation();
       executor.for_each(n,
                         TakePressures<dim, Real>{equation.is_unknown.data(),
@@ -299,28 +305,17 @@ namespace undine::particles
       if (multigrid != nullptr)
         solve_by_multigrid();
       else
-        solve<Real>(equation.diagonal,
-                    equation.right_hand_side,
-                    equation.pressures,
-                    equation.numbers,
-                    numerics.tolerance,
-                    &StepControl::pressure);
+        executor.run(n,
+                     system<Real>(equation.diagonal,
+                                  equation.right_hand_side,
+                                  equation.pressures,
+                                  equation.numbers.data(),
+                                  numerics.tolerance,
+                                  &StepControl::pressure));
     }
 
     template <class Value>
     using Values = Buffer<Executor, typename Components<Value>::Stored>;
-
-    template <class Value>
-    void
-    solve(const Buffer<Executor, Real> &system_diagonal,
-          const Values<Value>          &b,
-          Values<Value>                &x,
-          Values<Value>                &work,
-          const double                  tolerance,
-          SolverRecord StepControl::*record)
-    {
-      executor.run(n, system<Value>(system_diagonal, b, x, work.data(), tolerance, record));
-    }
 
     /// `w` has room for five numbers a particle.
     template <class Value>

@@ -6,6 +6,7 @@
 #include <undine/particles/elastic_bodies.h>
 #include <undine/particles/matrix.h>
 #include <undine/particles/particle.h>
+#include <undine/particles/stored_correction.h>
 
 #include <string>
 #include <vector>
@@ -37,8 +38,9 @@ namespace undine::particles
 
   template <int dim, class Real>
   std::vector<double>
-  numbers_in(const SymmetricMatrix<dim, Real> &matrix)
+  numbers_in(const StoredCorrection<dim, Real> &correction)
   {
+    const auto matrix = correction.matrix();
     return {matrix.entries, matrix.entries + matrix.size};
   }
   /// @}

@@ -62,13 +62,13 @@ namespace undine::particles
 
     int n;
 
-    Buffer<Executor, Real>                       densities, fillings;
-    Buffer<Executor, int>                        is_unknown;
-    Buffer<Executor, unsigned char>              is_covered;
-    Buffer<Executor, SymmetricMatrix<dim, Real>> corrections;
-    Buffer<Executor, StoredVector<dim, Real>>    ways_in;
-    Buffer<Executor, int>                        counts;
-    Buffer<Executor, Entry>                      entries;
+    Buffer<Executor, Real>                        densities, fillings;
+    Buffer<Executor, int>                         is_unknown;
+    Buffer<Executor, unsigned char>               is_covered;
+    Buffer<Executor, StoredCorrection<dim, Real>> corrections;
+    Buffer<Executor, StoredVector<dim, Real>>     ways_in;
+    Buffer<Executor, int>                         counts;
+    Buffer<Executor, Entry>                       entries;
     Buffer<Executor, Real>                    diagonal, right_hand_side, pressures, faces_diagonal;
     Buffer<Executor, StoredVector<dim, Real>> gaps;
     Buffer<Executor, Real>                    numbers; ///< of the pressure solver

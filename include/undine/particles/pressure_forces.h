@@ -132,7 +132,7 @@ namespace undine::particles
     Sum
     sum(const int i, const Tag tag, const Real P) const
     {
-      const auto M       = neighbourhood.corrections[i];
+      const auto M       = neighbourhood.corrections[i].matrix();
       const auto side    = faces.side(i);
       const auto x       = neighbours.places[i].x;
       const Real density = constants.densities[tag.material()];

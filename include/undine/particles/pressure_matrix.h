@@ -31,6 +31,18 @@ namespace undine::particles
               static_cast<std::uint32_t>(code)};
     }
 
+    /// Reads one that will not be needed again soon: others stay in the caches.
+    UNDINE_HOST_DEVICE
+    static PackedEntry
+    once(const PackedEntry *entry)
+    {
+#ifdef __CUDA_ARCH__
+      return {__ldcs(&entry->bits)};
+#else
+      return *entry;
+#endif
+    }
+
     UNDINE_HOST_DEVICE
     int
     difference() const
@@ -67,6 +79,13 @@ namespace undine::particles
     of(const int difference, const Number coefficient, const Number)
     {
       return {difference, coefficient};
+    }
+
+    UNDINE_HOST_DEVICE
+    static WideEntry
+    once(const WideEntry *entry)
+    {
+      return *entry;
     }
 
     UNDINE_HOST_DEVICE
@@ -110,30 +129,70 @@ namespace undine::particles
     Value
     row_times(const int row, const Stored *x) const
     {
-      constexpr int together = 8; // on the way at the same time
-      const int     count    = counts[row];
-      Value         sum      = Value();
-      int           first    = 0;
-      for (; first + together <= count; first += together)
-        {
-          Entry entry[together];
-          Value value[together];
-          UNDINE_UNROLL
-          for (int k = 0; k < together; ++k)
-            entry[k] = entries[list_slot(row, first + k, capacity)];
-          UNDINE_UNROLL
-          for (int k = 0; k < together; ++k)
-            value[k] = x[row + entry[k].difference()];
-          UNDINE_UNROLL
-          for (int k = 0; k < together; ++k)
-            sum += entry[k].coefficient(scale) * value[k];
-        }
-      for (; first < count; ++first)
-        {
-          const Entry entry = entries[list_slot(row, first, capacity)];
-          sum += entry.coefficient(scale) * Value(x[row + entry.difference()]);
-        }
+      Value sum = Value();
+      for_each_in_row<Value>(row, x, [&](const Entry entry, const Value &value) {
+        sum += entry.coefficient(scale) * value;
+      });
       return sum;
+    }
+
+    /// f(entry, x_j) for the entries of a row, and for the empty ones that fill its last group. The
+    /// entries of the next groups are on the way while the numbers that belong to the present one
+    /// are: as many groups as registers hold.
+    template <class Value, class Numbers, class Function>
+    UNDINE_HOST_DEVICE
+    void
+    for_each_in_row(const int row, const Numbers &x, const Function &f) const
+    {
+      constexpr int ahead                   = sizeof(Value) > sizeof(double) ? 1 : 2;
+      const int     count                   = counts[row];
+      const Entry  *from                    = entries + list_slot(row, 0, capacity);
+      Entry         entry[ahead + 1][group] = {};
+      UNDINE_UNROLL
+      for (int g = 0; g < ahead; ++g)
+        fetch(from, g * group, count, entry[g]);
+      for (int first = 0; first < count; first += group)
+        {
+          Value value[group];
+          UNDINE_UNROLL
+          for (int k = 0; k < group; ++k)
+            value[k] = x[row + entry[0][k].difference()];
+          fetch(from, first + ahead * group, count, entry[ahead]);
+          UNDINE_UNROLL
+          for (int k = 0; k < group; ++k)
+            {
+              f(entry[0][k], value[k]);
+              UNDINE_UNROLL
+              for (int g = 0; g < ahead; ++g)
+                entry[g][k] = entry[g + 1][k];
+            }
+        }
+    }
+
+    /// After `count` entries have been written to a row.
+    UNDINE_HOST_DEVICE
+    void
+    fill_last_group(const int row, const int count) const
+    {
+      counts[row] = count;
+      for (int k = count; k % group != 0; ++k)
+        entries[list_slot(row, k, capacity)] = Entry{};
+    }
+
+  private:
+    static constexpr int group = 4;
+
+    /// A group of entries, if the row has it.
+    UNDINE_HOST_DEVICE
+    static void
+    fetch(const Entry *from, const int first, const int count, Entry (&to)[group])
+    {
+      if (first < count)
+        {
+          UNDINE_UNROLL
+          for (int k = 0; k < group; ++k)
+            to[k] = Entry::once(from + 32 * (first + k));
+        }
     }
   };
 } // namespace undine::particles

@@ -96,6 +96,8 @@ namespace undine::particles
     bool   has_fluid          = true; ///< else bodies move by elasticity alone
     double fluid_density      = 1000; ///< [kg/m^3]
     double fluid_viscosity    = 0;    ///< kinematic [m^2/s]
+    double wall_viscosity     = 0;    ///< of WallFriction [m^2/s]; 0: none
+    double wall_roughness     = 0;    ///< of WallFriction [m]
     double fluid_bulk_modulus = 0;    ///< [Pa]; 0: incompressible
     double depth              = 0;    ///< of the fluid along gravity, for the waves' speed [m]
 

@@ -9,6 +9,9 @@ namespace undine::particles
   template <int dim>
   struct StencilGrid;
 
+  template <int dim>
+  struct StencilCell;
+
   template <>
   struct StencilGrid<0>
   {
@@ -34,6 +37,17 @@ namespace undine::particles
       return cell / strides[axis] % cells[axis];
     }
 
+    /// As if it had no children.
+    UNDINE_HOST_DEVICE
+    StencilCell<dim>
+    cell(const int index) const
+    {
+      StencilCell<dim> result = {};
+      for (int axis = 0; axis < dim; ++axis)
+        result.coordinates[axis] = coordinate(index, axis);
+      return result;
+    }
+
     /// Difference of coordinates, -1, 0 or 1, of cells that touch.
     UNDINE_HOST_DEVICE
     int
@@ -48,44 +62,107 @@ namespace undine::particles
     int
     next_to(const int c, const int step, const int axis) const
     {
-      const int other = c + step;
-      if (other >= 0 && other < cells[axis])
-        return other;
-      return periodic[axis] ? (other < 0 ? other + cells[axis] : other - cells[axis]) : c;
+      const int  other  = c + step;
+      const int  beyond = periodic[axis] ? (step < 0 ? cells[axis] - 1 : 0) : c;
+      const bool exists = other >= 0 && other < cells[axis];
+      return exists ? other : beyond;
     }
   };
 
-  /// f(entry of the stencil, cell, its parent in the coarser grid), for all cells around one. Where
-  /// there is no neighbour the cell itself stands in: the stencil is zero there.
-  template <int dim, class Function>
+  /// A cell that has unknowns, with which of its children in the finer grid do, as bits; in the
+  /// finest grid, which of its next ones along each axis do.
+  template <int dim>
+  struct alignas(16) StencilCell
+  {
+    int          coordinates[dim];
+    unsigned int children;
+
+    UNDINE_HOST_DEVICE
+    int
+    index(const StencilGrid<dim> &grid) const
+    {
+      int result = 0;
+      for (int axis = 0; axis < dim; ++axis)
+        result += coordinates[axis] * grid.strides[axis];
+      return result;
+    }
+
+    /// That which number `child` is, if it exists in the finer grid.
+    UNDINE_HOST_DEVICE
+    StencilCell
+    child(const int child) const
+    {
+      StencilCell result = {};
+      for (int axis = 0; axis < dim; ++axis)
+        result.coordinates[axis] = 2 * coordinates[axis] + (child >> axis & 1);
+      return result;
+    }
+
+    UNDINE_HOST_DEVICE
+    static unsigned int
+    bit_of_next(const int axis, const int step)
+    {
+      return 1u << (2 * axis + (step > 0 ? 1 : 0));
+    }
+
+    UNDINE_HOST_DEVICE
+    bool
+    has_next(const int axis, const int step) const
+    {
+      return (children & bit_of_next(axis, step)) != 0;
+    }
+
+    /// The index of its parent.
+    UNDINE_HOST_DEVICE
+    int
+    parent(const StencilGrid<dim> &coarser) const
+    {
+      int result = 0;
+      for (int axis = 0; axis < dim; ++axis)
+        result += coordinates[axis] / 2 * coarser.strides[axis];
+      return result;
+    }
+  };
+
+  /// f(entry of the stencil, cell, its parent in the coarser grid), for all cells around one that
+  /// are this lane's. Where there is no neighbour the cell itself stands in: the stencil is zero
+  /// there.
+  template <int dim, class Lanes, class Function>
   UNDINE_HOST_DEVICE
   void
   for_each_around(const StencilGrid<dim> &grid,
                   const StencilGrid<dim> &coarser,
-                  const int               cell,
+                  const StencilCell<dim> &cell,
+                  const Lanes            &lanes,
                   const Function         &f)
   {
-    int indices[dim][3], parents[dim][3];
+    constexpr int size = StencilGrid<dim>::size;
+    int           indices[dim][3], parents[dim][3];
+    UNDINE_UNROLL_ALL
     for (int axis = 0; axis < dim; ++axis)
+      UNDINE_UNROLL_ALL
+    for (int step = 0; step < 3; ++step)
       {
-        const int c = grid.coordinate(cell, axis);
-        for (int step = 0; step < 3; ++step)
-          {
-            const int other     = grid.next_to(c, step - 1, axis);
-            indices[axis][step] = other * grid.strides[axis];
-            parents[axis][step] = other / 2 * coarser.strides[axis];
-          }
+        const int c         = grid.next_to(cell.coordinates[axis], step - 1, axis);
+        indices[axis][step] = c * grid.strides[axis];
+        parents[axis][step] = c / 2 * coarser.strides[axis];
       }
     UNDINE_UNROLL_ALL
-    for (int entry = 0; entry < StencilGrid<dim>::size; ++entry)
+    for (int first = 0; first < size; first += Lanes::count())
       {
-        int other = 0, parent = 0, rest = entry;
+        const int entry = first + lanes.rank();
+        int       other = 0, parent = 0, rest = entry;
+        UNDINE_UNROLL_ALL
         for (int axis = 0; axis < dim; ++axis, rest /= 3)
           {
-            other += indices[axis][rest % 3];
-            parent += parents[axis][rest % 3];
+            const int step = rest % 3;
+            other += step == 0 ? indices[axis][0] : step == 1 ? indices[axis][1] : indices[axis][2];
+            parent += step == 0   ? parents[axis][0]
+                      : step == 1 ? parents[axis][1]
+                                  : parents[axis][2];
           }
-        f(entry, other, parent);
+        if (entry < size)
+          f(entry, other, parent);
       }
   }
 

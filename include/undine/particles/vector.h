@@ -44,6 +44,15 @@ namespace undine::particles
   }
 
 
+  template <class Real>
+  UNDINE_HOST_DEVICE
+  Real
+  absolute(const Real a)
+  {
+    return a < 0 ? -a : a;
+  }
+
+
   /// A vector in space; trivially copyable, so that it can live on a device.
   template <int dim, class Real>
   struct Vector

@@ -6,11 +6,12 @@
 #include <undine/particles/matrix.h>
 #include <undine/particles/neighbours.h>
 #include <undine/particles/step_control.h>
+#include <undine/particles/stored_correction.h>
 
 namespace undine::particles
 {
-  /// The virtual face between two particles i and j, as its area vector (out of i) over half the
-  /// volume of a particle [1/m]:
+  /// The virtual face between two particles i and j, as its area vector (out of i) over twice
+  /// the volume of a particle [1/m]:
   ///     a_ij = (dim / n0) (w / r^2) (M_i + M_j) / 2 r_ij + k_ij (L_i - L_j),   a_ij = -a_ji.
   /// The potentials L [1/m] are such that the faces of each covered particle close, sum_j a_ij = 0,
   /// as those of cells do [Trask, Bochev, Perego 2020]. The divergence of velocities and the forces
@@ -19,15 +20,23 @@ namespace undine::particles
   template <int dim, class Real>
   struct VirtualFaces
   {
-    Real                              factor;      ///< dim / n0
-    const SymmetricMatrix<dim, Real> *corrections; ///< M
-    const StoredVector<dim, Real>    *potentials;  ///< L; nullptr: faces are not used
+    Real                               factor;      ///< dim / n0
+    const StoredCorrection<dim, Real> *corrections; ///< M
+    const StoredVector<dim, Real>     *potentials;  ///< L; nullptr: faces are not used
 
     /// What a particle contributes to its faces.
     struct Side
     {
-      SymmetricMatrix<dim, Real> M;
-      Vector<dim, Real>          L;
+      StoredCorrection<dim, Real> M;
+      StoredVector<dim, Real>     L;
+
+      /// Zero where the pressure is given.
+      UNDINE_HOST_DEVICE
+      Vector<dim, Real>
+      potential() const
+      {
+        return M.has_unknown() ? Vector<dim, Real>(L) : Vector<dim, Real>::zero();
+      }
     };
 
     UNDINE_HOST_DEVICE
@@ -35,7 +44,8 @@ namespace undine::particles
     side(const int i) const
     {
       if (potentials == nullptr)
-        return {SymmetricMatrix<dim, Real>::diagonal(1), Vector<dim, Real>::zero()};
+        return {StoredCorrection<dim, Real>::of(SymmetricMatrix<dim, Real>::diagonal(1), false),
+                {}};
       return {corrections[i], potentials[i]};
     }
 
@@ -54,7 +64,7 @@ namespace undine::particles
     Vector<dim, Real>
     closed(const Side &i, const Side &j, const Real k, const Pair<dim, Real> &pair) const
     {
-      return open(i.M, j.M, pair) + k * (i.L - j.L);
+      return open(i.M.matrix(), j.M.matrix(), pair) + k * (i.potential() - j.potential());
     }
   };
 } // namespace undine::particles

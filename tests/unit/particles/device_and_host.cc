@@ -318,6 +318,7 @@ TEMPLATE_TEST_CASE_SIG("Two runs give the same bits", "[particles]", ((int dim),
   const auto preconditioner =
     GENERATE(Numerics::Preconditioner::jacobi, Numerics::Preconditioner::multigrid);
   scene.setup.numerics.preconditioner = preconditioner;
+  scene.setup.numerics.threads        = 0; // all of them
   for (const auto &executor : executors<dim>())
     {
       INFO(executor);

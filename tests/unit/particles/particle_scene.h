@@ -30,7 +30,8 @@ namespace particle_tests
 
     explicit ParticleScene(const double spacing)
     {
-      setup.spacing = spacing;
+      setup.spacing          = spacing;
+      setup.numerics.threads = 1; // for so few particles more would mostly wait for each other
     }
 
     /// Bodies must come before all other particles.

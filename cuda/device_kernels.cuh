@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_cuda_device_kernels_cuh
+#define undine_cuda_device_kernels_cuh
+
+#include "device_team.cuh"
+
+namespace undine::particles
+{
+  namespace kernels
+  {
+    constexpr int for_each_threads = 128;
+    constexpr int team_threads     = 512; ///< of a large team, at most
+    constexpr int few_threads      = 64;  ///< of a small team, each with many registers
+
+    template <class Function>
+    __global__ void
+    __launch_bounds__(for_each_threads) for_each(const int n, const Function f)
+    {
+      const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+      if (i < n)
+        f(i);
+    }
+
+    /// Room in shared memory, in which the numbers of a thread's neighbours lie between its own.
+    template <class Number>
+    struct Room
+    {
+      Number *first;
+
+      __device__ __forceinline__ Number &
+      operator[](const int k) const
+      {
+        return first[k * for_each_threads];
+      }
+    };
+
+    template <int size, class Number, class Function>
+    __global__ void
+    __launch_bounds__(for_each_threads) for_each_with_room(const int n, const Function f)
+    {
+      __shared__ Number rooms[size * for_each_threads];
+      const int         i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+      Room<Number>      room{rooms + threadIdx.x};
+      if (i < n)
+        f(i, room);
+    }
+
+    template <class Function, int threads, int blocks>
+    __global__ void
+    __launch_bounds__(threads, blocks)
+      run(const __grid_constant__ Function f, const DeviceTeam::Workspace workspace)
+    {
+      __shared__ Sums<DeviceTeam::most_sums> of_warps[DeviceTeam::most_warps];
+      DeviceTeam                             team(workspace, of_warps);
+      f(team);
+    }
+  } // namespace kernels
+} // namespace undine::particles
+
+#endif
