@@ -176,7 +176,7 @@ namespace undine::particles
       const auto F          = lanes.sum(moment) * inverse_moment;
       const auto R          = rotation_of(F, last);
       const auto P =
-        stress(properties, F, R, lanes.sum(rate) * inverse_moment, carried, surface * cofactors(F));
+        stress(properties, F, R, lanes.sum(rate) * inverse_moment, carried, surface * R);
       if (lanes.rank() != 0)
         return;
       bodies.deformations[i] = F;
@@ -279,7 +279,7 @@ namespace undine::particles
             square += entry * entry;
           }
       return (2 * properties.mu +
-              volume_law(properties).stiffness(determinant(F)) * (1 + sqrt(square))) /
+              volume_law(properties).stiffness(determinant(F)) * (1 + Real(sqrt(square)))) /
              properties.density;
     }
 

@@ -127,22 +127,20 @@ namespace undine::particles
       const Real contacts = contact.frequency_square(i, lanes);
       if (lanes.rank() != 0)
         return;
-      const Real square = (elasticity.sound_square(i) / (elasticity.spacing * elasticity.spacing) +
-                           contacts / lattice_frequency_square) /
-                          reserve;
+      const Real square = elasticity.sound_square(i) / (elasticity.spacing * elasticity.spacing) +
+                          contacts / lattice_frequency_square;
       if (square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate))
         atomic_maximum(measured, static_cast<float>(sqrt(square)));
     }
 
-    /// Squares of the highest frequency of a lattice of particles over c_p / l0, and by what they
-    /// may grow in contacts and deformed bodies before steps become shorter: explicit steps are
-    /// stable up to about 0.95 l0 / c_p. @{
+    /// Square of the highest frequency of a lattice of particles over c_p / l0: explicit steps are
+    /// stable up to about 0.95 l0 / c_p.
     static constexpr Real lattice_frequency_square = Real(4.4);
-    static constexpr Real reserve                  = Real(1.5);
-    /// @}
 
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
-    /// swing with their own sound.
+    /// swing with their own sound. What it carries beyond twice the pressure is given back
+    /// `release` times as fast: after an impact it would squeeze on, and nothing would do that
+    /// work.
     template <class Team>
     UNDINE_HOST_DEVICE
     void
@@ -158,9 +156,16 @@ namespace undine::particles
               add[1] += 1;
             });
           if (team.is_first())
-            carried[body] += carry_share * (static_cast<Real>(sums[0] / sums[1]) - carried[body]);
+            {
+              const Real pressure = static_cast<Real>(sums[0] / sums[1]);
+              const Real gone     = maximum(Real(0), carried[body] - 2 * pressure);
+              carried[body] += carry_share * (pressure - carried[body]) -
+                               minimum(release * carry_share, Real(1)) * gone;
+            }
         }
     }
+
+    static constexpr Real release = 10;
 
     UNDINE_HOST_DEVICE
     ElasticBodies<dim, Real> &

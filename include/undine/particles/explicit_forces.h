@@ -5,6 +5,7 @@
 #include <undine/particles/constants.h>
 #include <undine/particles/neighbours.h>
 #include <undine/particles/step_control.h>
+#include <undine/particles/ways_in.h>
 
 namespace undine::particles
 {
@@ -24,6 +25,7 @@ namespace undine::particles
     Place<dim, Real>        *new_places;
     Motion<dim, Real>       *new_motions;
     Vector<dim, Real>       *solid_velocities; ///< by identity [m/s]
+    StopEntry<dim, Real>     entry;            ///< of fluid into bodies
     const StepControl       *control;
 
     UNDINE_HOST_DEVICE
@@ -64,17 +66,19 @@ namespace undine::particles
       auto       change           = Vector<dim, Real>::zero();
       const auto fetch            = [&](const int j) { return motions[j].v; };
       neighbours.for_each(
-        i, fetch, [&](const int, const Pair<dim, Real> &pair, const Vector<dim, Real> &other) {
+        i, fetch, [&](const int j, const Pair<dim, Real> &pair, const Vector<dim, Real> &other) {
           if (tag.kind() == Kind::solid &&
               (pair.tag.kind() == Kind::solid || pair.tag.kind() == Kind::dummy))
             return; // elasticity and contact act between these
           const Vector<dim, Real> approach = other - v;
+          const Real              their    = constants.densities[pair.tag.material()];
+          change += tag.kind() == Kind::fluid ? entry.of_fluid(i, pair, their, approach)
+                                              : entry.of_solid(j, pair, density, approach);
           if (pair.tag.is_free() || !constants.wall_friction.acts())
             change += (friction * pair.weight) * approach;
           const Real speed = approach * pair.r;
           if (pair.square < collision_square && speed < 0)
             {
-              const Real their = constants.densities[pair.tag.material()];
               const Real share = pair.tag.is_free() ? their / (density + their) : Real(1);
               change += ((1 + constants.restitution) * share * speed / pair.square) * pair.r;
             }

@@ -8,8 +8,8 @@
 
 namespace undine::particles
 {
-  /// Counts particles of the fluid that are inside of bodies: bodies make most of their
-  /// neighbourhood, and on all sides.
+  /// Counts particles of the fluid that are inside of a body: it makes most of their neighbourhood,
+  /// and on all sides. Fluid between two bodies is in neither.
   template <int dim, class Real>
   struct CountFluidInBodies
   {
@@ -23,10 +23,17 @@ namespace undine::particles
     {
       if (neighbours.places[i].tag.kind() != Kind::fluid)
         return;
-      Real density = 0;
-      auto side    = Vector<dim, Real>::zero();
+      Tag  body    = neighbours.places[i].tag; // of the nearest particle of a body
+      Real nearest = 0, density = 0;
+      auto side = Vector<dim, Real>::zero();
       neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) {
-        if (pair.tag.kind() != Kind::solid)
+        if (pair.tag.kind() != Kind::solid || pair.weight <= nearest)
+          return;
+        nearest = pair.weight;
+        body    = pair.tag;
+      });
+      neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) {
+        if (pair.tag.kind() != Kind::solid || pair.tag.code != body.code)
           return;
         density += pair.weight;
         side += (pair.weight * pair.inverse_distance) * pair.r;

@@ -8,6 +8,7 @@
 #include <undine/particles/neighbours.h>
 #include <undine/particles/step_control.h>
 #include <undine/particles/stored_correction.h>
+#include <undine/particles/ways_in.h>
 
 namespace undine::particles
 {
@@ -21,6 +22,7 @@ namespace undine::particles
     unsigned char *is_covered; ///< 0: at the free surface; 2: covered, beside given pressures
     /// M, which makes gradients exact for linear fields.
     StoredCorrection<dim, Real> *corrections;
+    StoredVector<dim, Real>     *ways_in; ///< as by MeasureWaysIn; nullptr: no bodies
   };
 
   /// Measures them, over all kinds of neighbours; but M of fluid and bodies without dummies, which
@@ -47,18 +49,24 @@ namespace undine::particles
       result.fillings[i]    = 0;
       const auto identity   = SymmetricMatrix<dim, Real>::diagonal(1);
       result.corrections[i] = StoredCorrection<dim, Real>::of(identity, false);
+      if (result.ways_in != nullptr)
+        result.ways_in[i] = Vector<dim, Real>::zero();
       if (tag.kind() == Kind::dummy || control->done())
         return;
-      auto side   = Vector<dim, Real>::zero();
-      auto moment = SymmetricMatrix<dim, Real>::diagonal(0);
-      Real n = 0, f = 0;
+      auto                    side   = Vector<dim, Real>::zero();
+      auto                    moment = SymmetricMatrix<dim, Real>::diagonal(0);
+      Real                    n = 0, f = 0;
+      BodiesAround<dim, Real> bodies;
       neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) {
         n += pair.weight;
         f += filling(pair.square / (constants.reach * constants.reach));
+        bodies.add(pair);
         side += (pair.weight * pair.inverse_distance) * pair.r;
         if (pair.tag.kind() != Kind::dummy || tag.kind() == Kind::wall)
           moment.add_square(pair.weight_over_square(), pair.r);
       });
+      if (result.ways_in != nullptr && tag.kind() == Kind::fluid)
+        result.ways_in[i] = bodies.way_in(constants.number_density);
       const bool covered    = is_covered(tag, identities[i], n, side);
       result.densities[i]   = n;
       result.fillings[i]    = f / constants.filling;

@@ -43,7 +43,7 @@ namespace undine::particles
       , control(executor, 1)
       , cells(executor, constants.grid, n)
       , list(executor, constants.grid, constants.reach, n)
-      , equation(executor, n)
+      , equation(executor, n, bodies.n)
       , open(make_open_boundaries<dim, Real>(setup))
       , crossed(executor, open.n > 0 ? n : 0)
       , crossed_before(executor, open.n > 0 ? n : 0)
@@ -75,6 +75,8 @@ namespace undine::particles
     {
       sort();
       list.find(now.view(), cells.cell_starts(), control.data());
+      if (equation.ways() != nullptr)
+        executor.for_each(n, MeasureWaysIn<dim, Real>{constants, neighbours(), equation.ways()});
     }
 
     Neighbours<dim, Real>
@@ -141,6 +143,7 @@ namespace undine::particles
                                                   next.places.data(),
                                                   next.motions.data(),
                                                   bodies.v_start.data(),
+                                                  {constants.densities[0], equation.ways()},
                                                   control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);

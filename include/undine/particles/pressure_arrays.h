@@ -15,13 +15,14 @@ namespace undine::particles
   {
     static constexpr int capacity = NeighbourList<Executor, dim, Real>::capacity;
 
-    PressureArrays(const Executor &executor, const int n)
+    PressureArrays(const Executor &executor, const int n, const int n_solid)
       : n(n)
       , densities(executor, n)
       , fillings(executor, n)
       , is_unknown(executor, n)
       , is_covered(executor, n)
       , corrections(executor, n)
+      , ways_in(executor, n_solid > 0 ? n : 0)
       , counts(executor, n)
       , entries(executor, list_slot((n + 31) / 32 * 32, 0, capacity))
       , diagonal(executor, n)
@@ -41,7 +42,15 @@ namespace undine::particles
               fillings.data(),
               is_unknown.data(),
               is_covered.data(),
-              corrections.data()};
+              corrections.data(),
+              ways()};
+    }
+
+    /// nullptr without bodies
+    StoredVector<dim, Real> *
+    ways() const
+    {
+      return ways_in.size() > 0 ? ways_in.data() : nullptr;
     }
 
     /// `scale` is the largest coefficient.
@@ -57,6 +66,7 @@ namespace undine::particles
     Buffer<Executor, int>                         is_unknown;
     Buffer<Executor, unsigned char>               is_covered;
     Buffer<Executor, StoredCorrection<dim, Real>> corrections;
+    Buffer<Executor, StoredVector<dim, Real>>     ways_in;
     Buffer<Executor, int>                         counts;
     Buffer<Executor, Entry>                       entries;
     Buffer<Executor, Real>                    diagonal, right_hand_side, pressures, faces_diagonal;

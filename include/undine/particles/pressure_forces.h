@@ -222,14 +222,16 @@ namespace undine::particles
     }
 
     /// Out of a body into which fluid is about to squeeze between its particles: outside, bodies
-    /// make less than half of a neighbourhood [m].
+    /// make less than 45 % of a neighbourhood [m].
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
     way_out(const Sum &sum) const
     {
-      const Real excess = maximum(Real(0), sum.body_density / constants.number_density - Real(0.5));
+      const Real excess =
+        maximum(Real(0), sum.body_density / constants.number_density - Real(0.45));
       return limited((-2 * excess * constants.spacing * constants.spacing * faces.factor) *
-                     sum.bodies);
+                       sum.bodies,
+                     Real(0.2) * constants.spacing);
     }
 
     /// Away from where neighbours crowd [m].
@@ -238,15 +240,15 @@ namespace undine::particles
     shift(const Vector<dim, Real> &crowd) const
     {
       return limited((-constants.shifting * constants.spacing * constants.spacing * faces.factor) *
-                     crowd);
+                       crowd,
+                     constants.shifting_limit);
     }
 
     UNDINE_HOST_DEVICE
-    Vector<dim, Real>
-    limited(Vector<dim, Real> shift) const
+    static Vector<dim, Real>
+    limited(Vector<dim, Real> shift, const Real limit)
     {
       const Real square = norm_square(shift);
-      const Real limit  = constants.shifting_limit;
       if (square > limit * limit)
         shift *= limit * inverse_square_root(square);
       return shift;
