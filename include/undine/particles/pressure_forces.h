@@ -222,13 +222,12 @@ namespace undine::particles
     }
 
     /// Out of a body into which fluid is about to squeeze between its particles: outside, bodies
-    /// make less than 45 % of a neighbourhood [m].
+    /// make less than half of a neighbourhood [m].
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
     way_out(const Sum &sum) const
     {
-      const Real excess =
-        maximum(Real(0), sum.body_density / constants.number_density - Real(0.45));
+      const Real excess = maximum(Real(0), sum.body_density / constants.number_density - Real(0.5));
       return limited((-2 * excess * constants.spacing * constants.spacing * faces.factor) *
                        sum.bodies,
                      Real(0.2) * constants.spacing);

@@ -25,14 +25,14 @@ namespace undine::particles
     }
 
     /// The direction into the body, once the particle is in it farther than any particle in front
-    /// of a surface: bodies make less than 45 % of their neighbourhood. Its square times the
-    /// sum of the weights is 1 from a half on, and 0 in front of surfaces. Between two bodies it
-    /// fades out.
+    /// of a surface: bodies make at most 55 % of their neighbourhood. Its square times the
+    /// sum of the weights is 1 from six tenths on, and 0 in front of surfaces. Between two bodies
+    /// it fades out.
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
     way_in(const Real full) const
     {
-      const Real strength = minimum(Real(1), Real(20) * (density / full - Real(0.45)));
+      const Real strength = minimum(Real(1), Real(20) * (density / full - Real(0.55)));
       if (!(strength > 0))
         return Vector<dim, Real>::zero();
       const Real clear = maximum(Real(sqrt(norm_square(side))), Real(0.3) * density);
