@@ -161,6 +161,7 @@ namespace undine
       state.clock.step = file.attribute<std::uint64_t>("step");
       state.clock.time = file.attribute<double>("time");
 
+      const auto lasting = count_lasting_particles(state.particles); // of the scene
       if (models.particles)
         resize_particles(state.particles, models.particles->setup().spacing, file);
       auto surface = pack_surface(models, state);
@@ -169,6 +170,10 @@ namespace undine
       auto arrays = pack(models, state);
       read_arrays(arrays, file, slot, communicator);
       unpack(state, models, arrays);
+      if (count_lasting_particles(state.particles) != lasting)
+        throw FileError("'" + slot.string() +
+                        "' has more or fewer particles of bodies and walls than the scene: it "
+                        "belongs to another one");
       return state;
     }
 

@@ -109,6 +109,16 @@ namespace undine
   }
 
 
+  template <int dim>
+  std::size_t
+  count_lasting_particles(const particles::ParticleState<dim> &state)
+  {
+    return std::count_if(state.tags.begin(), state.tags.end(), [](const particles::Tag tag) {
+      return tag.kind() != particles::Kind::fluid && tag.material() != particles::inflow_material;
+    });
+  }
+
+
   template std::vector<StateArray>
   pack_particles(const particles::ParticleState<2> &, double);
   template std::vector<StateArray>
@@ -121,4 +131,8 @@ namespace undine
   resize_particles(particles::ParticleState<2> &, double, const HDF5Reader &);
   template void
   resize_particles(particles::ParticleState<3> &, double, const HDF5Reader &);
+  template std::size_t
+  count_lasting_particles(const particles::ParticleState<2> &);
+  template std::size_t
+  count_lasting_particles(const particles::ParticleState<3> &);
 } // namespace undine

@@ -27,6 +27,11 @@ namespace undine
   template <int dim>
   void
   resize_particles(particles::ParticleState<dim> &state, double spacing, const HDF5Reader &file);
+
+  /// The particles of bodies and walls, which neither come nor go.
+  template <int dim>
+  std::size_t
+  count_lasting_particles(const particles::ParticleState<dim> &state);
 } // namespace undine
 
 #endif

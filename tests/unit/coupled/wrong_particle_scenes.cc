@@ -106,5 +106,5 @@ TEST_CASE("particles: wrong obstacles and effects are refused")
   check_message(obstacle("set Surface = there_is_no_such_file.stl"),
                 {"'Surface'", "cannot be read"});
   check_message(particle_box<2>(10) + water + section("Effects", section("convection", "")),
-                {"'Effects/convection'", "'gravity', 'viscosity' and"});
+                {"'Effects/convection'", "'gravity', 'viscosity', 'wall friction'"});
 }

@@ -116,7 +116,7 @@ TEST_CASE("particles: a checkpoint of another scene is refused")
   State<2> other;
   other.particles = more.particles->initial_state();
   CHECK_THAT(message_of([&] { read_checkpoint(folder.path, more, other); }),
-             Catch::Matchers::Contains("particles/positions"));
+             Catch::Matchers::Contains("particles of bodies and walls"));
 }
 
 
