@@ -15,8 +15,6 @@ import csv
 import math
 import os
 import sys
-import tempfile
-import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "tests"))
@@ -38,16 +36,8 @@ def reference(name):
 
 
 def run(scene, arguments, more=()):
-    """The columns of the run's statistics by name, and its wall seconds."""
-    with tempfile.TemporaryDirectory() as folder:
-        options = [os.path.join(ROOT, "prm", scene), "--output", folder]
-        for setting in [f"Particles/Executor={arguments.executor}", "Output/Parts=statistics"] + list(more) + arguments.set:
-            options += ["--set", setting]
-        start = time.time()
-        scene_tools.run(arguments.program, options)
-        seconds = time.time() - start
-        names, _, rows = scene_tools.parse(scene_tools.statistics(folder))
-    return {name: [row[k] for row in rows] for k, name in enumerate(names)}, seconds
+    settings = [f"Particles/Executor={arguments.executor}", "Output/Parts=statistics", *more, *arguments.set]
+    return scene_tools.timed_columns(arguments.program, os.path.join(ROOT, "prm", scene), settings)
 
 
 def interpolate(x, xs, ys):

@@ -12,8 +12,6 @@ particles of water in the ball; sub-steps a frame; iterations of the pressure so
 import argparse
 import os
 import sys
-import tempfile
-import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "tests"))
@@ -32,16 +30,8 @@ def settings(case, arguments):
 
 
 def run(case, arguments):
-    """The columns of the run's statistics by name, and its wall seconds."""
-    with tempfile.TemporaryDirectory() as folder:
-        options = [os.path.join(ROOT, "prm", "elastic_sphere.prm"), "--output", folder]
-        for setting in settings(case, arguments):
-            options += ["--set", setting]
-        start = time.time()
-        scene_tools.run(arguments.program, options)
-        seconds = time.time() - start
-        names, _, rows = scene_tools.parse(scene_tools.statistics(folder))
-    return {name: [row[k] for row in rows] for k, name in enumerate(names)}, seconds
+    scene = os.path.join(ROOT, "prm", "elastic_sphere.prm")
+    return scene_tools.timed_columns(arguments.program, scene, settings(case, arguments))
 
 
 def describe(case, columns, seconds):

@@ -3,6 +3,8 @@
 import os
 import re
 import subprocess
+import tempfile
+import time
 
 SLACK = 2  # iterations
 ROUNDING = 1e-13  # in any unit: what rounding leaves of numbers around one
@@ -44,6 +46,19 @@ def parse(text):
         elif line.strip() and not line.startswith("#"):
             rows.append([float(word) for word in line.split()])
     return names, units, rows
+
+
+def timed_columns(program, scene, settings):
+    """The columns of `statistics` of a run with other settings ("Section/Key=value"), by name, and its wall seconds."""
+    with tempfile.TemporaryDirectory() as folder:
+        options = [scene, "--output", folder]
+        for setting in settings:
+            options += ["--set", setting]
+        start = time.time()
+        run(program, options)
+        seconds = time.time() - start
+        names, _, rows = parse(statistics(folder))
+    return {name: [row[k] for row in rows] for k, name in enumerate(names)}, seconds
 
 
 def differences(text, record, tolerance, compare_iterations):
