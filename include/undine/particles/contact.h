@@ -9,7 +9,9 @@ namespace undine::particles
   /// Contact of elastic bodies with walls, with each other, and of parts of a body that were not
   /// neighbours: particles closer than the spacing repel with the force k (q^4 - q^3) r, q = l0 /
   /// |r|, equal and opposite: a spring of stiffness k when they touch, a barrier when they are
-  /// pressed into each other. Who may come into contact is listed once for all steps of a run.
+  /// pressed into each other. Neighbours in the reference repel alike from 0.4 l0 on: where a body
+  /// is folded, mean deformations do not tell that they come to the same place. Who may come into
+  /// contact is listed once for all steps of a run.
   template <int dim, class Real>
   struct Contact
   {
@@ -22,8 +24,7 @@ namespace undine::particles
     int                     *counts;   ///< of partners, by identity
     int                     *partners; ///< identities, or walls' sorted places p as -1 - p
 
-    /// Those that are near enough to touch within a sub-step. Bonded neighbours do not count:
-    /// elasticity acts between them.
+    /// Those that are near enough to touch within a sub-step.
     template <class Lanes>
     UNDINE_HOST_DEVICE
     void
@@ -67,51 +68,77 @@ namespace undine::particles
       auto force = Vector<dim, Real>::zero();
       if (counts[identity] == 0)
         return force;
-      for_each_touch(
-        identity, lanes, [&](const Vector<dim, Real> &r, const Real stiffness, const Real q) {
-          force += (stiffness * (q - 1) * q * q * q) * r;
-        });
+      for_each_touch(identity, lanes, [&](const Touch &touch) {
+        const Real q = touch.q;
+        force += (touch.stiffness * (q - 1) * q * q * q) * touch.r;
+      });
       return inverse_mass(identity) * lanes.sum(force);
     }
 
-    /// A bound on the square of the frequency that contact lets a particle have [1/s^2].
+    /// A bound on the squares of the frequency that contact lets a particle have, and of the rate
+    /// at which it comes closer to others [1/s^2].
     template <class Lanes>
     UNDINE_HOST_DEVICE
-    Real
-    frequency_square(const int identity, const Lanes &lanes) const
+    Vector<2, Real>
+    rate_squares(const int identity, const Lanes &lanes) const
     {
-      Real sum = 0;
+      auto sums = Vector<2, Real>::zero();
       if (counts[identity] == 0)
-        return sum;
-      for_each_touch(
-        identity, lanes, [&](const Vector<dim, Real> &, const Real stiffness, const Real q) {
-          sum += 2 * stiffness * (3 * q - 2) * q * q * q;
-        });
-      return inverse_mass(identity) * lanes.sum(sum);
+        return sums;
+      const Real inverse = inverse_mass(identity);
+      for_each_touch(identity, lanes, [&](const Touch &touch) {
+        const Real q = touch.q, closing = minimum(Real(0), touch.opening_rate);
+        sums[0] += 2 * inverse * touch.stiffness * (3 * q - 2) * q * q * q;
+        sums[1] += closing * closing;
+      });
+      return lanes.sum(sums);
     }
 
   private:
-    /// f(r, stiffness, q) for this lane's share of the partners that touch.
+    /// Of two that touch.
+    struct Touch
+    {
+      Vector<dim, Real> r;            ///< to the other [m]
+      Real              opening_rate; ///< relative rate at which |r| grows [1/s]
+      Real              stiffness;    ///< k [N/m, in the plane per m]
+      Real              q;            ///< distance at which they begin to touch over |r|
+    };
+
+    /// f(touch) for this lane's share of the partners that touch.
     template <class Lanes, class Function>
     UNDINE_HOST_DEVICE
     void
     for_each_touch(const int identity, const Lanes &lanes, const Function &f) const
     {
       const Real own   = bodies.materials[bodies.bodies[identity]].contact;
-      const auto x     = bodies.points[identity].x;
+      const auto point = bodies.points[identity];
       const int  count = counts[identity];
       for (int k = lanes.rank(); k < count; k += lanes.count())
         {
           const int  partner = partners[list_slot(identity, k, neighbours.capacity)];
           const bool is_wall = partner < 0;
-          const auto other = is_wall ? neighbours.places[-1 - partner].x : bodies.points[partner].x;
-          const auto r     = neighbours.grid.difference(x, other);
-          const Real square = norm_square(r);
-          if (square < spacing * spacing)
-            f(r,
-              is_wall ? own : minimum(own, bodies.materials[bodies.bodies[partner]].contact),
-              spacing * inverse_square_root(square));
+          const auto other   = is_wall ? ElasticPoint<dim, Real>{neighbours.places[-1 - partner].x,
+                                                                 Vector<dim, Real>::zero()}
+                                       : bodies.points[partner];
+          const auto r       = neighbours.grid.difference(point.x, other.x);
+          const Real square  = norm_square(r);
+          const Real touch   = touching_distance(identity, is_wall ? identity : partner);
+          if (square < touch * touch)
+            f(Touch{r,
+                    r * (other.v - point.v) / square,
+                    is_wall ? 2 * own : // it does not give
+                      minimum(own, bodies.materials[bodies.bodies[partner]].contact),
+                    touch * inverse_square_root(square)});
         }
+    }
+
+    /// [m]; of a wall's particle that of `identity` itself.
+    UNDINE_HOST_DEVICE
+    Real
+    touching_distance(const int identity, const int other) const
+    {
+      const Real folded = Real(0.4);
+      return other != identity && are_bonded(identity, other) ? folded * spacing : spacing;
     }
 
     UNDINE_HOST_DEVICE
@@ -129,10 +156,9 @@ namespace undine::particles
       const auto place    = neighbours.places[j];
       const int  other    = identities[j];
       const bool is_solid = place.tag.kind() == Kind::solid;
-      const bool bonded   = are_bonded(identity, is_solid ? other : identity) && is_solid;
-      const Real near     = Real(1.6) * spacing;
+      const Real near     = Real(1.6) * touching_distance(identity, is_solid ? other : identity);
       partner             = is_solid ? other : -1 - j;
-      return place.tag.kind() != Kind::fluid && !bonded &&
+      return place.tag.kind() != Kind::fluid &&
              norm_square(neighbours.grid.difference(place.x, neighbours.places[i].x)) < near * near;
     }
 

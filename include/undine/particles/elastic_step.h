@@ -118,17 +118,19 @@ namespace undine::particles
         }
     }
 
-    /// How far the fastest waves and the hardest contacts are from those of bodies at rest.
+    /// How far the fastest waves, the hardest and the fastest contacts are from those of bodies at
+    /// rest.
     template <class Lanes>
     UNDINE_HOST_DEVICE
     void
     measure_rate(const int i, const Lanes &lanes, std::uint32_t *measured) const
     {
-      const Real contacts = contact.frequency_square(i, lanes);
+      const auto contacts = contact.rate_squares(i, lanes);
       if (lanes.rank() != 0)
         return;
       const Real square = elasticity.sound_square(i) / (elasticity.spacing * elasticity.spacing) +
-                          contacts / lattice_frequency_square;
+                          contacts[0] / lattice_frequency_square +
+                          contacts[1] * closing_factor * closing_factor;
       if (square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate))
         atomic_maximum(measured, static_cast<float>(sqrt(square)));
     }
@@ -136,6 +138,9 @@ namespace undine::particles
     /// Square of the highest frequency of a lattice of particles over c_p / l0: explicit steps are
     /// stable up to about 0.95 l0 / c_p.
     static constexpr Real lattice_frequency_square = Real(4.4);
+
+    /// In a step two may come closer by elastic_share over this of their distance.
+    static constexpr Real closing_factor = Real(4);
 
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
     /// swing with their own sound. What it carries beyond twice the pressure is given back
