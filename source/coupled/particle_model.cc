@@ -107,7 +107,8 @@ namespace undine
     std::optional<ParticleFluid<dim>> fluid;
     if (scene.section("Fluid").given())
       fluid.emplace(scene);
-    const auto obstacles = read_particle_obstacles(scene, box);
+    auto obstacles = read_particle_obstacles(scene, box);
+    moving         = std::move(obstacles.moving);
 
     constants.spacing  = box.spacing;
     constants.lower    = plain<dim>(box.outermost_lower());
@@ -128,6 +129,7 @@ namespace undine
                         fmt::format("there are {} bodies", bodies.size()),
                         fmt::format("Allowed: at most {}.", particles::inflow_material - 1));
     place_bodies(bodies, obstacles);
+    add_moving_walls(bodies);
     auto                             walls = box.wall_particles();
     std::vector<InflowParticle<dim>> inflow;
     if (fluid)
@@ -224,6 +226,40 @@ namespace undine
 
   template <int dim>
   void
+  ParticleModel<dim>::add_moving_walls(const std::vector<ParticleBody<dim>> &bodies)
+  {
+    using particles::Kind;
+    for (const auto &obstacle : moving)
+      for (const auto &wall : obstacle.at_start())
+        {
+          occupied.for_each_near(wall.place, overlap * box.spacing, [&](const std::size_t k) {
+            throw bodies[constants.body_of[k]].options.error(
+              "",
+              "the body reaches into an obstacle that moves at (" + write_value(occupied[k]) + ")",
+              "Try: move it away by a spacing.");
+          });
+          add(wall.place,
+              dealii::Tensor<1, dim>(),
+              particles::Tag::of(wall.layer == 0 ? Kind::wall : Kind::dummy,
+                                 particles::moving_material));
+          ++constants.n_moving;
+        }
+  }
+
+
+  template <int dim>
+  particles::WallPaths<dim>
+  ParticleModel<dim>::wall_paths(const double time, const double length) const
+  {
+    particles::WallPaths<dim> result;
+    for (const auto &obstacle : moving)
+      obstacle.add_paths(result, time, length);
+    return result;
+  }
+
+
+  template <int dim>
+  void
   ParticleModel<dim>::place_walls(std::vector<WallParticle<dim>>       &walls,
                                   const std::vector<ParticleBody<dim>> &bodies,
                                   const ParticleObstacles<dim>         &obstacles)
@@ -249,6 +285,9 @@ namespace undine
       }
     for (const auto &wall : result)
       occupied.add(wall.place);
+    for (const auto &obstacle : moving)
+      for (const auto &wall : obstacle.at_start())
+        occupied.add(wall.place);
     walls = std::move(result);
   }
 
@@ -380,11 +419,12 @@ namespace undine
   std::string
   ParticleModel<dim>::counts() const
   {
-    return fmt::format("{} of fluid, {} of {} bodies, {} of walls{}; {:.4g} m apart",
+    return fmt::format("{} of fluid, {} of {} bodies, {} of walls{}{}; {:.4g} m apart",
                        n_fluid,
                        constants.reference.size(),
                        names.size(),
                        n_wall,
+                       moving.empty() ? "" : fmt::format(", {} of moving ones", constants.n_moving),
                        n_inflow == 0 ? "" : fmt::format(", {} behind inflows", n_inflow),
                        box.spacing);
   }

@@ -31,8 +31,17 @@ namespace undine::particles
     {
       check_state(new_setup, state);
       setup = new_setup;
+      paths.clear();
       measure_inflows(state);
       load(state, frames_in_reserve * entering(0));
+    }
+
+    void
+    move_walls(const WallPaths<dim> &paths_of_frame) override
+    {
+      if (static_cast<int>(paths_of_frame.size()) != setup.n_moving)
+        throw InputError("paths are for another number of moving particles than the scene has.");
+      paths = paths_of_frame;
     }
 
     StepControl
@@ -198,9 +207,29 @@ namespace undine::particles
       StepControl fresh;
       fresh.frame         = length;
       fresh.largest_speed = scratch->values()[0].largest_speed;
+      atomic_maximum(&fresh.largest_speed, static_cast<float>(give_paths(present, length)));
       present.write_control(fresh);
       present.prepare();
       return fresh;
+    }
+
+    /// How walls move, for the frame that begins; the fastest one's speed [m/s].
+    template <class AnySystem>
+    double
+    give_paths(AnySystem &present, const double length)
+    {
+      if (static_cast<int>(paths.size()) != setup.n_moving)
+        throw InputError("it is not said how walls move in this frame.");
+      std::vector<WallPath<dim, Real>> converted_paths;
+      for (const auto &path : paths)
+        converted_paths.push_back({converted<dim, Real>(path.start),
+                                   converted<dim, Real>(path.way),
+                                   converted<dim, Real>(path.v_start),
+                                   converted<dim, Real>(path.v_end),
+                                   path.kind});
+      if (!paths.empty())
+        present.set_paths(converted_paths);
+      return fastest(paths, length);
     }
 
     /// Sub-steps are enqueued in batches of as many as the last one lets expect.
@@ -232,7 +261,10 @@ namespace undine::particles
     succeeded(AnySystem &present, const StepControl &control)
     {
       if (control.failures == 0)
-        return control;
+        {
+          paths.clear();
+          return control;
+        }
       snapshot->restore(present.arrays(), present.elastic());
       throw SolveError(reason_of_failure(control));
     }
@@ -246,6 +278,7 @@ namespace undine::particles
     int                            expected     = 1; ///< sub-steps of the next frame
     int                            n_waiting    = 0; ///< particles behind inflows
     double                         inflow_speed = 0; ///< of the fastest of them [m/s]
+    WallPaths<dim>                 paths;            ///< of this frame
     std::unique_ptr<System<Entry>> system;
     std::unique_ptr<System<Wide>>  wide; ///< instead of `system`
     std::unique_ptr<Snapshot<Executor, dim, Real>> snapshot;

@@ -9,6 +9,7 @@
 #include <undine/particles/elastic_step.h>
 #include <undine/particles/explicit_forces.h>
 #include <undine/particles/make_constants.h>
+#include <undine/particles/moving_walls.h>
 #include <undine/particles/multigrid_arrays.h>
 #include <undine/particles/neighbour_list.h>
 #include <undine/particles/open_boundaries.h>
@@ -47,6 +48,7 @@ namespace undine::particles
       , open(make_open_boundaries<dim, Real>(setup))
       , crossed(executor, open.n > 0 ? n : 0)
       , crossed_before(executor, open.n > 0 ? n : 0)
+      , paths(executor, setup.n_moving)
     {
       using Preconditioner = Numerics::Preconditioner;
       if (numerics.preconditioner == Preconditioner::multigrid ||
@@ -67,6 +69,13 @@ namespace undine::particles
     elastic()
     {
       return bodies;
+    }
+
+    /// For the next frame.
+    void
+    set_paths(const std::vector<WallPath<dim, Real>> &values)
+    {
+      paths.set(values);
     }
 
     /// Sort and find neighbours for the first time.
@@ -147,6 +156,15 @@ namespace undine::particles
                                                   control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
+      if (paths.size() > 0)
+        executor.for_each(n,
+                          MoveWalls<dim, Real>{constants.grid,
+                                               paths.data(),
+                                               bodies.n,
+                                               now.identities.data(),
+                                               now.places.data(),
+                                               now.motions.data(),
+                                               control.data()});
       move_bodies(has_fluid ? ElasticRun::attempt : ElasticRun::alone);
     }
 
@@ -178,6 +196,15 @@ namespace undine::particles
       executor.enter(Phase::sort);
       cells.sort(now.view(), next.view(), bodies.where.data(), bodies.n);
       std::swap(now, next);
+      if (paths.size() > 0)
+        executor.for_each(n,
+                          YieldToMovingWalls<dim, Real>{constants.grid,
+                                                        constants.spacing,
+                                                        cells.cell_starts(),
+                                                        bodies.n,
+                                                        static_cast<int>(paths.size()),
+                                                        now.identities.data(),
+                                                        now.places.data()});
     }
 
     void
@@ -383,6 +410,7 @@ namespace undine::particles
     PressureArrays<Executor, dim, Real, Entry> equation;
     OpenBoundaries<dim, Real>                  open;
     Buffer<Executor, int>                      crossed, crossed_before;
+    Buffer<Executor, WallPath<dim, Real>>      paths; ///< of this frame
 
     std::unique_ptr<MultigridArrays<Executor, dim, Real>> multigrid; ///< nullptr: not used
   };
