@@ -10,9 +10,7 @@ namespace undine
 {
   namespace
   {
-    constexpr double apart   = 0.9;  // from other kinds of particles at the start [spacings]
-    constexpr double overlap = 0.55; // nearer bodies lie on each other [spacings]
-    constexpr double inside  = 0.25; // deeper in another body is on it [spacings]
+    constexpr double inside = 0.25; // deeper in another body is on it [spacings]
 
 
     const Options &
@@ -226,74 +224,6 @@ namespace undine
 
   template <int dim>
   void
-  ParticleModel<dim>::add_moving_walls(const std::vector<ParticleBody<dim>> &bodies)
-  {
-    using particles::Kind;
-    for (const auto &obstacle : moving)
-      for (const auto &wall : obstacle.at_start())
-        {
-          occupied.for_each_near(wall.place, overlap * box.spacing, [&](const std::size_t k) {
-            throw bodies[constants.body_of[k]].options.error(
-              "",
-              "the body reaches into an obstacle that moves at (" + write_value(occupied[k]) + ")",
-              "Try: move it away by a spacing.");
-          });
-          add(wall.place,
-              dealii::Tensor<1, dim>(),
-              particles::Tag::of(wall.layer == 0 ? Kind::wall : Kind::dummy,
-                                 particles::moving_material));
-          ++constants.n_moving;
-        }
-  }
-
-
-  template <int dim>
-  particles::WallPaths<dim>
-  ParticleModel<dim>::wall_paths(const double time, const double length) const
-  {
-    particles::WallPaths<dim> result;
-    for (const auto &obstacle : moving)
-      obstacle.add_paths(result, time, length);
-    return result;
-  }
-
-
-  template <int dim>
-  void
-  ParticleModel<dim>::place_walls(std::vector<WallParticle<dim>>       &walls,
-                                  const std::vector<ParticleBody<dim>> &bodies,
-                                  const ParticleObstacles<dim>         &obstacles)
-  {
-    walls.insert(walls.end(), obstacles.particles.begin(), obstacles.particles.end());
-    std::vector<WallParticle<dim>> result;
-    for (const auto &wall : walls)
-      {
-        bool room = true; // what is held in a wall takes its place
-        occupied.for_each_near(wall.place, apart * box.spacing, [&](const std::size_t k) {
-          room = room && !constants.held[k];
-        });
-        if (!room)
-          continue;
-        result.push_back(wall);
-        occupied.for_each_near(wall.place, overlap * box.spacing, [&](const std::size_t k) {
-          const auto &body = bodies[constants.body_of[k]];
-          throw body.options.error("",
-                                   "the body reaches into a wall at (" + write_value(occupied[k]) +
-                                     ")",
-                                   "Try: move it away by a spacing, or hold it there.");
-        });
-      }
-    for (const auto &wall : result)
-      occupied.add(wall.place);
-    for (const auto &obstacle : moving)
-      for (const auto &wall : obstacle.at_start())
-        occupied.add(wall.place);
-    walls = std::move(result);
-  }
-
-
-  template <int dim>
-  void
   ParticleModel<dim>::check_inflow(const ParticleFluid<dim>               &fluid,
                                    const std::vector<InflowParticle<dim>> &inflow,
                                    const ParticleObstacles<dim>           &obstacles) const
@@ -385,19 +315,6 @@ namespace undine
     const double longest  = numerics.speed_share * box.spacing / fastest;
     numerics.largest_sub_step =
       numerics.largest_sub_step > 0 ? std::min(numerics.largest_sub_step, longest) : longest;
-  }
-
-
-  template <int dim>
-  void
-  ParticleModel<dim>::add_walls(const std::vector<WallParticle<dim>> &walls)
-  {
-    using particles::Kind;
-    n_wall = walls.size();
-    for (const auto &wall : walls)
-      add(wall.place,
-          dealii::Tensor<1, dim>(),
-          particles::Tag::of(wall.layer == 0 ? Kind::wall : Kind::dummy, 0));
   }
 
 

@@ -123,6 +123,9 @@ namespace undine
     }
 
   private:
+    static constexpr double apart   = 0.9;  ///< other kinds of particles at the start [spacings]
+    static constexpr double overlap = 0.55; ///< nearer ones lie on each other [spacings]
+
     void
     apply(const NamedEffects<dim> &effects, const Options &scene);
     void

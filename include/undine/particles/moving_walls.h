@@ -3,7 +3,8 @@
 #define undine_particles_moving_walls_h
 
 #include <undine/particles/atomics.h>
-#include <undine/particles/cell_grid.h>
+#include <undine/particles/buffer.h>
+#include <undine/particles/constants.h>
 #include <undine/particles/particle.h>
 #include <undine/particles/step_control.h>
 
@@ -127,6 +128,75 @@ namespace undine::particles
     {
       return identities[j] >= first && identities[j] < first + n_moving;
     }
+  };
+
+
+  /// The moving walls of a scene, where an executor works.
+  template <class Executor, int dim, class Real>
+  class MovingWalls
+  {
+  public:
+    /// Their identities are `first` and those that follow.
+    MovingWalls(Executor                   &executor,
+                const Constants<dim, Real> &constants,
+                const int                   first,
+                const int                   n)
+      : executor(executor)
+      , grid(constants.grid)
+      , spacing(constants.spacing)
+      , first(first)
+      , paths(executor, n)
+    {
+    }
+
+    /// For a frame.
+    void
+    set_paths(const WallPaths<dim> &values)
+    {
+      std::vector<WallPath<dim, Real>> result;
+      for (const auto &path : values)
+        result.push_back({converted<dim, Real>(path.start),
+                          converted<dim, Real>(path.way),
+                          converted<dim, Real>(path.v_start),
+                          converted<dim, Real>(path.v_end),
+                          path.kind});
+      if (!result.empty())
+        paths.set(result);
+    }
+
+    /// To the end of a sub-step.
+    void
+    move(const Particles<dim, Real> &particles, StepControl *control) const
+    {
+      if (paths.size() > 0)
+        executor.for_each(particles.n,
+                          MoveWalls<dim, Real>{grid,
+                                               paths.data(),
+                                               first,
+                                               particles.identities,
+                                               particles.places,
+                                               particles.motions,
+                                               control});
+    }
+
+    /// Among the other walls, after a sort.
+    void
+    take_room(const Particles<dim, Real> &particles, const int *cell_starts) const
+    {
+      const int n = static_cast<int>(paths.size());
+      if (n > 0)
+        executor.for_each(
+          particles.n,
+          YieldToMovingWalls<dim, Real>{
+            grid, spacing, cell_starts, first, n, particles.identities, particles.places});
+    }
+
+  private:
+    Executor                             &executor;
+    CellGrid<dim, Real>                   grid;
+    Real                                  spacing;
+    int                                   first;
+    Buffer<Executor, WallPath<dim, Real>> paths; ///< of this frame
   };
 
 

@@ -207,29 +207,12 @@ namespace undine::particles
       StepControl fresh;
       fresh.frame         = length;
       fresh.largest_speed = scratch->values()[0].largest_speed;
-      atomic_maximum(&fresh.largest_speed, static_cast<float>(give_paths(present, length)));
-      present.write_control(fresh);
-      present.prepare();
-      return fresh;
-    }
-
-    /// How walls move, for the frame that begins; the fastest one's speed [m/s].
-    template <class AnySystem>
-    double
-    give_paths(AnySystem &present, const double length)
-    {
       if (static_cast<int>(paths.size()) != setup.n_moving)
         throw InputError("it is not said how walls move in this frame.");
-      std::vector<WallPath<dim, Real>> converted_paths;
-      for (const auto &path : paths)
-        converted_paths.push_back({converted<dim, Real>(path.start),
-                                   converted<dim, Real>(path.way),
-                                   converted<dim, Real>(path.v_start),
-                                   converted<dim, Real>(path.v_end),
-                                   path.kind});
-      if (!paths.empty())
-        present.set_paths(converted_paths);
-      return fastest(paths, length);
+      atomic_maximum(&fresh.largest_speed, static_cast<float>(fastest(paths, length)));
+      present.begin_frame(fresh, paths);
+      present.prepare();
+      return fresh;
     }
 
     /// Sub-steps are enqueued in batches of as many as the last one lets expect.

@@ -48,7 +48,7 @@ namespace undine::particles
       , open(make_open_boundaries<dim, Real>(setup))
       , crossed(executor, open.n > 0 ? n : 0)
       , crossed_before(executor, open.n > 0 ? n : 0)
-      , paths(executor, setup.n_moving)
+      , moving_walls(executor, constants, bodies.n, setup.n_moving)
     {
       using Preconditioner = Numerics::Preconditioner;
       if (numerics.preconditioner == Preconditioner::multigrid ||
@@ -69,13 +69,6 @@ namespace undine::particles
     elastic()
     {
       return bodies;
-    }
-
-    /// For the next frame.
-    void
-    set_paths(const std::vector<WallPath<dim, Real>> &values)
-    {
-      paths.set(values);
     }
 
     /// Sort and find neighbours for the first time.
@@ -110,9 +103,10 @@ namespace undine::particles
     }
 
     void
-    write_control(const StepControl &value)
+    begin_frame(const StepControl &value, const WallPaths<dim> &paths)
     {
       control.set({value});
+      moving_walls.set_paths(paths);
     }
 
     /// One sub-step of the length that it chooses itself; nothing after the end of the frame.
@@ -156,15 +150,7 @@ namespace undine::particles
                                                   control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
-      if (paths.size() > 0)
-        executor.for_each(n,
-                          MoveWalls<dim, Real>{constants.grid,
-                                               paths.data(),
-                                               bodies.n,
-                                               now.identities.data(),
-                                               now.places.data(),
-                                               now.motions.data(),
-                                               control.data()});
+      moving_walls.move(now.view(), control.data());
       move_bodies(has_fluid ? ElasticRun::attempt : ElasticRun::alone);
     }
 
@@ -196,15 +182,7 @@ namespace undine::particles
       executor.enter(Phase::sort);
       cells.sort(now.view(), next.view(), bodies.where.data(), bodies.n);
       std::swap(now, next);
-      if (paths.size() > 0)
-        executor.for_each(n,
-                          YieldToMovingWalls<dim, Real>{constants.grid,
-                                                        constants.spacing,
-                                                        cells.cell_starts(),
-                                                        bodies.n,
-                                                        static_cast<int>(paths.size()),
-                                                        now.identities.data(),
-                                                        now.places.data()});
+      moving_walls.take_room(now.view(), cells.cell_starts());
     }
 
     void
@@ -410,7 +388,7 @@ namespace undine::particles
     PressureArrays<Executor, dim, Real, Entry> equation;
     OpenBoundaries<dim, Real>                  open;
     Buffer<Executor, int>                      crossed, crossed_before;
-    Buffer<Executor, WallPath<dim, Real>>      paths; ///< of this frame
+    MovingWalls<Executor, dim, Real>           moving_walls;
 
     std::unique_ptr<MultigridArrays<Executor, dim, Real>> multigrid; ///< nullptr: not used
   };
