@@ -37,6 +37,7 @@ namespace undine::particles
       check_device(cudaGetDeviceProperties(&properties, 0), "to describe itself");
       check_device(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "to start");
       resident          = ResidentSolver(properties, stream);
+      room = std::min(most_room, static_cast<int>(properties.sharedMemPerBlockOptin) - static_room);
       workspace.counter = allocate<unsigned int>(1);
       for (auto &partial : workspace.partial)
         partial = allocate<Sums<Team::most_sums>>(Team::most_blocks);
@@ -157,6 +158,9 @@ namespace undine::particles
     void
     run_team(const int n, const Function &f)
     {
+      if constexpr (kernels::Gathers<Function>::value)
+        if (n >= kernels::near_threads * properties.multiProcessorCount)
+          return run_near(n, f);
       const int threads = team_threads(n, 32);
       launch_team(threads > kernels::few_threads ? kernels::run<Function, kernels::team_threads, 2>
                                                  : kernels::run<Function, kernels::few_threads, 1>,
@@ -189,9 +193,9 @@ namespace undine::particles
     }
 
     /// Where conjugate gradients are resident, iterations cost so little that they are better.
-    template <class Value>
+    template <int dim, class Value>
     void
-    run(const int n, const DampedIterations<float, PackedEntry, Value> &f)
+    run(const int n, const DampedIterations<dim, float, PackedEntry, Value> &f)
     {
       if (resident.can_run(n, f.base))
         run(n, f.base);
@@ -275,21 +279,34 @@ namespace undine::particles
       check_device(cudaLaunchKernelEx(&config, kernel, n, f), "to start a pass");
     }
 
-    /// Together as many workers as there is work for and room.
+    template <class Function>
+    void
+    run_near(const int n, const Function &f)
+    {
+      const auto kernel = kernels::run_near<Function>;
+      check_device(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, room),
+                   "to plan a pass");
+      launch_team(kernel, n, kernels::near_threads, f, room);
+    }
+
+    /// Together as many workers as there is work for and room; each block with `bytes` of shared
+    /// memory, if any, as the kernel is told.
     template <class Kernel, class Function>
     void
-    launch_team(const Kernel kernel, const int n, const int threads, const Function &f)
+    launch_team(
+      const Kernel kernel, const int n, const int threads, const Function &f, const int bytes = 0)
     {
       int blocks = 0;
-      check_device(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
+      check_device(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, bytes),
                    "to plan a pass");
       blocks               = std::min({blocks * properties.multiProcessorCount,
                                        (n + threads - 1) / threads,
                                        int(Team::most_blocks)});
       Function copy        = f;
-      void    *arguments[] = {&copy, &workspace};
+      int      told        = bytes;
+      void    *arguments[] = {&copy, &workspace, &told};
       check_device(cudaLaunchCooperativeKernel(
-                     kernel, dim3(std::max(1, blocks)), dim3(threads), arguments, 0, stream),
+                     kernel, dim3(std::max(1, blocks)), dim3(threads), arguments, bytes, stream),
                    "to start a pass");
     }
 
@@ -301,7 +318,13 @@ namespace undine::particles
       return std::clamp((each + 31) / 32 * 32, least, kernels::team_threads);
     }
 
+    /// Bytes of shared memory. @{
+    static constexpr int most_room   = 160 << 10; ///< for passes that gather; caches have the rest
+    static constexpr int static_room = 4 << 10;   ///< of what they have beside
+    /// @}
+
     cudaDeviceProp                   properties;
+    int                              room; ///< for passes that gather [bytes]
     cudaStream_t                     stream;
     ResidentSolver                   resident;
     Team::Workspace                  workspace   = {};

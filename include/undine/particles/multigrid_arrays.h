@@ -76,7 +76,9 @@ namespace undine::particles
     /// Conjugate gradients with what build() has made of the same system.
     template <class Entry>
     void
-    solve(const ConjugateGradients<Real, Entry, Real> &base, const int *starts) const
+    solve(const ConjugateGradients<Real, Entry, Real> &base,
+          const int                                   *starts,
+          const NearRows<dim, Real>                   &rows) const
     {
       executor.run(n,
                    MultigridGradients<dim, Real, Entry>{base,
@@ -84,7 +86,8 @@ namespace undine::particles
                                                         {grids.front(), functions.data()},
                                                         cell_of.data(),
                                                         places_in_cells.data(),
-                                                        starts});
+                                                        starts,
+                                                        rows});
     }
 
   private:

@@ -5,6 +5,7 @@
 #include <undine/particles/cell_interpolation.h>
 #include <undine/particles/conjugate_gradients.h>
 #include <undine/particles/multigrid.h>
+#include <undine/particles/near_rows.h>
 
 namespace undine::particles
 {
@@ -15,12 +16,15 @@ namespace undine::particles
   template <int dim, class Real, class Entry>
   struct MultigridGradients
   {
+    static constexpr bool gathers = true; ///< numbers of particles by sum_near()
+
     ConjugateGradients<Real, Entry, Real> base;
     MultigridCycle<dim, Real>             cycle;
     CellInterpolation<dim, Real>          interpolation;
     const int                            *cell_of; ///< of the particles; -1: no unknown
     const PlaceInCell<dim, Real>         *places_in_cells;
     const int                            *starts; ///< of the cells
+    NearRows<dim, Real>                   rows;
 
     using Counts = typename MultigridLevels<dim, Real>::Counts;
 
@@ -33,17 +37,22 @@ namespace undine::particles
         return;
       const int    n      = base.system.matrix.n;
       const Counts counts = cycle.levels.counts();
-      const double size =
-        team.template sum<1>(n, [&](const int i, Sums<1> &sums) { begin(i, sums); })[0];
+      const double size   = team.template sum_near<1>(
+        n, rows, base.system.solution, [&](const int i, const auto &near, Sums<1> &sums) {
+          begin(i, near, sums);
+        })[0];
       const double goal = base.bounds.tolerance * base.bounds.tolerance * size;
       double       last = 0, last_step = 0, square = 0;
       int          iteration = 0;
       restrict_residual(team, counts);
+      const Share own = particles(own_cells(team, counts));
       for (;; ++iteration)
         {
           precondition(team, counts);
-          const auto now =
-            team.template sum<3>(n, [&](const int i, Sums<3> &sums) { multiply(i, sums); });
+          const auto now = team.template sum_near<3>(
+            n, own, rows, base.vectors.u, [&](const int i, const auto &near, Sums<3> &sums) {
+              multiply(i, near, sums);
+            });
           square = now[2];
           if (!(square > goal) || iteration == base.bounds.max_iterations)
             break;
@@ -60,14 +69,15 @@ namespace undine::particles
     }
 
   private:
+    template <class Numbers>
     UNDINE_HOST_DEVICE
     void
-    begin(const int i, Sums<1> &sums) const
+    begin(const int i, const Numbers &near, Sums<1> &sums) const
     {
       const auto &system = base.system;
       const Real  b      = system.right_hand_side[i];
       sums[0] += static_cast<double>(b) * b / system.diagonal[i];
-      base.vectors.r[i] = b - system.row_times(i, system.solution);
+      base.vectors.r[i] = b - system.row_times(i, system.solution[i], near);
       base.vectors.p[i] = base.vectors.s[i] = base.vectors.u[i] = 0;
     }
 
@@ -187,13 +197,14 @@ namespace undine::particles
       team.sync();
     }
 
+    template <class Numbers>
     UNDINE_HOST_DEVICE
     void
-    multiply(const int i, Sums<3> &sums) const
+    multiply(const int i, const Numbers &near, Sums<3> &sums) const
     {
       const auto  &system = base.system;
-      const Real   w      = system.row_times(i, base.vectors.u);
       const double r = base.vectors.r[i], u = base.vectors.u[i];
+      const Real   w    = system.row_times(i, base.vectors.u[i], near);
       base.vectors.w[i] = w;
       sums[0] += r * u;
       sums[1] += w * u;

@@ -80,6 +80,14 @@ namespace undine::particles
       return results;
     }
 
+    Throughput
+    throughput() override
+    {
+      Throughput result;
+      with_system([&](auto &present) { result = present.throughput(); });
+      return result;
+    }
+
     std::string
     describe() const override
     {

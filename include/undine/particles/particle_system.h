@@ -9,6 +9,7 @@
 #include <undine/particles/elastic_step.h>
 #include <undine/particles/explicit_forces.h>
 #include <undine/particles/make_constants.h>
+#include <undine/particles/measure_throughput.h>
 #include <undine/particles/multigrid_arrays.h>
 #include <undine/particles/neighbour_list.h>
 #include <undine/particles/open_boundaries.h>
@@ -131,6 +132,23 @@ namespace undine::particles
       return particles::pass_results(now, next, equation, bodies);
     }
 
+    /// Of the last sub-step's matrix.
+    Throughput
+    throughput()
+    {
+      return ThroughputMeasurement<Executor, dim, Real, Entry>(executor)(
+        {system<Real>(equation.diagonal,
+                      equation.right_hand_side,
+                      equation.pressures,
+                      equation.numbers.data(),
+                      numerics.tolerance,
+                      &StepControl::pressure)
+           .system,
+         rows(),
+         equation.numbers.data(),
+         0});
+    }
+
   private:
     void
     move_without_pressure()
@@ -212,13 +230,14 @@ namespace undine::particles
       executor.enter(Phase::faces);
       if (closed)
         executor.run(n,
-                     DampedIterations<Real, Entry, Vector<dim, Real>>{
+                     DampedIterations<dim, Real, Entry, Vector<dim, Real>>{
                        system<Vector<dim, Real>>(equation.faces_diagonal,
                                                  equation.gaps,
                                                  now.potentials,
                                                  equation.vectors.data(),
                                                  numerics.faces_tolerance,
-                                                 &StepControl::faces)});
+                                                 &StepControl::faces),
+                       rows()});
       executor.enter(Phase::assembly);
       executor.for_each(n,
                         MeasureSource<dim, Real, Entry>{constants,
@@ -351,7 +370,14 @@ namespace undine::particles
                                     equation.numbers.data(),
                                     numerics.tolerance,
                                     &StepControl::pressure),
-                       cells.cell_starts());
+                       cells.cell_starts(),
+                       rows());
+    }
+
+    NearRows<dim, Real>
+    rows() const
+    {
+      return NearRows<dim, Real>::of(constants, now.places.data(), cells.cell_starts());
     }
 
     VirtualFaces<dim, Real>
