@@ -79,16 +79,15 @@ namespace undine::particles
     NearNumbers(const Runs<3> &runs, const Stored *x, const int n)
       : n(n)
     {
-      int before = 0;
+      int before[4] = {};
 #pragma unroll
       for (int k = 0; k < 3; ++k)
         {
-          const Share &run = runs.run[k];
-          begin[k]         = run.begin;
-          shift[k]         = before - run.begin;
-          copy(x + run.begin, run.end - run.begin, before);
-          before += run.end - run.begin;
+          begin[k]      = runs.run[k].begin;
+          shift[k]      = before[k] - begin[k];
+          before[k + 1] = before[k] + runs.run[k].end - begin[k];
         }
+      copy(x, before);
       __syncthreads();
     }
 
@@ -108,24 +107,27 @@ namespace undine::particles
       return reinterpret_cast<Word *>(memory);
     }
 
+    /// The runs that are before[0] ... before[1] - 1 and so on there.
     __device__ __forceinline__ void
-    copy(const Stored *from, const int count, const int before) const
+    copy(const Stored *x, const int (&before)[4]) const
     {
-      constexpr int together = Layout::words == 1 ? 8 : 4;
-      const int     threads  = static_cast<int>(blockDim.x);
-      int           i        = static_cast<int>(threadIdx.x);
-      for (; i + (together - 1) * threads < count; i += together * threads)
+      constexpr int together = Layout::words == 1 ? 8 : 4; // on the way at the same time
+      const int     threads = static_cast<int>(blockDim.x), rank = static_cast<int>(threadIdx.x);
+      for (int first = rank; first < before[3]; first += together * threads)
         {
           Stored numbers[together];
 #pragma unroll
           for (int k = 0; k < together; ++k)
-            numbers[k] = from[i + k * threads];
+            {
+              const int place = min(first + k * threads, before[3] - 1);
+              numbers[k] =
+                x[place - (place >= before[2] ? shift[2] : place >= before[1] ? shift[1] : shift[0])];
+            }
 #pragma unroll
           for (int k = 0; k < together; ++k)
-            Layout::put(room() + before + i + k * threads, n, numbers[k]);
+            if (first + k * threads < before[3])
+              Layout::put(room() + first + k * threads, n, numbers[k]);
         }
-      for (; i < count; i += threads)
-        Layout::put(room() + before + i, n, from[i]);
     }
 
     int n;

@@ -43,18 +43,17 @@ namespace undine::particles
       cycle.factor  = Real(1.6);
     }
 
-    /// After the matrix has been assembled. `starts` are those of the cells.
+    /// After the matrix has been assembled.
     template <class Entry>
     void
-    build(const Place<dim, Real>            *places,
+    build(const NearRows<dim, Real>         &rows,
           const int                         *is_unknown,
           const PressureMatrix<Real, Entry> &matrix,
-          const Real                        *diagonal,
-          const int                         *starts)
+          const Real                        *diagonal)
     {
       const auto &finest = cycle.levels.level[0].grid;
       executor.run(finest.n,
-                   MarkActiveCells<dim, Real>{cycle.levels, starts, is_unknown, marks.data()});
+                   MarkActiveCells<dim, Real>{cycle.levels, rows.starts, is_unknown, marks.data()});
       executor.exclusive_scan(n_cells + 1, marks.data(), marks_before.data());
       executor.for_each(
         n_cells, ListActiveCells<dim, Real>{cycle.levels, marks.data(), marks_before.data()});
@@ -62,7 +61,7 @@ namespace undine::particles
         n,
         SumRowByCells<dim, Real, Entry>{cells,
                                         finest,
-                                        places,
+                                        rows.places,
                                         is_unknown,
                                         matrix,
                                         diagonal,
@@ -70,15 +69,13 @@ namespace undine::particles
                                         places_in_cells.data(),
                                         sums.data()});
       executor.run(finest.n,
-                   BuildLevels<dim, Real>{cycle.levels, starts, is_unknown, sums.data(), n});
+                   BuildLevels<dim, Real>{cycle.levels, rows.starts, is_unknown, sums.data(), n});
     }
 
     /// Conjugate gradients with what build() has made of the same system.
     template <class Entry>
     void
-    solve(const ConjugateGradients<Real, Entry, Real> &base,
-          const int                                   *starts,
-          const NearRows<dim, Real>                   &rows) const
+    solve(const ConjugateGradients<Real, Entry, Real> &base, const NearRows<dim, Real> &rows) const
     {
       executor.run(n,
                    MultigridGradients<dim, Real, Entry>{base,
@@ -86,7 +83,7 @@ namespace undine::particles
                                                         {grids.front(), functions.data()},
                                                         cell_of.data(),
                                                         places_in_cells.data(),
-                                                        starts,
+                                                        marks_before.data(),
                                                         rows});
     }
 

@@ -23,7 +23,7 @@ namespace undine::particles
     CellInterpolation<dim, Real>          interpolation;
     const int                            *cell_of; ///< of the particles; -1: no unknown
     const PlaceInCell<dim, Real>         *places_in_cells;
-    const int                            *starts; ///< of the cells
+    const int                            *active_before; ///< of the finest level's cells
     NearRows<dim, Real>                   rows;
 
     using Counts = typename MultigridLevels<dim, Real>::Counts;
@@ -44,15 +44,17 @@ namespace undine::particles
       const double goal = base.bounds.tolerance * base.bounds.tolerance * size;
       double       last = 0, last_step = 0, square = 0;
       int          iteration = 0;
-      restrict_residual(team, counts);
-      const Share own = particles(own_cells(team, counts));
+      const Share  own       = own_cells(team, counts);
+      restrict_residual(team, own);
       for (;; ++iteration)
         {
-          precondition(team, counts);
+          precondition(team, counts, own);
           const auto now = team.template sum_near<3>(
-            n, own, rows, base.vectors.u, [&](const int i, const auto &near, Sums<3> &sums) {
-              multiply(i, near, sums);
-            });
+            n,
+            particles(own),
+            rows,
+            base.vectors.u,
+            [&](const int i, const auto &near, Sums<3> &sums) { multiply(i, near, sums); });
           square = now[2];
           if (!(square > goal) || iteration == base.bounds.max_iterations)
             break;
@@ -61,8 +63,8 @@ namespace undine::particles
             now[0] / (iteration == 0 ? now[1] : now[1] - beta * now[0] / last_step);
           last      = now[0];
           last_step = step;
-          update(team, counts, static_cast<Real>(step), static_cast<Real>(beta));
-          restrict_residual(team, counts);
+          update(team, particles(own), static_cast<Real>(step), static_cast<Real>(beta));
+          restrict_residual(team, own);
         }
       if (team.is_first())
         base.report(iteration, size > 0 ? sqrt(square / size) : 0.);
@@ -81,14 +83,28 @@ namespace undine::particles
       base.vectors.p[i] = base.vectors.s[i] = base.vectors.u[i] = 0;
     }
 
-    /// This worker's cells of the finest level. Passes that need from others only what is in these
-    /// cells follow each other without waiting for all.
+    /// This worker's cells of the finest level, which have as many particles as those of others.
+    /// Passes that need from others only what is in these cells follow each other without waiting
+    /// for all.
     template <class Team>
     UNDINE_HOST_DEVICE
     Share
     own_cells(const Team &team, const Counts &counts) const
     {
-      return team.share(counts.of[0]);
+      const Share own = team.share(base.system.matrix.n);
+      return {cells_before(own.begin, counts), cells_before(own.end, counts)};
+    }
+
+    /// How many active cells begin before a particle.
+    UNDINE_HOST_DEVICE
+    int
+    cells_before(const int i, const Counts &counts) const
+    {
+      const int n_cells = finest().grid.n;
+      if (i >= rows.starts[n_cells])
+        return counts.of[0];
+      const int cell = rows.grid.cell_of(rows.places[i].x);
+      return active_before[rows.starts[cell] < i ? cell + 1 : cell];
     }
 
     /// The particles in them; between cells, some that have no unknown, too.
@@ -99,8 +115,8 @@ namespace undine::particles
       if (own.begin >= own.end)
         return {0, 0};
       const auto *cells = finest().active;
-      return {starts[cells[own.begin].index(finest().grid)],
-              starts[cells[own.end - 1].index(finest().grid) + 1]};
+      return {rows.starts[cells[own.begin].index(finest().grid)],
+              rows.starts[cells[own.end - 1].index(finest().grid) + 1]};
     }
 
     UNDINE_HOST_DEVICE
@@ -113,7 +129,7 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    restrict_residual(Team &team, const Counts &counts) const
+    restrict_residual(Team &team, const Share &own) const
     {
       const auto *cells = finest().active;
       struct Cell
@@ -121,16 +137,16 @@ namespace undine::particles
         int index, begin, end;
       };
       team.for_each_of(
-        own_cells(team, counts),
+        own,
         [&](const int c) {
           const int index = cells[c].index(finest().grid);
-          return Cell{index, starts[index], starts[index + 1]};
+          return Cell{index, rows.starts[index], rows.starts[index + 1]};
         },
         [&](const int, const Cell &cell) {
           interpolation.functions[cell.index] = sums_of_residuals(cell.begin, cell.end);
         });
       team.sync();
-      team.for_each_of(own_cells(team, counts), [&](const int c) {
+      team.for_each_of(own, [&](const int c) {
         const int index = cells[c].index(finest().grid);
         cycle.begin(0, index, interpolation.number(cells[c], index));
       });
@@ -165,11 +181,10 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    precondition(Team &team, const Counts &counts) const
+    precondition(Team &team, const Counts &counts, const Share &own) const
     {
       cycle.correct(team, counts);
       const auto *cells = finest().active;
-      const Share own   = own_cells(team, counts);
       team.for_each_of(own, [&](const int c) {
         finest().x[cells[c].index(finest().grid)] = cycle.finish(0, cells[c], OneLane());
       });
@@ -214,7 +229,7 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    update(Team &team, const Counts &counts, const Real alpha, const Real beta) const
+    update(Team &team, const Share &own, const Real alpha, const Real beta) const
     {
       const auto &v = base.vectors;
       Real *const x = base.system.solution;
@@ -223,7 +238,7 @@ namespace undine::particles
         Real u, w, p, s, x, r;
       };
       team.for_each_of(
-        particles(own_cells(team, counts)),
+        own,
         [&](const int i) {
           return Row{v.u[i], v.w[i], v.p[i], v.s[i], x[i], v.r[i]};
         },

@@ -137,16 +137,7 @@ namespace undine::particles
     throughput()
     {
       return ThroughputMeasurement<Executor, dim, Real, Entry>(executor)(
-        {system<Real>(equation.diagonal,
-                      equation.right_hand_side,
-                      equation.pressures,
-                      equation.numbers.data(),
-                      numerics.tolerance,
-                      &StepControl::pressure)
-           .system,
-         rows(),
-         equation.numbers.data(),
-         0});
+        {pressure_system().system, rows(), equation.numbers.data(), 0});
     }
 
   private:
@@ -320,17 +311,16 @@ namespace undine::particles
     void
     solve_pressure_equation()
     {
+      if (multigrid == nullptr)
+        {
+          executor.enter(Phase::pressure);
+          executor.run(n, pressure_system());
+          return;
+        }
+      executor.enter(Phase::multigrid);
+      multigrid->build(rows(), equation.is_unknown.data(), matrix(), equation.diagonal.data());
       executor.enter(Phase::pressure);
-      if (multigrid != nullptr)
-        solve_by_multigrid();
-      else
-        executor.run(n,
-                     system<Real>(equation.diagonal,
-                                  equation.right_hand_side,
-                                  equation.pressures,
-                                  equation.numbers.data(),
-                                  numerics.tolerance,
-                                  &StepControl::pressure));
+      multigrid->solve(pressure_system(), rows());
     }
 
     template <class Value>
@@ -354,24 +344,15 @@ namespace undine::particles
         record};
     }
 
-    void
-    solve_by_multigrid()
+    ConjugateGradients<Real, Entry, Real>
+    pressure_system() const
     {
-      executor.enter(Phase::multigrid);
-      multigrid->build(now.places.data(),
-                       equation.is_unknown.data(),
-                       matrix(),
-                       equation.diagonal.data(),
-                       cells.cell_starts());
-      executor.enter(Phase::pressure);
-      multigrid->solve(system<Real>(equation.diagonal,
-                                    equation.right_hand_side,
-                                    equation.pressures,
-                                    equation.numbers.data(),
-                                    numerics.tolerance,
-                                    &StepControl::pressure),
-                       cells.cell_starts(),
-                       rows());
+      return system<Real>(equation.diagonal,
+                          equation.right_hand_side,
+                          equation.pressures,
+                          equation.numbers.data(),
+                          numerics.tolerance,
+                          &StepControl::pressure);
     }
 
     NearRows<dim, Real>
