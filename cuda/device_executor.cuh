@@ -37,7 +37,6 @@ namespace undine::particles
       check_device(cudaGetDeviceProperties(&properties, 0), "to describe itself");
       check_device(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "to start");
       resident          = ResidentSolver(properties, stream);
-      room = std::min(most_room, static_cast<int>(properties.sharedMemPerBlockOptin) - static_room);
       workspace.counter = allocate<unsigned int>(1);
       for (auto &partial : workspace.partial)
         partial = allocate<Sums<Team::most_sums>>(Team::most_blocks);
@@ -158,9 +157,6 @@ namespace undine::particles
     void
     run_team(const int n, const Function &f)
     {
-      if constexpr (kernels::Gathers<Function>::value)
-        if (n >= kernels::near_threads * properties.multiProcessorCount)
-          return run_near(n, f);
       const int threads = team_threads(n, 32);
       launch_team(threads > kernels::few_threads ? kernels::run<Function, kernels::team_threads, 2>
                                                  : kernels::run<Function, kernels::few_threads, 1>,
@@ -193,9 +189,9 @@ namespace undine::particles
     }
 
     /// Where conjugate gradients are resident, iterations cost so little that they are better.
-    template <int dim, class Value>
+    template <class Value>
     void
-    run(const int n, const DampedIterations<dim, float, PackedEntry, Value> &f)
+    run(const int n, const DampedIterations<float, PackedEntry, Value> &f)
     {
       if (resident.can_run(n, f.base))
         run(n, f.base);
@@ -279,34 +275,21 @@ namespace undine::particles
       check_device(cudaLaunchKernelEx(&config, kernel, n, f), "to start a pass");
     }
 
-    template <class Function>
-    void
-    run_near(const int n, const Function &f)
-    {
-      const auto kernel = kernels::run_near<Function>;
-      check_device(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, room),
-                   "to plan a pass");
-      launch_team(kernel, n, kernels::near_threads, f, room);
-    }
-
-    /// Together as many workers as there is work for and room; each block with `bytes` of shared
-    /// memory, if any, as the kernel is told.
+    /// Together as many workers as there is work for and room.
     template <class Kernel, class Function>
     void
-    launch_team(
-      const Kernel kernel, const int n, const int threads, const Function &f, const int bytes = 0)
+    launch_team(const Kernel kernel, const int n, const int threads, const Function &f)
     {
       int blocks = 0;
-      check_device(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, bytes),
+      check_device(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
                    "to plan a pass");
       blocks               = std::min({blocks * properties.multiProcessorCount,
                                        (n + threads - 1) / threads,
                                        int(Team::most_blocks)});
       Function copy        = f;
-      int      told        = bytes;
-      void    *arguments[] = {&copy, &workspace, &told};
+      void    *arguments[] = {&copy, &workspace};
       check_device(cudaLaunchCooperativeKernel(
-                     kernel, dim3(std::max(1, blocks)), dim3(threads), arguments, bytes, stream),
+                     kernel, dim3(std::max(1, blocks)), dim3(threads), arguments, 0, stream),
                    "to start a pass");
     }
 
@@ -318,13 +301,7 @@ namespace undine::particles
       return std::clamp((each + 31) / 32 * 32, least, kernels::team_threads);
     }
 
-    /// Bytes of shared memory. @{
-    static constexpr int most_room   = 160 << 10; ///< for passes that gather; caches have the rest
-    static constexpr int static_room = 4 << 10;   ///< of what they have beside
-    /// @}
-
     cudaDeviceProp                   properties;
-    int                              room; ///< for passes that gather [bytes]
     cudaStream_t                     stream;
     ResidentSolver                   resident;
     Team::Workspace                  workspace   = {};

@@ -6,8 +6,6 @@
 
 #include <nv/target>
 
-#include <type_traits>
-
 namespace undine::particles
 {
   namespace kernels
@@ -15,19 +13,6 @@ namespace undine::particles
     constexpr int for_each_threads = 128;
     constexpr int team_threads     = 512; ///< of a large team, at most
     constexpr int few_threads      = 64;  ///< of a small team, each with many registers
-    constexpr int near_threads     = 1024; ///< of blocks that use most of a shared memory
-
-    /// Does a pass use DeviceTeam::sum_near()? @{
-    template <class Function, class = void>
-    struct Gathers : std::false_type
-    {
-    };
-
-    template <class Function>
-    struct Gathers<Function, std::enable_if_t<Function::gathers>> : std::true_type
-    {
-    };
-    /// @}
 
     /// Lets the next pass get ready while this one runs, and waits until the last one is done: the
     /// time that a launch takes is hidden.
@@ -71,19 +56,6 @@ namespace undine::particles
       Room<Number> room{rooms + threadIdx.x};
       if (i < n)
         f(i, room);
-    }
-
-    /// With room in shared memory, for large teams.
-    template <class Function>
-    __global__ void
-    __launch_bounds__(near_threads, 1)
-      run_near(const __grid_constant__ Function f,
-               const DeviceTeam::Workspace      workspace,
-               const int                        room_bytes)
-    {
-      __shared__ Sums<DeviceTeam::most_sums> of_warps[DeviceTeam::most_warps];
-      DeviceTeam                             team(workspace, of_warps, room_bytes);
-      f(team);
     }
 
     template <class Function, int threads, int blocks>

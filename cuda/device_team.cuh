@@ -3,7 +3,6 @@
 #define undine_cuda_device_team_cuh
 
 #include "device_lanes.cuh"
-#include "near_numbers.cuh"
 
 #include <undine/particles/share.h>
 #include <undine/particles/sums.h>
@@ -95,7 +94,6 @@ namespace undine::particles
     static constexpr int most_sums   = 8;
     static constexpr int most_blocks = 1024;
     static constexpr int most_warps  = 32; ///< of a block
-    static constexpr int least_near  = 512; ///< rows for which to copy what is near them
 
     /// Global memory of a pass.
     struct Workspace
@@ -104,15 +102,11 @@ namespace undine::particles
       Sums<most_sums> *partial[2]; ///< one a block
     };
 
-    /// `room_bytes` of dynamic shared memory are for sum_near().
-    __device__ __forceinline__
-    DeviceTeam(const Workspace &workspace,
-               Sums<most_sums> *of_warps,
-               const int        room_bytes = 0)
+    __device__
+    DeviceTeam(const Workspace &workspace, Sums<most_sums> *of_warps)
       : barrier(workspace.counter)
       , workspace(workspace)
       , of_warps(of_warps)
-      , room_bytes(room_bytes)
     {
     }
 
@@ -198,43 +192,30 @@ namespace undine::particles
     __device__ __forceinline__ Sums<count>
                                sum(const int n, const Function &f)
     {
+      static_assert(count <= most_sums, "no room for so many sums");
       Sums<count> mine;
       for_each(n, [&](const int i) { f(i, mine); });
-      return total(mine);
-    }
-
-    template <int count, class Rows, class Stored, class Function>
-    __device__ __forceinline__ Sums<count>
-    sum_near(const int n, const Rows &rows, const Stored *x, const Function &f)
-    {
-      return sum_near<count>(n, share(n), rows, x, f);
-    }
-
-    /// The numbers near some rows at a time are in shared memory, if there is room for them.
-    template <int count, class Rows, class Stored, class Function>
-    __device__ __forceinline__ Sums<count>
-    sum_near(const int, const Share &own, const Rows &rows, const Stored *x, const Function &f)
-    {
-      using Near         = NearNumbers<Stored>;
-      const int capacity = Near::capacity(room_bytes);
-      const int most     = rows.are_known() ? rows.rows_for(capacity) : 0;
-      const int rounds   = own_rounds(own, most >= least_near ? most : own.end - own.begin);
-      const int each     = rounds * static_cast<int>(blockDim.x);
-      Sums<count> mine;
-      for (int begin = own.begin; begin < own.end; begin += each)
+      reduce_block(mine, workspace.partial[parity] + blockIdx.x);
+      sync();
+      // One warp reads: all together would crowd the memory.
+      if (threadIdx.x < 32)
         {
-          const Share some = {begin, min(own.end, begin + each)};
-          const auto  runs = rows.around(some);
-          if (most >= least_near && runs.size() <= capacity)
-            {
-              const Near near(runs, x, capacity);
-              for_each_of(some, [&](const int i) { f(i, near, mine); });
-              __syncthreads();
-            }
-          else
-            for_each_of(some, [&](const int i) { f(i, x, mine); });
+          Sums<count> all;
+          for (int b = threadIdx.x; b < static_cast<int>(gridDim.x); b += 32)
+            for (int k = 0; k < count; ++k)
+              all[k] += __ldcg(&workspace.partial[parity][b].values[k]);
+          reduce_warp(all);
+          if (threadIdx.x == 0)
+            for (int k = 0; k < count; ++k)
+              of_warps[0][k] = all[k];
         }
-      return total(mine);
+      __syncthreads();
+      Sums<count> total;
+      for (int k = 0; k < count; ++k)
+        total[k] = of_warps[0][k];
+      __syncthreads();
+      parity = 1 - parity;
+      return total;
     }
 
     __device__ void
@@ -256,46 +237,6 @@ namespace undine::particles
     }
 
   private:
-    /// In how many rounds, alike, the block should do at most `most` of a share.
-    __device__ __forceinline__ static int
-    own_rounds(const Share &share, const int most)
-    {
-      const int threads = static_cast<int>(blockDim.x);
-      const int rounds  = (share.end - share.begin + threads - 1) / threads;
-      const int at_once = max(1, most / threads);
-      const int parts   = (rounds + at_once - 1) / at_once;
-      return max(1, (rounds + parts - 1) / max(1, parts));
-    }
-
-    /// For all threads, from each one's.
-    template <int count>
-    __device__ __forceinline__ Sums<count>
-                               total(const Sums<count> &mine)
-    {
-      static_assert(count <= most_sums, "no room for so many sums");
-      reduce_block(mine, workspace.partial[parity] + blockIdx.x);
-      sync();
-      // One warp reads: all together would crowd the memory.
-      if (threadIdx.x < 32)
-        {
-          Sums<count> all;
-          for (int b = threadIdx.x; b < static_cast<int>(gridDim.x); b += 32)
-            for (int k = 0; k < count; ++k)
-              all[k] += __ldcg(&workspace.partial[parity][b].values[k]);
-          reduce_warp(all);
-          if (threadIdx.x == 0)
-            for (int k = 0; k < count; ++k)
-              of_warps[0][k] = all[k];
-        }
-      __syncthreads();
-      Sums<count> result;
-      for (int k = 0; k < count; ++k)
-        result[k] = of_warps[0][k];
-      __syncthreads();
-      parity = 1 - parity;
-      return result;
-    }
-
     /// All lanes get the sums over the warp.
     template <int count>
     __device__ __forceinline__ static void
@@ -308,7 +249,7 @@ namespace undine::particles
 
     template <int count>
     __device__ __forceinline__ void
-    reduce_block(Sums<count> mine, Sums<most_sums> *result)
+    reduce_block(Sums<count> &mine, Sums<most_sums> *result)
     {
       const int warp = threadIdx.x / 32, lane = threadIdx.x & 31;
       reduce_warp(mine);
@@ -331,7 +272,6 @@ namespace undine::particles
     GridBarrier      barrier;
     Workspace        workspace;
     Sums<most_sums> *of_warps; ///< shared memory of the block
-    int              room_bytes;
     int              parity = 0;
   };
 } // namespace undine::particles

@@ -76,16 +76,7 @@ namespace undine::particles
     Value
     row_times(const int i, const Stored *x) const
     {
-      return row_times(i, x[i], x);
-    }
-
-    /// The same of x_i and the numbers near it, see NearRows.
-    template <class Numbers>
-    UNDINE_HOST_DEVICE
-    Value
-    row_times(const int i, const Value &x_i, const Numbers &near) const
-    {
-      return diagonal[i] * x_i - matrix.template row_times<Value>(i, near);
+      return diagonal[i] * Value(x[i]) - matrix.template row_times<Value>(i, x);
     }
   };
 

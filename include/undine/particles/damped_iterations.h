@@ -3,7 +3,6 @@
 #define undine_particles_damped_iterations_h
 
 #include <undine/particles/conjugate_gradients.h>
-#include <undine/particles/near_rows.h>
 
 namespace undine::particles
 {
@@ -11,16 +10,13 @@ namespace undine::particles
   /// tolerance: it damps what is in the range of eigenvalues of D^{-1} A from `lowest` to `highest`
   /// and needs no products of vectors for it, so that an iteration is one pass over the matrix.
   /// Where that does not suffice, conjugate gradients finish. No eigenvalue is larger than two.
-  template <int dim, class Real, class Entry, class Value>
+  template <class Real, class Entry, class Value>
   struct DampedIterations
   {
-    static constexpr bool gathers = true; ///< numbers of particles by sum_near()
-
     static constexpr Real lowest = Real(0.2), highest = Real(2);
     static constexpr int  most = 12; ///< iterations
 
     ConjugateGradients<Real, Entry, Value> base;
-    NearRows<dim, Real>                    rows;
 
     template <class Team>
     UNDINE_HOST_DEVICE
@@ -42,10 +38,8 @@ namespace undine::particles
           rho                 = is_first ? half / middle : 1 / (2 * middle / half - last);
           const Real step     = is_first ? 1 / middle : 2 * rho / half;
           const Real memory   = is_first ? Real(0) : rho * last;
-          sizes               = team.template sum_near<2>(
-            n, rows, now, [&](const int i, const auto &near, Sums<2> &sums) {
-              iterate(i, now[i], near, next[i], step, memory, sums);
-            });
+          sizes               = team.template sum<2>(
+            n, [&](const int i, Sums<2> &sums) { iterate(i, now, next, step, memory, sums); });
           if (has_converged(sizes) || iteration == most)
             break;
           Stored *const other = now;
@@ -70,20 +64,18 @@ namespace undine::particles
     }
 
     /// Adds to the sizes of the residual of `now` and of the right-hand side.
-    template <class Numbers>
     UNDINE_HOST_DEVICE
     void
-    iterate(const int      i,
-            const Stored  &now,
-            const Numbers &near,
-            Stored        &next,
-            const Real     step,
-            const Real     memory,
-            Sums<2>       &sums) const
+    iterate(const int     i,
+            const Stored *now,
+            Stored       *next,
+            const Real    step,
+            const Real    memory,
+            Sums<2>      &sums) const
     {
       const Real inverse = 1 / base.system.diagonal[i];
-      Value      b = base.system.right_hand_side[i], change = base.vectors.p[i], x = now;
-      Value      r = base.system.row_times(i, x, near);
+      Value      b = base.system.right_hand_side[i], r = base.system.row_times(i, now);
+      Value      change = base.vectors.p[i], x = now[i];
       for (int k = 0; k < Components<Value>::count; ++k)
         {
           Real      &r_k = Components<Value>::of(r, k), &b_k = Components<Value>::of(b, k);
@@ -96,7 +88,7 @@ namespace undine::particles
           Components<Value>::of(x, k) += change_k;
         }
       base.vectors.p[i] = change;
-      next              = x;
+      next[i]           = x;
     }
   };
 } // namespace undine::particles

@@ -158,22 +158,6 @@ namespace undine::particles
       return total;
     }
 
-    /// The same of f(i, near, sums), where near[j] is x_j for those j that `rows` finds near i.
-    template <int count, class Rows, class Stored, class Function>
-    Sums<count>
-    sum_near(const int n, const Rows &, const Stored *x, const Function &f)
-    {
-      return sum<count>(n, [&](const int i, Sums<count> &sums) { f(i, x, sums); });
-    }
-
-    /// Of 0 ... n-1, only i in somebody's `own` need be looked at, best by their owners.
-    template <int count, class Rows, class Stored, class Function>
-    Sums<count>
-    sum_near(const int n, const Share &, const Rows &rows, const Stored *x, const Function &f)
-    {
-      return sum_near<count>(n, rows, x, f);
-    }
-
     /// Wait for all workers; what they wrote before is visible after.
     void
     sync() const

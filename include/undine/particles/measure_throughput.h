@@ -5,20 +5,16 @@
 #include <undine/particles/buffer.h>
 #include <undine/particles/conjugate_gradients.h>
 #include <undine/particles/engine.h>
-#include <undine/particles/near_rows.h>
 
 #include <chrono>
 
 namespace undine::particles
 {
   /// The product of a system's matrix with its solution, again and again, as solvers take it.
-  template <int dim, class Real, class Entry>
+  template <class Real, class Entry>
   struct RepeatProduct
   {
-    static constexpr bool gathers = true; ///< numbers of particles by sum_near()
-
     LinearSystem<Real, Entry, Real> system;
-    NearRows<dim, Real>             rows;
     Real                           *result;
     int                             repetitions;
 
@@ -28,19 +24,16 @@ namespace undine::particles
     operator()(Team &team) const
     {
       for (int k = 0; k < repetitions; ++k)
-        team.template sum_near<1>(system.matrix.n,
-                                  rows,
-                                  system.solution,
-                                  [&](const int i, const auto &near, Sums<1> &sums) {
-                                    result[i] = system.row_times(i, system.solution[i], near);
-                                    sums[0] += result[i];
-                                  });
+        team.template sum<1>(system.matrix.n, [&](const int i, Sums<1> &sums) {
+          result[i] = system.row_times(i, system.solution);
+          sums[0] += result[i];
+        });
     }
   };
 
 
   /// Measures RepeatProduct and copies of memory, after both have been tried.
-  template <class Executor, int dim, class Real, class Entry>
+  template <class Executor, class Real, class Entry>
   class ThroughputMeasurement
   {
   public:
@@ -51,7 +44,7 @@ namespace undine::particles
 
     /// Changes `product.result` only.
     Throughput
-    operator()(RepeatProduct<dim, Real, Entry> product) const
+    operator()(RepeatProduct<Real, Entry> product) const
     {
       constexpr int           repetitions = 50;
       constexpr int           large       = 1 << 26; ///< numbers: more than caches hold

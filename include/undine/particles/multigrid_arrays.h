@@ -43,17 +43,18 @@ namespace undine::particles
       cycle.factor  = Real(1.6);
     }
 
-    /// After the matrix has been assembled.
+    /// After the matrix has been assembled. `starts` are those of the cells.
     template <class Entry>
     void
-    build(const NearRows<dim, Real>         &rows,
+    build(const Place<dim, Real>            *places,
           const int                         *is_unknown,
           const PressureMatrix<Real, Entry> &matrix,
-          const Real                        *diagonal)
+          const Real                        *diagonal,
+          const int                         *starts)
     {
       const auto &finest = cycle.levels.level[0].grid;
       executor.run(finest.n,
-                   MarkActiveCells<dim, Real>{cycle.levels, rows.starts, is_unknown, marks.data()});
+                   MarkActiveCells<dim, Real>{cycle.levels, starts, is_unknown, marks.data()});
       executor.exclusive_scan(n_cells + 1, marks.data(), marks_before.data());
       executor.for_each(
         n_cells, ListActiveCells<dim, Real>{cycle.levels, marks.data(), marks_before.data()});
@@ -61,7 +62,7 @@ namespace undine::particles
         n,
         SumRowByCells<dim, Real, Entry>{cells,
                                         finest,
-                                        rows.places,
+                                        places,
                                         is_unknown,
                                         matrix,
                                         diagonal,
@@ -69,13 +70,13 @@ namespace undine::particles
                                         places_in_cells.data(),
                                         sums.data()});
       executor.run(finest.n,
-                   BuildLevels<dim, Real>{cycle.levels, rows.starts, is_unknown, sums.data(), n});
+                   BuildLevels<dim, Real>{cycle.levels, starts, is_unknown, sums.data(), n});
     }
 
     /// Conjugate gradients with what build() has made of the same system.
     template <class Entry>
     void
-    solve(const ConjugateGradients<Real, Entry, Real> &base, const NearRows<dim, Real> &rows) const
+    solve(const ConjugateGradients<Real, Entry, Real> &base, const int *starts) const
     {
       executor.run(n,
                    MultigridGradients<dim, Real, Entry>{base,
@@ -83,8 +84,7 @@ namespace undine::particles
                                                         {grids.front(), functions.data()},
                                                         cell_of.data(),
                                                         places_in_cells.data(),
-                                                        marks_before.data(),
-                                                        rows});
+                                                        starts});
     }
 
   private:

@@ -5,7 +5,6 @@
 #include <undine/particles/cell_interpolation.h>
 #include <undine/particles/conjugate_gradients.h>
 #include <undine/particles/multigrid.h>
-#include <undine/particles/near_rows.h>
 
 namespace undine::particles
 {
@@ -16,15 +15,12 @@ namespace undine::particles
   template <int dim, class Real, class Entry>
   struct MultigridGradients
   {
-    static constexpr bool gathers = true; ///< numbers of particles by sum_near()
-
     ConjugateGradients<Real, Entry, Real> base;
     MultigridCycle<dim, Real>             cycle;
     CellInterpolation<dim, Real>          interpolation;
     const int                            *cell_of; ///< of the particles; -1: no unknown
     const PlaceInCell<dim, Real>         *places_in_cells;
-    const int                            *active_before; ///< of the finest level's cells
-    NearRows<dim, Real>                   rows;
+    const int                            *starts; ///< of the cells
 
     using Counts = typename MultigridLevels<dim, Real>::Counts;
 
@@ -37,24 +33,17 @@ namespace undine::particles
         return;
       const int    n      = base.system.matrix.n;
       const Counts counts = cycle.levels.counts();
-      const double size   = team.template sum_near<1>(
-        n, rows, base.system.solution, [&](const int i, const auto &near, Sums<1> &sums) {
-          begin(i, near, sums);
-        })[0];
+      const double size =
+        team.template sum<1>(n, [&](const int i, Sums<1> &sums) { begin(i, sums); })[0];
       const double goal = base.bounds.tolerance * base.bounds.tolerance * size;
       double       last = 0, last_step = 0, square = 0;
       int          iteration = 0;
-      const Share  own       = own_cells(team, counts);
-      restrict_residual(team, own);
+      restrict_residual(team, counts);
       for (;; ++iteration)
         {
-          precondition(team, counts, own);
-          const auto now = team.template sum_near<3>(
-            n,
-            particles(own),
-            rows,
-            base.vectors.u,
-            [&](const int i, const auto &near, Sums<3> &sums) { multiply(i, near, sums); });
+          precondition(team, counts);
+          const auto now =
+            team.template sum<3>(n, [&](const int i, Sums<3> &sums) { multiply(i, sums); });
           square = now[2];
           if (!(square > goal) || iteration == base.bounds.max_iterations)
             break;
@@ -63,48 +52,33 @@ namespace undine::particles
             now[0] / (iteration == 0 ? now[1] : now[1] - beta * now[0] / last_step);
           last      = now[0];
           last_step = step;
-          update(team, particles(own), static_cast<Real>(step), static_cast<Real>(beta));
-          restrict_residual(team, own);
+          update(team, counts, static_cast<Real>(step), static_cast<Real>(beta));
+          restrict_residual(team, counts);
         }
       if (team.is_first())
         base.report(iteration, size > 0 ? sqrt(square / size) : 0.);
     }
 
   private:
-    template <class Numbers>
     UNDINE_HOST_DEVICE
     void
-    begin(const int i, const Numbers &near, Sums<1> &sums) const
+    begin(const int i, Sums<1> &sums) const
     {
       const auto &system = base.system;
       const Real  b      = system.right_hand_side[i];
       sums[0] += static_cast<double>(b) * b / system.diagonal[i];
-      base.vectors.r[i] = b - system.row_times(i, system.solution[i], near);
+      base.vectors.r[i] = b - system.row_times(i, system.solution);
       base.vectors.p[i] = base.vectors.s[i] = base.vectors.u[i] = 0;
     }
 
-    /// This worker's cells of the finest level, which have as many particles as those of others.
-    /// Passes that need from others only what is in these cells follow each other without waiting
-    /// for all.
+    /// This worker's cells of the finest level. Passes that need from others only what is in these
+    /// cells follow each other without waiting for all.
     template <class Team>
     UNDINE_HOST_DEVICE
     Share
     own_cells(const Team &team, const Counts &counts) const
     {
-      const Share own = team.share(base.system.matrix.n);
-      return {cells_before(own.begin, counts), cells_before(own.end, counts)};
-    }
-
-    /// How many active cells begin before a particle.
-    UNDINE_HOST_DEVICE
-    int
-    cells_before(const int i, const Counts &counts) const
-    {
-      const int n_cells = finest().grid.n;
-      if (i >= rows.starts[n_cells])
-        return counts.of[0];
-      const int cell = rows.grid.cell_of(rows.places[i].x);
-      return active_before[rows.starts[cell] < i ? cell + 1 : cell];
+      return team.share(counts.of[0]);
     }
 
     /// The particles in them; between cells, some that have no unknown, too.
@@ -115,8 +89,8 @@ namespace undine::particles
       if (own.begin >= own.end)
         return {0, 0};
       const auto *cells = finest().active;
-      return {rows.starts[cells[own.begin].index(finest().grid)],
-              rows.starts[cells[own.end - 1].index(finest().grid) + 1]};
+      return {starts[cells[own.begin].index(finest().grid)],
+              starts[cells[own.end - 1].index(finest().grid) + 1]};
     }
 
     UNDINE_HOST_DEVICE
@@ -129,7 +103,7 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    restrict_residual(Team &team, const Share &own) const
+    restrict_residual(Team &team, const Counts &counts) const
     {
       const auto *cells = finest().active;
       struct Cell
@@ -137,16 +111,16 @@ namespace undine::particles
         int index, begin, end;
       };
       team.for_each_of(
-        own,
+        own_cells(team, counts),
         [&](const int c) {
           const int index = cells[c].index(finest().grid);
-          return Cell{index, rows.starts[index], rows.starts[index + 1]};
+          return Cell{index, starts[index], starts[index + 1]};
         },
         [&](const int, const Cell &cell) {
           interpolation.functions[cell.index] = sums_of_residuals(cell.begin, cell.end);
         });
       team.sync();
-      team.for_each_of(own, [&](const int c) {
+      team.for_each_of(own_cells(team, counts), [&](const int c) {
         const int index = cells[c].index(finest().grid);
         cycle.begin(0, index, interpolation.number(cells[c], index));
       });
@@ -181,10 +155,11 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    precondition(Team &team, const Counts &counts, const Share &own) const
+    precondition(Team &team, const Counts &counts) const
     {
       cycle.correct(team, counts);
       const auto *cells = finest().active;
+      const Share own   = own_cells(team, counts);
       team.for_each_of(own, [&](const int c) {
         finest().x[cells[c].index(finest().grid)] = cycle.finish(0, cells[c], OneLane());
       });
@@ -212,14 +187,13 @@ namespace undine::particles
       team.sync();
     }
 
-    template <class Numbers>
     UNDINE_HOST_DEVICE
     void
-    multiply(const int i, const Numbers &near, Sums<3> &sums) const
+    multiply(const int i, Sums<3> &sums) const
     {
       const auto  &system = base.system;
+      const Real   w      = system.row_times(i, base.vectors.u);
       const double r = base.vectors.r[i], u = base.vectors.u[i];
-      const Real   w    = system.row_times(i, base.vectors.u[i], near);
       base.vectors.w[i] = w;
       sums[0] += r * u;
       sums[1] += w * u;
@@ -229,7 +203,7 @@ namespace undine::particles
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    update(Team &team, const Share &own, const Real alpha, const Real beta) const
+    update(Team &team, const Counts &counts, const Real alpha, const Real beta) const
     {
       const auto &v = base.vectors;
       Real *const x = base.system.solution;
@@ -238,7 +212,7 @@ namespace undine::particles
         Real u, w, p, s, x, r;
       };
       team.for_each_of(
-        own,
+        particles(own_cells(team, counts)),
         [&](const int i) {
           return Row{v.u[i], v.w[i], v.p[i], v.s[i], x[i], v.r[i]};
         },

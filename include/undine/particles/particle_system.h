@@ -136,8 +136,8 @@ namespace undine::particles
     Throughput
     throughput()
     {
-      return ThroughputMeasurement<Executor, dim, Real, Entry>(executor)(
-        {pressure_system().system, rows(), equation.numbers.data(), 0});
+      return ThroughputMeasurement<Executor, Real, Entry>(executor)(
+        {pressure_system().system, equation.numbers.data(), 0});
     }
 
   private:
@@ -221,14 +221,13 @@ namespace undine::particles
       executor.enter(Phase::faces);
       if (closed)
         executor.run(n,
-                     DampedIterations<dim, Real, Entry, Vector<dim, Real>>{
+                     DampedIterations<Real, Entry, Vector<dim, Real>>{
                        system<Vector<dim, Real>>(equation.faces_diagonal,
                                                  equation.gaps,
                                                  now.potentials,
                                                  equation.vectors.data(),
                                                  numerics.faces_tolerance,
-                                                 &StepControl::faces),
-                       rows()});
+                                                 &StepControl::faces)});
       executor.enter(Phase::assembly);
       executor.for_each(n,
                         MeasureSource<dim, Real, Entry>{constants,
@@ -318,9 +317,13 @@ namespace undine::particles
           return;
         }
       executor.enter(Phase::multigrid);
-      multigrid->build(rows(), equation.is_unknown.data(), matrix(), equation.diagonal.data());
+      multigrid->build(now.places.data(),
+                       equation.is_unknown.data(),
+                       matrix(),
+                       equation.diagonal.data(),
+                       cells.cell_starts());
       executor.enter(Phase::pressure);
-      multigrid->solve(pressure_system(), rows());
+      multigrid->solve(pressure_system(), cells.cell_starts());
     }
 
     template <class Value>
@@ -345,7 +348,7 @@ namespace undine::particles
     }
 
     ConjugateGradients<Real, Entry, Real>
-    pressure_system() const
+    pressure_system()
     {
       return system<Real>(equation.diagonal,
                           equation.right_hand_side,
@@ -353,12 +356,6 @@ namespace undine::particles
                           equation.numbers.data(),
                           numerics.tolerance,
                           &StepControl::pressure);
-    }
-
-    NearRows<dim, Real>
-    rows() const
-    {
-      return NearRows<dim, Real>::of(constants, now.places.data(), cells.cell_starts());
     }
 
     VirtualFaces<dim, Real>
