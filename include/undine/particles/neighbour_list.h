@@ -34,7 +34,7 @@ namespace undine::particles
     {
       const Place<dim, Real> place = places[i];
       int                    count = 0;
-      if (place.tag.kind() != Kind::dummy && !place.tag.is_parked())
+      if (place.tag.kind() != Kind::dummy && !place.tag.is_yielding())
         grid.for_each_run_around(
           place.x, [&](const int first_cell, const int end_cell, const Vector<dim, Real> &x) {
             collect(i, x, starts[first_cell], starts[end_cell], room, count);
@@ -92,7 +92,7 @@ namespace undine::particles
             Room                    &room,
             int                     &count) const
     {
-      if (!(norm_square(other.x - x) < reach * reach) || j == i)
+      if (!(norm_square(other.x - x) < reach * reach) || j == i || other.tag.is_yielding())
         return;
       if (count < together)
         room[count] = j;
