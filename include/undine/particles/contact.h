@@ -23,10 +23,10 @@ namespace undine::particles
     int                     *partners; ///< identities, or walls' sorted places p as -1 - p
 
     /// Those that are near enough to touch within a sub-step. Bonded neighbours do not count:
-    /// elasticity acts between them.
+    /// elasticity acts between them. Returns how many they are.
     template <class Lanes>
     UNDINE_HOST_DEVICE
-    void
+    int
     list_partners(const int identity, const Lanes &lanes) const
     {
       constexpr int together = 4; // on the way at the same time
@@ -56,71 +56,64 @@ namespace undine::particles
         }
       if (lanes.rank() == 0)
         counts[identity] = count;
+      return count;
     }
 
-    /// [m/s^2]
-    template <class Lanes>
-    UNDINE_HOST_DEVICE
-    Vector<dim, Real>
-    acceleration(const int identity, const Lanes &lanes) const
+    /// What contact does to a particle.
+    struct Response
     {
-      auto force = Vector<dim, Real>::zero();
-      if (counts[identity] == 0)
-        return force;
-      for_each_touch(
-        identity, lanes, [&](const Vector<dim, Real> &r, const Real stiffness, const Real q) {
-          force += (stiffness * (q - 1) * q * q * q) * r;
-        });
-      return inverse_mass(identity) * lanes.sum(force);
-    }
+      Vector<dim, Real> acceleration;     ///< [m/s^2]
+      Real              frequency_square; ///< bound on that of what it lets the particle do [1/s^2]
+    };
 
-    /// A bound on the square of the frequency that contact lets a particle have [1/s^2].
-    template <class Lanes>
+    /// Of a particle at x with `count` partners. point_of(identity) is where a partner is.
+    template <class Lanes, class Points>
     UNDINE_HOST_DEVICE
-    Real
-    frequency_square(const int identity, const Lanes &lanes) const
+    Response
+    response(const int                identity,
+             const Vector<dim, Real> &x,
+             const int                count,
+             const Lanes             &lanes,
+             const Points            &point_of) const
     {
-      Real sum = 0;
-      if (counts[identity] == 0)
+      Response sum = {Vector<dim, Real>::zero(), 0};
+      if (count == 0)
         return sum;
-      for_each_touch(
-        identity, lanes, [&](const Vector<dim, Real> &, const Real stiffness, const Real q) {
-          sum += 2 * stiffness * (3 * q - 2) * q * q * q;
-        });
-      return inverse_mass(identity) * lanes.sum(sum);
-    }
-
-  private:
-    /// f(r, stiffness, q) for this lane's share of the partners that touch.
-    template <class Lanes, class Function>
-    UNDINE_HOST_DEVICE
-    void
-    for_each_touch(const int identity, const Lanes &lanes, const Function &f) const
-    {
-      const Real own   = bodies.materials[bodies.bodies[identity]].contact;
-      const auto x     = bodies.points[identity].x;
-      const int  count = counts[identity];
+      const Real own = bodies.materials[bodies.bodies[identity]].contact;
       for (int k = lanes.rank(); k < count; k += lanes.count())
         {
           const int  partner = partners[list_slot(identity, k, neighbours.capacity)];
           const bool is_wall = partner < 0;
-          const auto other = is_wall ? neighbours.places[-1 - partner].x : bodies.points[partner].x;
-          const auto r     = neighbours.grid.difference(x, other);
-          const Real square = norm_square(r);
+          const auto other   = is_wall ? neighbours.places[-1 - partner].x : point_of(partner);
+          const auto r       = neighbours.grid.difference(x, other);
+          const Real square  = norm_square(r);
           if (square < spacing * spacing)
-            f(r,
-              is_wall ? own : minimum(own, bodies.materials[bodies.bodies[partner]].contact),
-              spacing * inverse_square_root(square));
+            {
+              const Real stiffness =
+                is_wall ? own : minimum(own, bodies.materials[bodies.bodies[partner]].contact);
+              const Real q = spacing * inverse_square_root(square);
+              sum.acceleration += (stiffness * (q - 1) * q * q * q) * r;
+              sum.frequency_square += 2 * stiffness * (3 * q - 2) * q * q * q;
+            }
         }
+      const Real inverse_mass = 1 / (bodies.materials[bodies.bodies[identity]].density * volume);
+      return {inverse_mass * lanes.sum(sum.acceleration),
+              inverse_mass * lanes.sum(sum.frequency_square)};
     }
 
+    /// At the present points.
+    template <class Lanes>
     UNDINE_HOST_DEVICE
-    Real
-    inverse_mass(const int identity) const
+    Response
+    response(const int identity, const Lanes &lanes) const
     {
-      return 1 / (bodies.materials[bodies.bodies[identity]].density * volume);
+      return response(
+        identity, bodies.points[identity].x, counts[identity], lanes, [&](const int partner) {
+          return bodies.points[partner].x;
+        });
     }
 
+  private:
     /// Is the neighbour at place j of i, where `identity` is? Reads all that it may need at once.
     UNDINE_HOST_DEVICE
     bool
