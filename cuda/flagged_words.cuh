@@ -91,7 +91,7 @@ namespace undine::particles
   __device__ __forceinline__ void
   put(FlaggedVector<dim> *to, const Vector<dim, float> &vector, const unsigned int round)
   {
-    static_assert(dim == 2 || dim == 3, "with the round it must fit into a word");
+    static_assert(sizeof(FlaggedVector<dim>) == 16, "it must fit into a word");
     const unsigned long long low =
       __float_as_uint(vector[0]) | (static_cast<FlaggedWord>(__float_as_uint(vector[1])) << 32);
     asm volatile("{ .reg .b128 word; mov.b128 word, {%1, %2}; st.relaxed.gpu.global.b128 [%0], "

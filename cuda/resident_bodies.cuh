@@ -27,7 +27,9 @@ namespace undine::particles
     {
       using Resident    = ResidentElasticity<dim>;
       const auto bodies = step.elasticity.bodies;
-      return bodies.n <= most_blocks() * Resident::most_workers / Resident::lanes &&
+      return bodies.n <= most_blocks() * (Resident::most_workers / Resident::lanes) &&
+             bodies.n <= LocalCopies<dim>::most_particles &&
+             memory(Resident::most_workers / Resident::lanes, step) <= most_memory &&
              bodies.capacity <= Resident::most_bonds * Resident::lanes;
     }
 
@@ -44,13 +46,18 @@ namespace undine::particles
       auto      copy   = step;
       auto      exchange    = room<dim>(executor, n);
       void     *arguments[] = {&copy, &exchange, &team_workspace};
+      const auto *kernel    = reinterpret_cast<const void *>(kernels::move_bodies<dim>);
+      check_device(cudaFuncSetAttribute(kernel,
+                                        cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                        memory(each, step)),
+                   "to plan the bodies' steps");
       check_device(
-        cudaLaunchCooperativeKernel(reinterpret_cast<const void *>(kernels::move_bodies<dim>),
+        cudaLaunchCooperativeKernel(kernel,
                                     dim3(blocks),
                                     dim3((each * lanes + 31) / 32 * 32 + 32),
                                     arguments,
-                                    0,
-                                    stream),
+ memory(each, step),
+ stream),
         "to start the bodies' steps");
     }
 
@@ -64,7 +71,17 @@ namespace undine::particles
     }
 
   private:
+    /// Of a block with so many particles.
+    template <int dim>
+    static int
+    memory(const int each, const ElasticStep<dim, float> &step)
+    {
+      return LocalCopies<dim>::bytes(each * (step.elasticity.bodies.capacity + 1));
+    }
+
     static constexpr int few_workers = 128; ///< of a block: one warp for each scheduler
+
+    static constexpr int most_memory = 90 * 1024; ///< dynamic shared memory of a block [bytes]
 
     int
     most_blocks() const

@@ -3,7 +3,8 @@
 #define undine_cuda_resident_elasticity_cuh
 
 #include "device_team.cuh"
-#include "flagged_words.cuh"
+#include "local_copies.cuh"
+#include "warp_signal.cuh"
 
 #include <undine/particles/elastic_step.h>
 
@@ -46,22 +47,30 @@ namespace undine::particles
 
     struct Shared
     {
+      typename LocalCopies<dim>::Shared copies;
+      WarpSignal::Shared                signal;
+
       unsigned int rates[most_warps]; ///< largest ones, bits of floats
       float        h;
       bool         goes_on;
     };
 
     __device__
-    ResidentElasticity(const Step &step, const ElasticExchange<dim> &exchange, Shared &shared)
+    ResidentElasticity(const Step                 &step,
+                       const ElasticExchange<dim> &exchange,
+                       Shared                     &shared,
+                       char                       *memory)
       : step(step)
       , exchange(exchange)
       , shared(shared)
+      , copies(shared.copies, memory, exchange.n)
+      , tractions_are_there(shared.signal, workers())
       , steps(step.control->dt, step.bounds)
       , round(*exchange.last_round)
     {
       const int each = (exchange.n + gridDim.x - 1) / gridDim.x;
       const int own  = static_cast<int>(threadIdx.x) / lanes;
-      is_worker      = threadIdx.x < blockDim.x - 32;
+      is_worker      = threadIdx.x < workers();
       i              = min(static_cast<int>(blockIdx.x) * each + own, exchange.n - 1);
       is_owner       = is_worker && own < each && i == static_cast<int>(blockIdx.x) * each + own;
     }
@@ -71,15 +80,28 @@ namespace undine::particles
     {
       if (is_worker)
         begin();
+      number_neighbours();
       do
         {
           ++round;
+          if (is_worker)
+            {
+              hand_out_point();
+              copies.template fetch<0, 2>(point_of(0), round, workers());
+            }
+          __syncthreads();
           if (is_worker)
             deform();
           __syncthreads();
           auto a = Vector<dim, float>::zero();
           if (is_worker)
-            a = acceleration();
+            {
+              copies.template fetch<2, dim>(traction_of(0), round, workers());
+              tractions_are_there.give();
+              tractions_are_there.take();
+              __syncwarp();
+              a = acceleration();
+            }
           else
             choose_step();
           __syncthreads();
@@ -121,7 +143,6 @@ namespace undine::particles
     {
       const auto &bodies = step.elasticity.bodies;
 
-      n_partners = step.contact.list_partners(i, DeviceLanes());
       own        = step.elasticity.particle(i);
       is_held    = bodies.held[i];
       pressure   = step.pressure_acceleration(i);
@@ -133,7 +154,37 @@ namespace undine::particles
         bonds[k] = step.elasticity.reference_bond(i, k * lanes + WarpLanes::rank());
       if (is_owner && WarpLanes::rank() == 0 && step.purpose != ElasticRun::final)
         step.x_start[i] = point.x;
+      n_partners = step.contact.list_partners(i, DeviceLanes());
       __syncwarp(); // partners
+    }
+
+    /// By the whole block: from here on bonds know local numbers.
+    __device__ __forceinline__ void
+    number_neighbours()
+    {
+      copies.clear();
+      if (is_worker)
+        for_each_bond([&](const auto &bond) { copies.mark(bond.j); });
+      copies.number();
+      if (is_worker)
+        for_each_bond([&](auto &bond) { bond.j = copies.number_of(bond.j); });
+    }
+
+    /// Of this lane.
+    template <class Function>
+    __device__ __forceinline__ void
+    for_each_bond(const Function &f)
+    {
+#pragma unroll
+      for (int k = 0; k < most_bonds; ++k)
+        if (k < n_bonds)
+          f(bonds[k]);
+    }
+
+    __device__ __forceinline__ static int
+    workers()
+    {
+      return static_cast<int>(blockDim.x) - 32;
     }
 
     __device__ __forceinline__ void
@@ -146,45 +197,18 @@ namespace undine::particles
       __syncwarp();
     }
 
-    /// The points of bonds' other ends.
-    __device__ __forceinline__ void
-    fetch_points()
-    {
-      FlaggedVector<dim> x[most_bonds], v[most_bonds];
-      bool               complete;
-      do
-        {
-          complete = true;
-#pragma unroll
-          for (int k = 0; k < most_bonds; ++k)
-            if (k < n_bonds)
-              {
-                x[k] = look_at(point_of(bonds[k].j));
-                v[k] = look_at(point_of(bonds[k].j) + 1);
-              }
-#pragma unroll
-          for (int k = 0; k < most_bonds; ++k)
-            if (k < n_bonds)
-              complete = complete && x[k].round == round && v[k].round == round;
-        }
-      while (!__all_sync(everybody, complete));
-#pragma unroll
-      for (int k = 0; k < most_bonds; ++k)
-        if (k < n_bonds)
-          bonds[k] = step.elasticity.at_present(bonds[k], point, x[k].vector, v[k].vector);
-    }
-
     /// From points to tractions, and what others need for the step's length.
     __device__ __forceinline__ void
     deform()
     {
-      hand_out_point();
-      fetch_points();
       now = step.elasticity.deformation(own, now.R, WarpLanes(), [&](const auto &f) {
-#pragma unroll
-        for (int k = 0; k < most_bonds; ++k)
-          if (k < n_bonds)
-            f(bonds[k]);
+        for_each_bond([&](auto &bond) {
+          bond = step.elasticity.at_present(bond,
+                                            point,
+                                            copies.template at<0, 2>(bond.j, 0),
+                                            copies.template at<0, 2>(bond.j, 1));
+          f(bond);
+        });
       });
       __syncwarp();
 #pragma unroll
@@ -251,41 +275,23 @@ namespace undine::particles
     }
 
     __device__ __forceinline__ Vector<dim, float>
-                               acceleration() const
+                               acceleration()
     {
-      FlaggedVector<dim> rows[most_bonds][dim];
-      bool               complete;
-      do
-        {
-          complete = true;
-#pragma unroll
-          for (int k = 0; k < most_bonds; ++k)
-            if (k < n_bonds)
-#pragma unroll
-              for (int row = 0; row < dim; ++row)
-                rows[k][row] = look_at(traction_of(bonds[k].j) + row);
-#pragma unroll
-          for (int k = 0; k < most_bonds; ++k)
-            if (k < n_bonds)
-#pragma unroll
-              for (int row = 0; row < dim; ++row)
-                complete = complete && rows[k][row].round == round;
-        }
-      while (!__all_sync(everybody, complete));
       auto result = step.force.acceleration(point.x) + pressure;
       result += touch.acceleration;
       return result +=
              step.elasticity.acceleration(own, now.T, WarpLanes(), [&](const auto &f) {
+               for_each_bond([&](const auto &bond) {
+                 Matrix<dim, float> T;
 #pragma unroll
-               for (int k = 0; k < most_bonds; ++k)
-                 if (k < n_bonds)
+                 for (int row = 0; row < dim; ++row)
                    {
-                     Matrix<dim, float> T;
-                     for (int row = 0; row < dim; ++row)
-                       for (int column = 0; column < dim; ++column)
-                         T[row][column] = rows[k][row].vector[column];
-                     f(bonds[k], T);
+                     const auto entries = copies.template at<2, dim>(bond.j, row);
+                     for (int column = 0; column < dim; ++column)
+                       T[row][column] = entries[column];
                    }
+                 f(bond, T);
+               });
              });
     }
 
@@ -300,6 +306,8 @@ namespace undine::particles
     const Step                 &step;
     const ElasticExchange<dim> &exchange;
     Shared                     &shared;
+    LocalCopies<dim>            copies;
+    WarpSignal                  tractions_are_there; ///< for the workers
     ExplicitSteps               steps; ///< in the last warp
     unsigned int                round;
     int                         i; ///< the particle
@@ -326,6 +334,7 @@ namespace undine::particles
                   const ElasticExchange<dim>                      exchange,
                   const DeviceTeam::Workspace                     workspace)
     {
+      extern __shared__ __align__(16) char                memory[];
       __shared__ Sums<DeviceTeam::most_sums>              of_warps[DeviceTeam::most_warps];
       __shared__ typename ResidentElasticity<dim>::Shared shared;
       if (step.control->done())
@@ -335,7 +344,7 @@ namespace undine::particles
         step(team);
       else
         {
-          ResidentElasticity<dim>(step, exchange, shared)();
+          ResidentElasticity<dim>(step, exchange, shared, memory)();
           step.carry_pressure(team);
         }
     }

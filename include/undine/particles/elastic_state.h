@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_particles_elastic_particle_h
-#define undine_particles_elastic_particle_h
+#ifndef undine_particles_elastic_state_h
+#define undine_particles_elastic_state_h
 
 #include <undine/particles/matrix.h>
 
@@ -43,6 +43,36 @@ namespace undine::particles
     Matrix<dim, Real> matrix;
   };
   /// @}
+
+
+  /// The particles of all elastic bodies, by identity. The reference configuration and its
+  /// neighbourhoods never change: forces are total Lagrangian.
+  template <int dim, class Real>
+  struct ElasticBodies
+  {
+    int n;
+
+    const ReferencePoint<dim, Real> *reference;
+    const int                       *bodies;    ///< number of the body
+    const ElasticMaterial<Real>     *materials; ///< of the bodies
+    const unsigned char             *held;      ///< does not move
+    int                              capacity;  ///< of the list of neighbours in the reference
+    const int                       *counts;
+    const int                       *indices;
+    const Matrix<dim, Real>         *inverse_moments; ///< A^{-1}, A = sum w X_ij X_ij^T [1/m^2]
+
+    ElasticPoint<dim, Real> *points;
+    Matrix<dim, Real>       *deformations; ///< F
+    Matrix<dim, Real>       *rotations;    ///< R, last valid one
+    Traction<dim, Real>     *tractions;
+
+    const Real *carried; ///< of the bodies: mean pressure around them that elasticity carries [Pa]
+
+    /// Of the particle's surface that does not touch its own body: its faces over rho V [m^2/kg in
+    /// space], and their first moments about the centre over V [1].
+    const Vector<dim, Real> *surfaces;
+    const Matrix<dim, Real> *surface_moments;
+  };
 } // namespace undine::particles
 
 #endif
