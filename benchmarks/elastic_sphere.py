@@ -45,6 +45,11 @@ def describe(case, columns, seconds):
             f"{sub_steps / frames:9.1f} {sum(columns['Linear iterations']) / sub_steps:11.1f}")
 
 
+def reason(error):
+    lines = [line for line in str(error).splitlines() if line.strip()]
+    return ([line for line in lines if line.startswith("Error")] + lines[-1:])[0]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--program", default=os.path.join(ROOT, "build", "undine"))
@@ -57,8 +62,7 @@ def main():
         try:
             print(describe(case, *run(case, arguments)), flush=True)
         except RuntimeError as error:
-            reason = [line for line in str(error).splitlines() if line.strip()]
-            print(f"{case[0]:5.1f} {case[1]:8.0e} {case[2]:5.2f}  stopped: {reason[-1]}", flush=True)
+            print(f"{case[0]:5.1f} {case[1]:8.0e} {case[2]:5.2f}  stopped: {reason(error)}", flush=True)
 
 
 if __name__ == "__main__":

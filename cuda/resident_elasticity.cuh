@@ -220,15 +220,18 @@ namespace undine::particles
               entries[column] = now.T[row][column];
             put(traction_of(i) + row, entries, round);
           }
-      touch = step.contact.response(i, point.x, n_partners, DeviceLanes(), [&](const int partner) {
-        FlaggedVector<dim> x;
+      touch = step.contact.response(i, point, n_partners, DeviceLanes(), [&](const int partner) {
+        FlaggedVector<dim> x, v;
         do
-          x = look_at(point_of(partner));
-        while (x.round != round);
-        return x.vector;
+          {
+            x = look_at(point_of(partner));
+            v = look_at(point_of(partner) + 1);
+          }
+        while (x.round != round || v.round != round);
+        return ElasticPoint<dim, float>{x.vector, v.vector};
       });
       __syncwarp();
-      const float rate = step.rate_of(own.material, now.F, touch.frequency_square);
+      const float rate = step.rate_of(own.material, now.F, touch);
       const unsigned int largest = __reduce_max_sync(everybody, __float_as_uint(rate));
       if ((threadIdx.x & 31) == 0)
         shared.rates[threadIdx.x / 32] = largest;

@@ -31,6 +31,16 @@ namespace undine::particles
           constants.compressibilities[b + 1] = Real(0);
         }
     }
+
+    /// The longest sub-step that gravity waves allow [s]; 0 without any.
+    template <int dim>
+    double
+    longest_by_waves(const Setup<dim> &setup)
+    {
+      const double speed_square = std::sqrt(norm_square(setup.gravity)) * setup.depth;
+      return speed_square > 0 ? setup.numerics.wave_share * setup.spacing / std::sqrt(speed_square)
+                              : 0;
+    }
   } // namespace
 
 
@@ -65,8 +75,11 @@ namespace undine::particles
     const double gravity    = std::sqrt(norm_square(setup.gravity));
     constants.relaxation_time =
       gravity > 0 ? static_cast<Real>(numerics.relaxation_time * std::sqrt(l0 / gravity)) : Real(0);
-    constants.crowd_excess          = static_cast<Real>(numerics.crowd_excess);
-    constants.crowd_share           = static_cast<Real>(numerics.crowd_share);
+    constants.crowd_excess = static_cast<Real>(numerics.crowd_excess);
+    constants.crowd_share  = static_cast<Real>(numerics.crowd_share);
+    const double longest   = longest_by_waves(setup);
+    constants.crowd_rate =
+      longest > 0 ? static_cast<Real>(numerics.crowd_share / longest) : Real(0);
     constants.surface_density       = static_cast<Real>(numerics.surface_density);
     constants.one_sided_density     = static_cast<Real>(numerics.one_sided_density);
     constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);
@@ -114,13 +127,11 @@ namespace undine::particles
   {
     const auto  &numerics = setup.numerics;
     const double l0       = setup.spacing;
-    const double gravity  = std::sqrt(norm_square(setup.gravity));
     const double spread   = full_lattice(dim, numerics.reach).spread * l0 * l0;
     StepBounds   bounds;
     bounds.asked = numerics.largest_sub_step > 0 ? numerics.largest_sub_step
                                                  : std::numeric_limits<double>::max();
-    if (gravity * setup.depth > 0)
-      bounds.waves = numerics.wave_share * l0 / std::sqrt(gravity * setup.depth);
+    bounds.waves = longest_by_waves(setup);
     if (setup.fluid_viscosity > 0)
       bounds.viscosity = spread / (4 * dim * setup.fluid_viscosity); // half of what is stable
     bounds.speed_share        = numerics.speed_share * l0;

@@ -225,19 +225,23 @@ namespace undine::particles
           case Source::relaxed:
             return constants.density_share * error;
           default:
-            return (share(dt) * (neighbourhood.fillings[i] - 1) + crowding(i)) / (dt * dt) -
+            return (share(dt) * (neighbourhood.fillings[i] - 1) + crowding(i, dt)) / (dt * dt) -
                    divergence(i, tag) / dt;
         }
     }
 
     /// Where particles crowd, as between a body and a wall, much more of the error is removed at
-    /// once.
+    /// once, but in time, not by sub-steps: the shorter they are, the faster would what is pushed
+    /// apart become, and the shorter the next one.
     UNDINE_HOST_DEVICE
     Real
-    crowding(const int i) const
+    crowding(const int i, const Real dt) const
     {
       const Real excess = neighbourhood.densities[i] / constants.number_density - 1;
-      return constants.crowd_share * maximum(Real(0), excess - constants.crowd_excess);
+      const Real share  = constants.crowd_rate > 0
+                            ? minimum(constants.crowd_share, constants.crowd_rate * dt)
+                            : constants.crowd_share;
+      return share * maximum(Real(0), excess - constants.crowd_excess);
     }
 
     /// gamma

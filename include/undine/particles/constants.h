@@ -61,6 +61,7 @@ namespace undine::particles
 
     Real crowd_excess; ///< of n* over n0 from which on particles crowd [1]
     Real crowd_share;  ///< of the excess beyond that, removed in a sub-step [1]
+    Real crowd_rate;   ///< and in a second, if that is less [1/s]; 0: no such bound
 
     Real surface_density;       ///< n* < this * n0: at the free surface
     Real one_sided_density;     ///< n* < this * n0 and

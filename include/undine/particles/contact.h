@@ -9,7 +9,9 @@ namespace undine::particles
   /// Contact of elastic bodies with walls, with each other, and of parts of a body that were not
   /// neighbours: particles closer than the spacing repel with the force k (q^4 - q^3) r, q = l0 /
   /// |r|, equal and opposite: a spring of stiffness k when they touch, a barrier when they are
-  /// pressed into each other. Who may come into contact is listed once for all steps of a run.
+  /// pressed into each other. Neighbours in the reference repel alike from 0.4 l0 on: where a body
+  /// is folded, mean deformations do not tell that they come to the same place. Who may come into
+  /// contact is listed once for all steps of a run.
   template <int dim, class Real>
   struct Contact
   {
@@ -22,8 +24,7 @@ namespace undine::particles
     int                     *counts;   ///< of partners, by identity
     int                     *partners; ///< identities, or walls' sorted places p as -1 - p
 
-    /// Those that are near enough to touch within a sub-step. Bonded neighbours do not count:
-    /// elasticity acts between them. Returns how many they are.
+    /// Those that are near enough to touch within a sub-step. Returns how many they are.
     template <class Lanes>
     UNDINE_HOST_DEVICE
     int
@@ -62,43 +63,49 @@ namespace undine::particles
     /// What contact does to a particle.
     struct Response
     {
-      Vector<dim, Real> acceleration;     ///< [m/s^2]
-      Real              frequency_square; ///< bound on that of what it lets the particle do [1/s^2]
+      Vector<dim, Real> acceleration; ///< [m/s^2]
+      /// Bounds on the squares of the frequency that contact lets it have, and of the rate at which
+      /// it comes closer to others [1/s^2].
+      Real frequency_square, closing_square;
     };
 
-    /// Of a particle at x with `count` partners. point_of(identity) is where a partner is.
+    /// Of a particle with `count` partners. point_of(identity) is where a partner is.
     template <class Lanes, class Points>
     UNDINE_HOST_DEVICE
     Response
-    response(const int                identity,
-             const Vector<dim, Real> &x,
-             const int                count,
-             const Lanes             &lanes,
-             const Points            &point_of) const
+    response(const int                      identity,
+             const ElasticPoint<dim, Real> &point,
+             const int                      count,
+             const Lanes                   &lanes,
+             const Points                  &point_of) const
     {
-      Response sum = {Vector<dim, Real>::zero(), 0};
+      Response sum = {Vector<dim, Real>::zero(), 0, 0};
       if (count == 0)
         return sum;
-      const Real own = bodies.materials[bodies.bodies[identity]].contact;
       for (int k = lanes.rank(); k < count; k += lanes.count())
         {
           const int  partner = partners[list_slot(identity, k, neighbours.capacity)];
           const bool is_wall = partner < 0;
-          const auto other   = is_wall ? neighbours.places[-1 - partner].x : point_of(partner);
-          const auto r       = neighbours.grid.difference(x, other);
+          const auto other   = is_wall ? ElasticPoint<dim, Real>{neighbours.places[-1 - partner].x,
+                                                                 Vector<dim, Real>::zero()}
+                                       : point_of(partner);
+          const auto r       = neighbours.grid.difference(point.x, other.x);
           const Real square  = norm_square(r);
-          if (square < spacing * spacing)
+          const Real touch   = touching_distance(identity, is_wall ? identity : partner);
+          if (square < touch * touch)
             {
-              const Real stiffness =
-                is_wall ? own : minimum(own, bodies.materials[bodies.bodies[partner]].contact);
-              const Real q = spacing * inverse_square_root(square);
-              sum.acceleration += (stiffness * (q - 1) * q * q * q) * r;
-              sum.frequency_square += 2 * stiffness * (3 * q - 2) * q * q * q;
+              const Real k_ij    = stiffness(identity, partner);
+              const Real q       = touch * inverse_square_root(square);
+              const Real closing = minimum(Real(0), r * (other.v - point.v) / square);
+              sum.acceleration += (k_ij * (q - 1) * q * q * q) * r;
+              sum.frequency_square += 2 * k_ij * (3 * q - 2) * q * q * q;
+              sum.closing_square += closing * closing;
             }
         }
       const Real inverse_mass = 1 / (bodies.materials[bodies.bodies[identity]].density * volume);
       return {inverse_mass * lanes.sum(sum.acceleration),
-              inverse_mass * lanes.sum(sum.frequency_square)};
+              inverse_mass * lanes.sum(sum.frequency_square),
+              lanes.sum(sum.closing_square)};
     }
 
     /// At the present points.
@@ -108,12 +115,30 @@ namespace undine::particles
     response(const int identity, const Lanes &lanes) const
     {
       return response(
-        identity, bodies.points[identity].x, counts[identity], lanes, [&](const int partner) {
-          return bodies.points[partner].x;
+        identity, bodies.points[identity], counts[identity], lanes, [&](const int partner) {
+          return bodies.points[partner];
         });
     }
 
   private:
+    /// Of the softer one; a wall does not give [N/m, in the plane per m].
+    UNDINE_HOST_DEVICE
+    Real
+    stiffness(const int identity, const int partner) const
+    {
+      const Real own = bodies.materials[bodies.bodies[identity]].contact;
+      return partner < 0 ? 2 * own : minimum(own, bodies.materials[bodies.bodies[partner]].contact);
+    }
+
+    /// [m]; of a wall's particle that of `identity` itself.
+    UNDINE_HOST_DEVICE
+    Real
+    touching_distance(const int identity, const int other) const
+    {
+      const Real folded = Real(0.4);
+      return other != identity && are_bonded(identity, other) ? folded * spacing : spacing;
+    }
+
     /// Is the neighbour at place j of i, where `identity` is? Reads all that it may need at once.
     UNDINE_HOST_DEVICE
     bool
@@ -122,10 +147,9 @@ namespace undine::particles
       const auto place    = neighbours.places[j];
       const int  other    = identities[j];
       const bool is_solid = place.tag.kind() == Kind::solid;
-      const bool bonded   = are_bonded(identity, is_solid ? other : identity) && is_solid;
-      const Real near     = Real(1.6) * spacing;
+      const Real near     = Real(1.6) * touching_distance(identity, is_solid ? other : identity);
       partner             = is_solid ? other : -1 - j;
-      return place.tag.kind() != Kind::fluid && !bonded &&
+      return place.tag.kind() != Kind::fluid &&
              norm_square(neighbours.grid.difference(place.x, neighbours.places[i].x)) < near * near;
     }
 

@@ -41,6 +41,8 @@ namespace undine::particles
     StepBounds                 bounds;
     StepControl               *control;
 
+    using Response = typename Contact<dim, Real>::Response;
+
     template <class Team>
     UNDINE_HOST_DEVICE
     void
@@ -99,17 +101,18 @@ namespace undine::particles
       return purpose == ElasticRun::final ? pressure_accelerations[i] : Vector<dim, Real>::zero();
     }
 
-    /// How fast the fastest waves and the hardest contacts of a particle are, as in StepBounds
-    /// [1/s]; 0: not faster than those of bodies at rest.
+    /// How fast the fastest waves, the hardest and the fastest contacts of a particle are, as in
+    /// StepBounds [1/s]; 0: not faster than those of bodies at rest.
     UNDINE_HOST_DEVICE
     float
     rate_of(const ElasticMaterial<Real> &material,
             const Matrix<dim, Real>     &F,
-            const Real                   contact_frequency_square) const
+            const Response              &contacts) const
     {
       const Real square =
         elasticity.sound_square(material, F) / (elasticity.spacing * elasticity.spacing) +
-        contact_frequency_square / lattice_frequency_square;
+        contacts.frequency_square / lattice_frequency_square +
+        contacts.closing_square * closing_factor * closing_factor;
       return square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate)
                ? static_cast<float>(sqrt(square))
                : 0.f;
@@ -190,6 +193,9 @@ namespace undine::particles
     /// stable up to about 0.95 l0 / c_p.
     static constexpr Real lattice_frequency_square = Real(4.4);
 
+    /// In a step two may come closer by elastic_share over this of their distance.
+    static constexpr Real closing_factor = Real(4);
+
     UNDINE_HOST_DEVICE
     ElasticBodies<dim, Real> &
     bodies()
@@ -244,7 +250,7 @@ namespace undine::particles
     void
     measure_rate(const int i, const Lanes &lanes, std::uint32_t *measured) const
     {
-      const Real contacts = contact.response(i, lanes).frequency_square;
+      const auto contacts = contact.response(i, lanes);
       if (lanes.rank() != 0)
         return;
       const auto &bodies = elasticity.bodies;

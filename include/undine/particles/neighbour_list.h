@@ -131,7 +131,7 @@ namespace undine::particles
     }
 
     /// A full lattice has 12 neighbours in the plane and 32 in space.
-    static constexpr int capacity = dim * dim * 8;
+    static constexpr int capacity = dim * dim * dim * 4;
 
   private:
     Executor             &executor;
