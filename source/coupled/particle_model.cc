@@ -10,9 +10,7 @@ namespace undine
 {
   namespace
   {
-    constexpr double apart   = 0.9;  // from other kinds of particles at the start [spacings]
-    constexpr double overlap = 0.55; // nearer bodies lie on each other [spacings]
-    constexpr double inside  = 0.25; // deeper in another body is on it [spacings]
+    constexpr double inside = 0.25; // deeper in another body is on it [spacings]
 
 
     const Options &
@@ -107,7 +105,8 @@ namespace undine
     std::optional<ParticleFluid<dim>> fluid;
     if (scene.section("Fluid").given())
       fluid.emplace(scene);
-    const auto obstacles = read_particle_obstacles(scene, box);
+    auto obstacles = read_particle_obstacles(scene, box);
+    moving         = std::move(obstacles.moving);
 
     constants.spacing  = box.spacing;
     constants.lower    = plain<dim>(box.outermost_lower());
@@ -128,6 +127,7 @@ namespace undine
                         fmt::format("there are {} bodies", bodies.size()),
                         fmt::format("Allowed: at most {}.", particles::inflow_material - 1));
     place_bodies(bodies, obstacles);
+    add_moving_walls(bodies);
     auto                             walls = box.wall_particles();
     std::vector<InflowParticle<dim>> inflow;
     if (fluid)
@@ -219,37 +219,6 @@ namespace undine
     const auto remark = volume_remark(body, box.spacing);
     if (!remark.empty())
       remarks.push_back(remark);
-  }
-
-
-  template <int dim>
-  void
-  ParticleModel<dim>::place_walls(std::vector<WallParticle<dim>>       &walls,
-                                  const std::vector<ParticleBody<dim>> &bodies,
-                                  const ParticleObstacles<dim>         &obstacles)
-  {
-    walls.insert(walls.end(), obstacles.particles.begin(), obstacles.particles.end());
-    std::vector<WallParticle<dim>> result;
-    for (const auto &wall : walls)
-      {
-        bool room = true; // what is held in a wall takes its place
-        occupied.for_each_near(wall.place, apart * box.spacing, [&](const std::size_t k) {
-          room = room && !constants.held[k];
-        });
-        if (!room)
-          continue;
-        result.push_back(wall);
-        occupied.for_each_near(wall.place, overlap * box.spacing, [&](const std::size_t k) {
-          const auto &body = bodies[constants.body_of[k]];
-          throw body.options.error("",
-                                   "the body reaches into a wall at (" + write_value(occupied[k]) +
-                                     ")",
-                                   "Try: move it away by a spacing, or hold it there.");
-        });
-      }
-    for (const auto &wall : result)
-      occupied.add(wall.place);
-    walls = std::move(result);
   }
 
 
@@ -351,19 +320,6 @@ namespace undine
 
   template <int dim>
   void
-  ParticleModel<dim>::add_walls(const std::vector<WallParticle<dim>> &walls)
-  {
-    using particles::Kind;
-    n_wall = walls.size();
-    for (const auto &wall : walls)
-      add(wall.place,
-          dealii::Tensor<1, dim>(),
-          particles::Tag::of(wall.layer == 0 ? Kind::wall : Kind::dummy, 0));
-  }
-
-
-  template <int dim>
-  void
   ParticleModel<dim>::add(const dealii::Point<dim>     &place,
                           const dealii::Tensor<1, dim> &velocity,
                           const particles::Tag          tag)
@@ -380,11 +336,12 @@ namespace undine
   std::string
   ParticleModel<dim>::counts() const
   {
-    return fmt::format("{} of fluid, {} of {} bodies, {} of walls{}; {:.4g} m apart",
+    return fmt::format("{} of fluid, {} of {} bodies, {} of walls{}{}; {:.4g} m apart",
                        n_fluid,
                        constants.reference.size(),
                        names.size(),
                        n_wall,
+                       moving.empty() ? "" : fmt::format(", {} of moving ones", constants.n_moving),
                        n_inflow == 0 ? "" : fmt::format(", {} behind inflows", n_inflow),
                        box.spacing);
   }

@@ -105,7 +105,8 @@ namespace undine
     load(state);
     is_loaded = false; // until the frame is known to be good
     Report report;
-    report.dt          = dt;
+    report.dt = dt;
+    engine->move_walls(model->wall_paths(state.clock.time, dt));
     const auto control = advance(state, dt);
     auto       fetched = state.particles; // which stay as they are if the frame is no good
     fetch(fetched, report, control);

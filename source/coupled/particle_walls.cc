@@ -45,10 +45,28 @@ namespace undine
     }
 
 
+    /// Where it rests, or is at the start of a motion.
+    template <int dim>
+    std::unique_ptr<const SurfaceDistance<dim>>
+    closed_surface(const ShapeDescription<dim> &description,
+                   const Expression<dim, dim>  *displacement = nullptr)
+    {
+      auto       boundary = make_shape_boundary(description);
+      const auto surface  = boundary.surface(description.name);
+      if (displacement != nullptr)
+        for (auto &node : boundary.nodes)
+          node += displacement->vector(node, 0.);
+      check_closed(surface, boundary.nodes);
+      return std::make_unique<const SurfaceDistance<dim>>(surface, boundary.nodes);
+    }
+
+
     /// Lattice points inside the surface as far as walls reach, with their layers.
     template <int dim>
     std::vector<WallParticle<dim>>
-    lattice_points(const ParticleDomain<dim> &domain, const SurfaceDistance<dim> &surface)
+    lattice_points(const ParticleDomain<dim>      &domain,
+                   const dealii::BoundingBox<dim> &region,
+                   const SurfaceDistance<dim>     &surface)
     {
       const double         l0 = domain.spacing;
       std::array<int, dim> begin, index, end;
@@ -56,9 +74,9 @@ namespace undine
         {
           const double width = domain.layers * l0; // in the walls around, for an even end
           const double from =
-            std::max(surface.box().lower_bound(axis) - l0, domain.lower[axis] - width);
+            std::max(surface.box().lower_bound(axis) - l0, region.lower_bound(axis) - width);
           const double to =
-            std::min(surface.box().upper_bound(axis) + l0, domain.upper[axis] + width);
+            std::min(surface.box().upper_bound(axis) + l0, region.upper_bound(axis) + width);
           begin[axis] = std::floor((from - domain.lower[axis]) / l0);
           end[axis]   = std::ceil((to - domain.lower[axis]) / l0);
           if (begin[axis] >= end[axis])
@@ -135,12 +153,13 @@ namespace undine
     }
 
 
-    /// Those that are in the domain and not on each other, upper layers first.
+    /// Those that are in the region and not on each other, upper layers first.
     template <int dim>
     std::vector<WallParticle<dim>>
-    accepted(std::vector<WallParticle<dim>> particles,
-             const ParticleDomain<dim>     &domain,
-             const SurfaceDistance<dim>    &surface)
+    accepted(std::vector<WallParticle<dim>>  particles,
+             const ParticleDomain<dim>      &domain,
+             const dealii::BoundingBox<dim> &region,
+             const SurfaceDistance<dim>     &surface)
     {
       std::stable_sort(particles.begin(), particles.end(), [](const auto &a, const auto &b) {
         return a.layer < b.layer;
@@ -148,7 +167,8 @@ namespace undine
       PointGrid<dim>                 kept(domain.spacing);
       std::vector<WallParticle<dim>> result;
       for (const auto &particle : particles)
-        if (domain.contains(particle.place) && surface.nearest(particle.place).distance < 0 &&
+        if (region.point_inside(particle.place, 0.) &&
+            surface.nearest(particle.place).distance < 0 &&
             !kept.any_near(particle.place, nearest_accepted * domain.spacing))
           {
             kept.add(particle.place);
@@ -161,9 +181,11 @@ namespace undine
 
   template <int dim>
   std::vector<WallParticle<dim>>
-  fit_wall_particles(const ParticleDomain<dim> &domain, const SurfaceDistance<dim> &surface)
+  fit_wall_particles(const ParticleDomain<dim>      &domain,
+                     const dealii::BoundingBox<dim> &region,
+                     const SurfaceDistance<dim>     &surface)
   {
-    auto particles = lattice_points(domain, surface);
+    auto particles = lattice_points(domain, region, surface);
     for (unsigned int k = 0; k < relaxations; ++k)
       {
         if (k > 0)
@@ -173,7 +195,7 @@ namespace undine
         if (k == projections)
           particles = without_misfits(particles, domain, surface);
       }
-    return accepted(particles, domain, surface);
+    return accepted(particles, domain, region, surface);
   }
 
 
@@ -188,43 +210,119 @@ namespace undine
   }
 
 
+  namespace
+  {
+    /// What a scene says about one obstacle.
+    template <int dim>
+    struct Obstacle
+    {
+      Obstacle(const std::string &name, const Options &options)
+        : description(name, options)
+      {
+        options.add("Displacement",
+                    displacement,
+                    "m",
+                    Allowed::anything(),
+                    "At time t, of the point that rests at x: a prescribed motion.");
+      }
+
+      ShapeDescription<dim> description;
+      Expression<dim, dim>  displacement;
+    };
+
+
+    template <int dim>
+    std::vector<Obstacle<dim>>
+    read_obstacles(const Options &scene)
+    {
+      const auto                 section = scene.section("Obstacles");
+      std::vector<Obstacle<dim>> result;
+      for (const auto &name : section.named_sections("pillar"))
+        result.emplace_back(name, section.section(name));
+      return result;
+    }
+
+
+    template <int dim>
+    std::vector<WallParticle<dim>>
+    fitted(const Obstacle<dim>            &obstacle,
+           const ParticleDomain<dim>      &domain,
+           const dealii::BoundingBox<dim> &region,
+           const SurfaceDistance<dim>     &surface)
+    {
+      const auto result = fit_wall_particles(domain, region, surface);
+      if (result.empty())
+        throw obstacle.description.options.error(
+          "",
+          "the obstacle holds no particle: it is outside the domain or thinner than a spacing",
+          "Try: a smaller 'Particles / Spacing', or a larger obstacle.");
+      return result;
+    }
+
+
+    template <int dim>
+    void
+    add_fixed(ParticleObstacles<dim>    &result,
+              PointGrid<dim>            &taken,
+              const Obstacle<dim>       &obstacle,
+              const ParticleDomain<dim> &domain)
+    {
+      auto surface = closed_surface(obstacle.description);
+      for (const auto &particle :
+           fitted(obstacle, domain, {{domain.lower, domain.upper}}, *surface))
+        {
+          if (result.contain(particle.place) ||
+              taken.any_near(particle.place, nearest_accepted * domain.spacing))
+            continue; // in an obstacle that came before
+          taken.add(particle.place);
+          result.particles.push_back(particle);
+        }
+      result.surfaces.push_back(std::move(surface));
+    }
+
+
+    /// All of it, for it may come into the domain.
+    template <int dim>
+    void
+    add_moving(ParticleObstacles<dim>    &result,
+               PointGrid<dim>            &taken,
+               const Obstacle<dim>       &obstacle,
+               const ParticleDomain<dim> &domain)
+    {
+      const auto &description = obstacle.description;
+      const auto  at_rest     = closed_surface(description);
+      auto        region      = at_rest->box();
+      region.extend(domain.spacing);
+      result.moving.emplace_back(description.options,
+                                 description.name,
+                                 obstacle.displacement,
+                                 fitted(obstacle, domain, region, *at_rest));
+      const auto particles = result.moving.back().at_start();
+      for (const auto &particle : particles)
+        if (taken.any_near(particle.place, nearest_accepted * domain.spacing))
+          throw description.options.error(
+            "",
+            "the obstacle moves and is on another one that moves at (" +
+              write_value(particle.place) + ")",
+            "Try: move them apart.");
+      for (const auto &particle : particles)
+        taken.add(particle.place);
+      result.surfaces.push_back(closed_surface(description, &obstacle.displacement));
+    }
+  } // namespace
+
+
   template <int dim>
   ParticleObstacles<dim>
   read_particle_obstacles(const Options &scene, const ParticleDomain<dim> &domain)
   {
-    const auto             section = scene.section("Obstacles");
     ParticleObstacles<dim> result;
-    PointGrid<dim>         taken(domain.spacing);
-    for (const auto &name : section.named_sections("pillar"))
-      {
-        const auto options = section.section(name);
-        if (options.given("Displacement"))
-          throw options.error("Displacement",
-                              "moves the obstacle, but walls of particles are fixed",
-                              "Remove it, or use another 'Scheme'.");
-        const ShapeDescription<dim> description(name, options);
-        const auto                  boundary = make_shape_boundary(description);
-        const auto                  surface  = boundary.surface(name);
-        check_closed(surface, boundary.nodes);
-        auto distance = std::make_unique<const SurfaceDistance<dim>>(surface, boundary.nodes);
-
-        bool any = false;
-        for (const auto &particle : fit_wall_particles(domain, *distance))
-          {
-            any = true;
-            if (result.contain(particle.place) ||
-                taken.any_near(particle.place, nearest_accepted * domain.spacing))
-              continue; // in an obstacle that came before
-            taken.add(particle.place);
-            result.particles.push_back(particle);
-          }
-        if (!any)
-          throw options.error("",
-                              "the obstacle holds no particle: it is outside the domain or thinner "
-                              "than a spacing",
-                              "Try: a smaller 'Particles / Spacing', or a larger obstacle.");
-        result.surfaces.push_back(std::move(distance));
-      }
+    PointGrid<dim>         taken(domain.spacing), taken_by_moving(domain.spacing);
+    for (const auto &obstacle : read_obstacles<dim>(scene))
+      if (obstacle.displacement.is_zero())
+        add_fixed(result, taken, obstacle, domain);
+      else
+        add_moving(result, taken_by_moving, obstacle, domain);
     return result;
   }
 
@@ -233,18 +331,16 @@ namespace undine
   void
   declare_particle_obstacles(const Options &scene)
   {
-    const auto section = scene.section("Obstacles");
-    for (const auto &name : section.named_sections("pillar"))
-      ShapeDescription<dim>(name, section.section(name));
+    read_obstacles<dim>(scene);
   }
 
 
-#define UNDINE_INSTANTIATE(dim)                                                             \
-  template std::vector<WallParticle<dim>> fit_wall_particles(const ParticleDomain<dim> &,   \
-                                                             const SurfaceDistance<dim> &); \
-  template struct ParticleObstacles<dim>;                                                   \
-  template ParticleObstacles<dim> read_particle_obstacles(const Options &,                  \
-                                                          const ParticleDomain<dim> &);     \
+#define UNDINE_INSTANTIATE(dim)                                                                   \
+  template std::vector<WallParticle<dim>> fit_wall_particles(                                     \
+    const ParticleDomain<dim> &, const dealii::BoundingBox<dim> &, const SurfaceDistance<dim> &); \
+  template struct ParticleObstacles<dim>;                                                         \
+  template ParticleObstacles<dim> read_particle_obstacles(const Options &,                        \
+                                                          const ParticleDomain<dim> &);           \
   template void                   declare_particle_obstacles<dim>(const Options &);
 
   UNDINE_INSTANTIATE(2)

@@ -42,9 +42,10 @@ namespace undine::particles
       const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
       if (twice != sorted.end())
         throw InputError("two particles have the identity " + std::to_string(*twice) + ".");
-      for (std::size_t i = 0; i < n_solid; ++i)
+      for (std::size_t i = 0; i < n_solid + setup.n_moving; ++i)
         if (i >= n || sorted[i] != static_cast<int>(i))
-          throw InputError("particle " + std::to_string(i) + " of the bodies is missing.");
+          throw InputError("particle " + std::to_string(i) +
+                           " of the bodies or moving walls is missing.");
     }
 
 
@@ -53,10 +54,13 @@ namespace undine::particles
     check_tag(const Setup<dim> &setup, const ParticleState<dim> &state, const std::size_t i)
     {
       const Tag  tag     = state.tags[i];
-      const bool is_body = static_cast<std::size_t>(state.identities[i]) < setup.reference.size();
-      if ((tag.kind() == Kind::solid) != is_body ||
+      const int  n_solid = static_cast<int>(setup.reference.size());
+      const bool is_body = state.identities[i] < n_solid;
+      const bool moves   = !is_body && state.identities[i] < n_solid + setup.n_moving;
+      if ((tag.kind() == Kind::solid) != is_body || (tag.material() == moving_material) != moves ||
           (is_body && tag.material() != setup.body_of[state.identities[i]] + 1) ||
-          (!is_body && tag.material() != 0 && tag.material() != inflow_material))
+          (!is_body && !moves && tag.material() != 0 && !tag.is_yielding() &&
+           tag.material() != inflow_material))
         throw InputError(name_of(state, i) + " does not belong to the body that its tag says.");
     }
 
@@ -69,8 +73,9 @@ namespace undine::particles
         {
           if (!std::isfinite(state.positions[i][axis]) || !std::isfinite(state.velocities[i][axis]))
             throw InputError(name_of(state, i) + " has a place or velocity that is not a number.");
-          if (state.positions[i][axis] < setup.lower[axis] ||
-              state.positions[i][axis] > setup.upper[axis])
+          if (state.tags[i].material() != moving_material &&
+              (state.positions[i][axis] < setup.lower[axis] ||
+               state.positions[i][axis] > setup.upper[axis]))
             throw InputError(name_of(state, i) +
                              " is outside the domain. Make the domain larger or move what is there "
                              "inside.");
@@ -125,6 +130,8 @@ namespace undine::particles
       void
       check(const std::size_t i, const std::size_t j) const
       {
+        if (may_overlap(state.tags[i], state.tags[j]) || may_overlap(state.tags[j], state.tags[i]))
+          return;
         const double square = norm_square(grid.difference(state.positions[i], state.positions[j]));
         if (square >= distance * distance)
           return;
@@ -133,6 +140,13 @@ namespace undine::particles
              << std::sqrt(square)
              << " m apart, less than half a spacing. Do bodies, obstacles or fluid overlap?";
         throw InputError(text.str());
+      }
+
+      /// Walls yield to moving ones.
+      static bool
+      may_overlap(const Tag moving, const Tag wall)
+      {
+        return moving.material() == moving_material && !wall.is_free();
       }
 
       static constexpr bool open[dim] = {};

@@ -55,6 +55,10 @@ namespace undine
       return start;
     }
 
+    /// How obstacles move in a frame of `length` [s] that begins at `time` [s].
+    particles::WallPaths<dim>
+    wall_paths(double time, double length) const;
+
     const ParticleNumerics &
     numerics() const
     {
@@ -119,12 +123,18 @@ namespace undine
     }
 
   private:
+    static constexpr double apart   = 0.9;  ///< other kinds of particles at the start [spacings]
+    static constexpr double overlap = 0.55; ///< nearer ones lie on each other [spacings]
+
     void
     apply(const NamedEffects<dim> &effects, const Options &scene);
     void
     place_bodies(std::vector<ParticleBody<dim>> &bodies, const ParticleObstacles<dim> &obstacles);
     void
     add_body(const ParticleBody<dim> &body);
+    /// Before all walls that do not move, and fluid.
+    void
+    add_moving_walls(const std::vector<ParticleBody<dim>> &bodies);
     void
     place_walls(std::vector<WallParticle<dim>>       &walls,
                 const std::vector<ParticleBody<dim>> &bodies,
@@ -147,17 +157,18 @@ namespace undine
         const dealii::Tensor<1, dim> &velocity,
         const particles::Tag          tag);
 
-    MPI_Comm                      ranks;
-    ParticleNumerics              particle_numerics;
-    ParticleDomain<dim>           box;
-    particles::Setup<dim>         constants;
-    particles::ParticleState<dim> start;
-    std::vector<std::string>      names; ///< of the bodies
-    std::size_t                   n_fluid = 0, n_inflow = 0, n_wall = 0, n_openings = 0;
-    std::size_t                   most_fluid      = 0; ///< that closed walls have room for; 0: any
-    bool                          walls_are_shown = false;
-    std::vector<std::string>      remarks;
-    PointGrid<dim>                occupied; ///< by bodies, then also by walls
+    MPI_Comm                         ranks;
+    ParticleNumerics                 particle_numerics;
+    ParticleDomain<dim>              box;
+    particles::Setup<dim>            constants;
+    particles::ParticleState<dim>    start;
+    std::vector<std::string>         names; ///< of the bodies
+    std::vector<MovingObstacle<dim>> moving;
+    std::size_t                      n_fluid = 0, n_inflow = 0, n_wall = 0, n_openings = 0;
+    std::size_t                      most_fluid = 0; ///< that closed walls have room for; 0: any
+    bool                             walls_are_shown = false;
+    std::vector<std::string>         remarks;
+    PointGrid<dim>                   occupied; ///< by bodies, then also by walls
   };
 } // namespace undine
 

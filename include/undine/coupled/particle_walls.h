@@ -2,6 +2,7 @@
 #ifndef undine_coupled_particle_walls_h
 #define undine_coupled_particle_walls_h
 
+#include <undine/coupled/moving_obstacle.h>
 #include <undine/coupled/particle_domain.h>
 #include <undine/interface/surface_distance.h>
 
@@ -10,23 +11,26 @@
 
 namespace undine
 {
-  /// Particles of a fixed wall behind a closed surface of any shape, inside it and inside the
-  /// domain, layer k at the depth (k + 1/2) spacings. Within a layer they are as far from each
+  /// Particles of a wall behind a closed surface of any shape, inside it and inside `region` [m],
+  /// layer k at the depth (k + 1/2) spacings. Within a layer they are as far from each
   /// other as disorder allows: lattice points are moved to the depth of their layer, then apart
   /// from each other along it. Where surface and lattice fit each other they stay a lattice. Of
   /// thin walls, layers for which there is no room lie where they fit.
   template <int dim>
   std::vector<WallParticle<dim>>
-  fit_wall_particles(const ParticleDomain<dim> &domain, const SurfaceDistance<dim> &surface);
+  fit_wall_particles(const ParticleDomain<dim>      &domain,
+                     const dealii::BoundingBox<dim> &region,
+                     const SurfaceDistance<dim>     &surface);
 
-  /// The section `Obstacles`: fixed walls of any shape.
+  /// The section `Obstacles`: walls of any shape, fixed or moving as prescribed.
   template <int dim>
   struct ParticleObstacles
   {
     std::vector<std::unique_ptr<const SurfaceDistance<dim>>> surfaces;
-    std::vector<WallParticle<dim>>                           particles;
+    std::vector<WallParticle<dim>>                           particles; ///< of fixed ones
+    std::vector<MovingObstacle<dim>>                         moving;
 
-    /// Is a place inside any of them?
+    /// Is a place inside any of them at the start?
     bool
     contain(const dealii::Point<dim> &place) const;
   };

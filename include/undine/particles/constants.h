@@ -38,7 +38,7 @@ namespace undine::particles
   template <int dim, class Real>
   struct Constants
   {
-    static constexpr int max_materials = 16;
+    static constexpr int max_materials = 18;
 
     CellGrid<dim, Real> grid;
     Real                spacing;        ///< l0 [m]

@@ -3,6 +3,7 @@
 #define undine_particles_engine_h
 
 #include <undine/base/core/registry.h>
+#include <undine/particles/moving_walls.h>
 #include <undine/particles/particle_state.h>
 #include <undine/particles/pass_results.h>
 #include <undine/particles/setup.h>
@@ -40,6 +41,10 @@ namespace undine::particles
     /// of each other, more bodies than materials.
     virtual void
     load(const Setup<dim> &setup, const ParticleState<dim> &state) = 0;
+
+    /// How moving walls move in the next frame; to be said before each one, if there are any.
+    virtual void
+    move_walls(const WallPaths<dim> &paths) = 0;
 
     /// A frame of `length` [s] in sub-steps. Throws SolveError with the reason if it cannot be
     /// completed.

@@ -93,17 +93,24 @@ namespace undine::particles
     Vector<dim, Real>
     friction_of_walls(const int i, const Vector<dim, Real> &v, const Real dt) const
     {
-      auto wall = Vector<dim, Real>::zero();
-      neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) {
-        if (!pair.tag.is_free() && pair.tag.material() == 0)
-          wall += pair.weight_over_square() * pair.r;
+      auto wall = Vector<dim, Real>::zero(), wall_velocity = wall;
+      Real weight = 0;
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        const bool moves = pair.tag.material() == moving_material;
+        if (pair.tag.is_free() || (pair.tag.material() != 0 && !moves))
+          return;
+        wall += pair.weight_over_square() * pair.r;
+        weight += pair.weight;
+        if (moves)
+          wall_velocity += pair.weight * motions[j].v;
       });
       wall *= dim / constants.number_density;
       const Real square = norm_square(wall);
       if (!(square > 0))
         return wall;
-      const auto along = v - ((v * wall) / square) * wall;
-      const Real speed = sqrt(norm_square(along));
+      const auto relative = v - (1 / weight) * wall_velocity;
+      const auto along    = relative - ((relative * wall) / square) * wall;
+      const Real speed    = sqrt(norm_square(along));
       if (!(speed > 0))
         return Vector<dim, Real>::zero();
       const Real u    = constants.wall_friction.friction_velocity(speed, constants.spacing / 2);

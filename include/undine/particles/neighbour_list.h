@@ -28,7 +28,7 @@ namespace undine::particles
     {
       const Place<dim, Real> place = places[i];
       Row                    row{indices + list_slot(i, 0, capacity), 0};
-      if (place.tag.kind() != Kind::dummy && !place.tag.is_parked())
+      if (place.tag.kind() != Kind::dummy && !place.tag.is_yielding())
         grid.for_each_run_around(
           place.x, [&](const int first_cell, const int end_cell, const Vector<dim, Real> &x) {
             collect(i, x, starts[first_cell], starts[end_cell], row);
@@ -83,7 +83,7 @@ namespace undine::particles
             const Place<dim, Real>  &other,
             Row                     &row) const
     {
-      if (norm_square(other.x - x) < reach * reach && j != i)
+      if (norm_square(other.x - x) < reach * reach && j != i && !other.tag.is_yielding())
         {
           if (row.count < capacity)
             *row.next = j;

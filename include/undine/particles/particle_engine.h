@@ -31,8 +31,17 @@ namespace undine::particles
     {
       check_state(new_setup, state);
       setup = new_setup;
+      paths.clear();
       measure_inflows(state);
       load(state, frames_in_reserve * entering(0));
+    }
+
+    void
+    move_walls(const WallPaths<dim> &paths_of_frame) override
+    {
+      if (static_cast<int>(paths_of_frame.size()) != setup.n_moving)
+        throw InputError("paths are for another number of moving particles than the scene has.");
+      paths = paths_of_frame;
     }
 
     StepControl
@@ -198,7 +207,10 @@ namespace undine::particles
       StepControl fresh;
       fresh.frame         = length;
       fresh.largest_speed = scratch->values()[0].largest_speed;
-      present.write_control(fresh);
+      if (static_cast<int>(paths.size()) != setup.n_moving)
+        throw InputError("it is not said how walls move in this frame.");
+      atomic_maximum(&fresh.largest_speed, static_cast<float>(fastest(paths, length)));
+      present.begin_frame(fresh, paths);
       present.prepare();
       return fresh;
     }
@@ -232,7 +244,10 @@ namespace undine::particles
     succeeded(AnySystem &present, const StepControl &control)
     {
       if (control.failures == 0)
-        return control;
+        {
+          paths.clear();
+          return control;
+        }
       snapshot->restore(present.arrays(), present.elastic());
       throw SolveError(reason_of_failure(control));
     }
@@ -246,6 +261,7 @@ namespace undine::particles
     int                            expected     = 1; ///< sub-steps of the next frame
     int                            n_waiting    = 0; ///< particles behind inflows
     double                         inflow_speed = 0; ///< of the fastest of them [m/s]
+    WallPaths<dim>                 paths;            ///< of this frame
     std::unique_ptr<System<Entry>> system;
     std::unique_ptr<System<Wide>>  wide; ///< instead of `system`
     std::unique_ptr<Snapshot<Executor, dim, Real>> snapshot;

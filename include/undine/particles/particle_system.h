@@ -9,6 +9,7 @@
 #include <undine/particles/elastic_step.h>
 #include <undine/particles/explicit_forces.h>
 #include <undine/particles/make_constants.h>
+#include <undine/particles/moving_walls.h>
 #include <undine/particles/multigrid_arrays.h>
 #include <undine/particles/neighbour_list.h>
 #include <undine/particles/open_boundaries.h>
@@ -47,6 +48,7 @@ namespace undine::particles
       , open(make_open_boundaries<dim, Real>(setup))
       , crossed(executor, open.n > 0 ? n : 0)
       , crossed_before(executor, open.n > 0 ? n : 0)
+      , moving_walls(executor, constants, bodies.n, setup.n_moving)
     {
       using Preconditioner = Numerics::Preconditioner;
       if (numerics.preconditioner == Preconditioner::multigrid ||
@@ -101,9 +103,10 @@ namespace undine::particles
     }
 
     void
-    write_control(const StepControl &value)
+    begin_frame(const StepControl &value, const WallPaths<dim> &paths)
     {
       control.set({value});
+      moving_walls.set_paths(paths);
     }
 
     /// One sub-step of the length that it chooses itself; nothing after the end of the frame.
@@ -147,6 +150,7 @@ namespace undine::particles
                                                   control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
+      moving_walls.move(now.view(), control.data());
       move_bodies(has_fluid ? ElasticRun::attempt : ElasticRun::alone);
     }
 
@@ -178,6 +182,7 @@ namespace undine::particles
       executor.enter(Phase::sort);
       cells.sort(now.view(), next.view(), bodies.where.data(), bodies.n);
       std::swap(now, next);
+      moving_walls.take_room(now.view(), cells.cell_starts());
     }
 
     void
@@ -383,6 +388,7 @@ namespace undine::particles
     PressureArrays<Executor, dim, Real, Entry> equation;
     OpenBoundaries<dim, Real>                  open;
     Buffer<Executor, int>                      crossed, crossed_before;
+    MovingWalls<Executor, dim, Real>           moving_walls;
 
     std::unique_ptr<MultigridArrays<Executor, dim, Real>> multigrid; ///< nullptr: not used
   };

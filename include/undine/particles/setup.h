@@ -103,6 +103,9 @@ namespace undine::particles
 
     std::vector<OpenSide> open_sides;
 
+    /// Particles of walls that move, see MoveWalls: the identities that follow those of bodies.
+    int n_moving = 0;
+
     std::vector<BodySetup>           bodies;
     std::vector<Vector<dim, double>> reference; ///< X [m]
     std::vector<int>                 body_of;   ///< entry of `bodies`

@@ -12,16 +12,6 @@
 
 namespace undine::particles
 {
-  template <int dim, class To, class From>
-  Vector<dim, To>
-  converted(const Vector<dim, From> &from)
-  {
-    Vector<dim, To> to;
-    for (int axis = 0; axis < dim; ++axis)
-      to[axis] = static_cast<To>(from[axis]);
-    return to;
-  }
-
   /// What elastic bodies remember besides places and velocities. Calls f(buffer) for each array.
   template <class Executor, int dim, class Real, class Function>
   void

@@ -111,6 +111,17 @@ namespace undine::particles
     }
   };
 
+  /// In another precision.
+  template <int dim, class To, class From>
+  Vector<dim, To>
+  converted(const Vector<dim, From> &from)
+  {
+    Vector<dim, To> to;
+    for (int axis = 0; axis < dim; ++axis)
+      to[axis] = static_cast<To>(from[axis]);
+    return to;
+  }
+
   /// The same in memory where others read it in any order: the device reads it at once, as one
   /// word.
   template <int dim, class Real>

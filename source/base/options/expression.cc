@@ -129,6 +129,15 @@ namespace undine
 
 
   template <int dim, int n_components>
+  bool
+  Expression<dim, n_components>::names_place() const
+  {
+    static const std::regex place("\\b[xyz]\\b");
+    return std::regex_search(expression, place);
+  }
+
+
+  template <int dim, int n_components>
   const std::string &
   Expression<dim, n_components>::text() const
   {

@@ -153,3 +153,45 @@ TEST_CASE("particles: a wall as thin as two spacings has them")
       }
   CHECK(inside == 20);
 }
+
+
+TEST_CASE("particles: obstacles move as prescribed, and come from outside the domain")
+{
+  // Turns about the origin; half of it is below the floor.
+  const auto model =
+    read_particles<2>(particle_box<2>(20, "set Open sides = top") +
+                      section("Obstacles",
+                              section("paddle",
+                                      "set Lower corner = 6, -5\n set Upper corner = 8, 5\n"
+                                      "set Displacement = (cos(t)-1)*x - sin(t)*y; "
+                                      "(cos(t)-1)*y + sin(t)*x") +
+                                section("gate",
+                                        "set Lower corner = 12, 0\n set Upper corner = 13, 15\n"
+                                        "set Displacement = 0; 3*t")) +
+                      section("Fluid", "set Density = 1000"));
+  CHECK(model.setup().n_moving == 2 * 10 + 15);
+  const double time = .3, length = .01;
+  const auto   paths = model.wall_paths(time, length);
+  REQUIRE(paths.size() == 35);
+  const auto &rest = model.initial_state().positions;
+  for (std::size_t k = 0; k < paths.size(); ++k)
+    {
+      const bool turns = k < 20;
+      CHECK(model.initial_state().tags[k].material() == particles::moving_material);
+      const auto place = [&](const double t) -> particles::Vector<2, double> {
+        if (!turns)
+          return {{rest[k][0], rest[k][1] + 3 * t}};
+        return {{std::cos(t) * rest[k][0] - std::sin(t) * rest[k][1],
+                 std::cos(t) * rest[k][1] + std::sin(t) * rest[k][0]}};
+      };
+      CHECK(norm_square(paths[k].start - place(time)) < 1e-20);
+      CHECK(norm_square(paths[k].start + paths[k].way - place(time + length)) < 1e-20);
+      const auto speed = (1 / (2 * 1e-6)) * (place(time + 1e-6) - place(time - 1e-6));
+      CHECK(norm_square(paths[k].v_start - speed) < 1e-8);
+    }
+  // Fluid keeps off them.
+  for (std::size_t k = 35; k < rest.size(); ++k)
+    if (model.initial_state().tags[k].kind() == Kind::fluid)
+      for (std::size_t m = 0; m < 35; ++m)
+        REQUIRE(norm_square(rest[k] - rest[m]) > .8);
+}

@@ -101,8 +101,13 @@ TEST_CASE("particles: wrong obstacles and effects are refused")
     return particle_box<2>(10) + water + section("Obstacles", section("pillar", keys));
   };
   check_message(obstacle("set Centre = 5, 5\n set Size = 0.001, 4"), {"thinner than a spacing"});
-  check_message(obstacle("set Shape = ball\n set Displacement = t; 0"),
-                {"'Displacement'", "fixed"});
+  check_message(obstacle("set Shape = ball\n set Displacement = log(-1-t); 0"),
+                {"'Displacement'", "not a number at the start"});
+  check_message(particle_box<2>(10) + water +
+                  section("Obstacles",
+                          section("one", "set Displacement = t; 0") +
+                            section("other", "set Displacement = 0; t")),
+                {"'Obstacles/other'", "another one that moves"});
   check_message(obstacle("set Surface = there_is_no_such_file.stl"),
                 {"'Surface'", "cannot be read"});
   check_message(particle_box<2>(10) + water + section("Effects", section("convection", "")),

@@ -38,6 +38,10 @@ namespace undine
     bool
     names_time() const;
 
+    /// True if a coordinate x, y or z occurs in the text.
+    bool
+    names_place() const;
+
     /// True if the text is the number zero (or a list of them): nothing to evaluate.
     bool
     is_zero() const;
