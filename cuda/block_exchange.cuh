@@ -34,11 +34,13 @@ namespace undine::particles
       unsigned int  first_round; ///< never used before
     };
 
+    /// By all threads of the block, which must know the counter's phase before one counts in.
     __device__ explicit BlockExchange(const Workspace &workspace)
       : workspace(workspace)
       , round(workspace.first_round)
       , phase(counted() & flip)
     {
+      __syncthreads();
     }
 
     __device__ __forceinline__ void
