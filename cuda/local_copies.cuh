@@ -8,7 +8,8 @@
 namespace undine::particles
 {
   /// The particles that a block's bonds refer to, with numbers of its own, and copies of vectors
-  /// that they hand out: each is fetched once, in the order of memory, however many bonds there are.
+  /// that they hand out: each is fetched once, in the order of memory, however many bonds there
+  /// are.
   template <int dim>
   class LocalCopies
   {

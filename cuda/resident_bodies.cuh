@@ -39,26 +39,24 @@ namespace undine::particles
         const ElasticStep<dim, float> &step,
         DeviceTeam::Workspace          team_workspace)
     {
-      using Resident   = ResidentElasticity<dim>;
-      const int lanes  = Resident::lanes, n = step.elasticity.bodies.n;
-      const int blocks = std::min(most_blocks(), (n * lanes + few_workers - 1) / few_workers);
-      const int each   = (n + blocks - 1) / blocks;
-      auto      copy   = step;
-      auto      exchange    = room<dim>(executor, n);
-      void     *arguments[] = {&copy, &exchange, &team_workspace};
-      const auto *kernel    = reinterpret_cast<const void *>(kernels::move_bodies<dim>);
-      check_device(cudaFuncSetAttribute(kernel,
-                                        cudaFuncAttributeMaxDynamicSharedMemorySize,
-                                        memory(each, step)),
+      using Resident    = ResidentElasticity<dim>;
+      const int   lanes = Resident::lanes, n = step.elasticity.bodies.n;
+      const int   blocks   = std::min(most_blocks(), (n * lanes + few_workers - 1) / few_workers);
+      const int   each     = (n + blocks - 1) / blocks;
+      auto        copy     = step;
+      auto        exchange = room<dim>(executor, n);
+      void       *arguments[] = {&copy, &exchange, &team_workspace};
+      const auto *kernel      = reinterpret_cast<const void *>(kernels::move_bodies<dim>);
+      check_device(cudaFuncSetAttribute(
+                     kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, memory(each, step)),
                    "to plan the bodies' steps");
-      check_device(
-        cudaLaunchCooperativeKernel(kernel,
-                                    dim3(blocks),
-                                    dim3((each * lanes + 31) / 32 * 32 + 32),
-                                    arguments,
- memory(each, step),
- stream),
-        "to start the bodies' steps");
+      check_device(cudaLaunchCooperativeKernel(kernel,
+                                               dim3(blocks),
+                                               dim3((each * lanes + 31) / 32 * 32 + 32),
+                                               arguments,
+                                               memory(each, step),
+                                               stream),
+                   "to start the bodies' steps");
     }
 
     template <class Executor>

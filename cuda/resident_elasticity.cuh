@@ -10,9 +10,9 @@
 
 namespace undine::particles
 {
-  /// Where the blocks of ResidentElasticity exchange numbers, in rounds, one for each explicit step.
-  /// What one round wrote is overwritten in the next but one; as every block needs the rates of all
-  /// in each round, everybody has read it then.
+  /// Where the blocks of ResidentElasticity exchange numbers, in rounds, one for each explicit
+  /// step. What one round wrote is overwritten in the next but one; as every block needs the rates
+  /// of all in each round, everybody has read it then.
   template <int dim>
   struct ElasticExchange
   {
@@ -27,10 +27,10 @@ namespace undine::particles
   };
 
 
-  /// The explicit steps of ElasticStep with every particle in the registers of some lanes: its state
-  /// and its bonds' reference, which are read once. What others need of it they take as soon as it
-  /// is there, without a barrier: the only thing that everybody waits for in a step is the largest
-  /// rate, which one warp of each block collects while the others fetch tractions.
+  /// The explicit steps of ElasticStep with every particle in the registers of some lanes: its
+  /// state and its bonds' reference, which are read once. What others need of it they take as soon
+  /// as it is there, without a barrier: the only thing that everybody waits for in a step is the
+  /// largest rate, which one warp of each block collects while the others fetch tractions.
   template <int dim>
   class ResidentElasticity
   {
@@ -125,13 +125,13 @@ namespace undine::particles
 
     static constexpr unsigned int everybody = 0xffffffffu; ///< of a warp
 
-    __device__ __forceinline__ FlaggedVector<dim> *
+    __device__ __forceinline__ FlaggedVector<dim>                            *
     point_of(const int particle) const
     {
       return exchange.points + ((round & 1) * exchange.n_room + particle) * 2;
     }
 
-    __device__ __forceinline__ FlaggedVector<dim> *
+    __device__ __forceinline__ FlaggedVector<dim>                            *
     traction_of(const int particle) const
     {
       return exchange.tractions + ((round & 1) * exchange.n_room + particle) * dim;
@@ -143,12 +143,12 @@ namespace undine::particles
     {
       const auto &bodies = step.elasticity.bodies;
 
-      own        = step.elasticity.particle(i);
-      is_held    = bodies.held[i];
-      pressure   = step.pressure_acceleration(i);
-      now.R      = bodies.rotations[i];
-      point      = step.start_of(i);
-      n_bonds    = __reduce_max_sync(everybody, (bodies.counts[i] + lanes - 1) / lanes);
+      own      = step.elasticity.particle(i);
+      is_held  = bodies.held[i];
+      pressure = step.pressure_acceleration(i);
+      now.R    = bodies.rotations[i];
+      point    = step.start_of(i);
+      n_bonds  = __reduce_max_sync(everybody, (bodies.counts[i] + lanes - 1) / lanes);
 #pragma unroll
       for (int k = 0; k < most_bonds; ++k)
         bonds[k] = step.elasticity.reference_bond(i, k * lanes + WarpLanes::rank());
@@ -203,10 +203,8 @@ namespace undine::particles
     {
       now = step.elasticity.deformation(own, now.R, WarpLanes(), [&](const auto &f) {
         for_each_bond([&](auto &bond) {
-          bond = step.elasticity.at_present(bond,
-                                            point,
-                                            copies.template at<0, 2>(bond.j, 0),
-                                            copies.template at<0, 2>(bond.j, 1));
+          bond = step.elasticity.at_present(
+            bond, point, copies.template at<0, 2>(bond.j, 0), copies.template at<0, 2>(bond.j, 1));
           f(bond);
         });
       });
@@ -231,7 +229,7 @@ namespace undine::particles
         return ElasticPoint<dim, float>{x.vector, v.vector};
       });
       __syncwarp();
-      const float rate = step.rate_of(own.material, now.F, touch);
+      const float        rate    = step.rate_of(own.material, now.F, touch);
       const unsigned int largest = __reduce_max_sync(everybody, __float_as_uint(rate));
       if ((threadIdx.x & 31) == 0)
         shared.rates[threadIdx.x / 32] = largest;
@@ -268,8 +266,8 @@ namespace undine::particles
         if (32 * k < blocks)
           largest = max(largest, __float_as_uint(number_in(word[k])));
       __syncwarp();
-      largest         = __reduce_max_sync(0xffffffffu, largest);
-      const double h  = steps.next(__uint_as_float(largest));
+      largest        = __reduce_max_sync(0xffffffffu, largest);
+      const double h = steps.next(__uint_as_float(largest));
       if (lane == 0)
         {
           shared.h       = static_cast<float>(h);
@@ -282,20 +280,19 @@ namespace undine::particles
     {
       auto result = step.force.acceleration(point.x) + pressure;
       result += touch.acceleration;
-      return result +=
-             step.elasticity.acceleration(own, now.T, WarpLanes(), [&](const auto &f) {
-               for_each_bond([&](const auto &bond) {
-                 Matrix<dim, float> T;
+      return result += step.elasticity.acceleration(own, now.T, WarpLanes(), [&](const auto &f) {
+        for_each_bond([&](const auto &bond) {
+          Matrix<dim, float> T;
 #pragma unroll
-                 for (int row = 0; row < dim; ++row)
-                   {
-                     const auto entries = copies.template at<2, dim>(bond.j, row);
-                     for (int column = 0; column < dim; ++column)
-                       T[row][column] = entries[column];
-                   }
-                 f(bond, T);
-               });
-             });
+          for (int row = 0; row < dim; ++row)
+            {
+              const auto entries = copies.template at<2, dim>(bond.j, row);
+              for (int column = 0; column < dim; ++column)
+                T[row][column] = entries[column];
+            }
+          f(bond, T);
+        });
+      });
     }
 
     __device__ __forceinline__ void
@@ -311,20 +308,20 @@ namespace undine::particles
     Shared                     &shared;
     LocalCopies<dim>            copies;
     WarpSignal                  tractions_are_there; ///< for the workers
-    ExplicitSteps               steps; ///< in the last warp
+    ExplicitSteps               steps;               ///< in the last warp
     unsigned int                round;
-    int                         i; ///< the particle
+    int                         i;                   ///< the particle
     bool                        is_worker, is_owner; ///< others repeat what another one does
 
     // Of the particle, in all its lanes but for the bonds.
-    typename Elastic::Particle              own;
-    typename Elastic::Bond                  bonds[most_bonds];
-    typename Elastic::Deformation           now;
-    typename Contact<dim, float>::Response  touch;
-    ElasticPoint<dim, float>                point;
-    Vector<dim, float>                      pressure; ///< acceleration by it
-    bool                                    is_held;
-    int                                     n_bonds, n_partners;
+    typename Elastic::Particle             own;
+    typename Elastic::Bond                 bonds[most_bonds];
+    typename Elastic::Deformation          now;
+    typename Contact<dim, float>::Response touch;
+    ElasticPoint<dim, float>               point;
+    Vector<dim, float>                     pressure; ///< acceleration by it
+    bool                                   is_held;
+    int                                    n_bonds, n_partners;
   };
 
 
@@ -337,7 +334,7 @@ namespace undine::particles
                   const ElasticExchange<dim>                      exchange,
                   const DeviceTeam::Workspace                     workspace)
     {
-      extern __shared__ __align__(16) char                memory[];
+      extern __shared__ __align__(16) char memory[];
       __shared__ Sums<DeviceTeam::most_sums>              of_warps[DeviceTeam::most_warps];
       __shared__ typename ResidentElasticity<dim>::Shared shared;
       if (step.control->done())

@@ -175,8 +175,8 @@ namespace undine::particles
           for (int m = 0; m < at_once; ++m)
             {
               const int k = (first + m) * rows.lanes + lane;
-              entries[m]  = k < count ? matrix.entries[list_slot(row, k, matrix.capacity)] :
-                                        PackedEntry{0};
+              entries[m] =
+                k < count ? matrix.entries[list_slot(row, k, matrix.capacity)] : PackedEntry{0};
             }
 #pragma unroll
           for (int m = 0; m < at_once; ++m)
@@ -321,8 +321,7 @@ namespace undine::particles
         }
       __syncthreads();
       if constexpr (Correction::exists)
-        correction.assemble(
-          rows, corrections, [&](const auto &f) { number_entries(f); });
+        correction.assemble(rows, corrections, [&](const auto &f) { number_entries(f); });
       else
         number_entries([](const int, const int, const unsigned int) {});
       __syncthreads();
