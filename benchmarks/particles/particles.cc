@@ -181,6 +181,11 @@ namespace
     if (choice.phases)
       for (const auto &phase : engine->seconds())
         std::printf("  %-20s %8.4f ms\n", phase.first.c_str(), 1e3 * phase.second / sum.sub_steps);
+    const Throughput memory = engine->throughput();
+    std::printf("  product with the matrix: %.0f GB/s, %.0f %% of the %.0f GB/s of a copy\n",
+                memory.product / 1e9,
+                100 * memory.product / memory.copy,
+                memory.copy / 1e9);
     const bool good = is_plausible(dam, *engine, {time, energy_before, sum.pressure.not_converged});
     std::fflush(stdout);
     return good;

@@ -27,6 +27,8 @@ namespace undine::particles
                        const Tag                   tag,
                        const Pair<dim, Real>      &pair)
   {
+    if (tag.material() == 0 && pair.tag.material() == 0) // mostly, and a quotient takes long
+      return pair.weight;
     return pair.weight * constants.densities[0] / constants.mean_density(tag, pair.tag);
   }
 

@@ -48,6 +48,21 @@ namespace undine::particles
       return result;
     }
 
+    /// Can there be something across a periodic boundary within the reach of x?
+    UNDINE_HOST_DEVICE
+    bool
+    is_beside_periodic_side(const Vector<dim, Real> &x, const Real reach) const
+    {
+      bool result = false;
+      for (int axis = 0; axis < dim; ++axis)
+        {
+          const Real from_lower = x[axis] - lower[axis];
+          result =
+            result || (periodic[axis] && (from_lower < reach || size[axis] - from_lower < reach));
+        }
+      return result;
+    }
+
     /// Back into the box across periodic boundaries.
     UNDINE_HOST_DEVICE
     Vector<dim, Real>

@@ -30,6 +30,13 @@ namespace undine::particles
     std::vector<Vector<dim, double>> body_velocities;           ///< [m/s]
   };
 
+  /// How fast memory is, in bytes read and written [B/s].
+  struct Throughput
+  {
+    double product = 0; ///< of the pressure matrix, whose bytes count once
+    double copy    = 0; ///< of what does not fit in caches
+  };
+
   /// Moves the particles of a scene; one for the host, one for the device.
   template <int dim>
   class Engine
@@ -61,6 +68,10 @@ namespace undine::particles
     /// What the passes of the last sub-step computed, to compare executors with each other.
     virtual std::vector<PassResult>
     pass_results() const = 0;
+
+    /// Of the matrix of the last sub-step; of fluid only.
+    virtual Throughput
+    throughput() = 0;
 
     /// Where and in what precision it computes.
     virtual std::string

@@ -22,74 +22,83 @@ namespace undine::particles
     int                    *indices;
     StepControl            *control;
 
+    /// So many of a row are written together with those of other rows: the device's memory takes
+    /// single numbers badly.
+    static constexpr int together = 16 * dim;
+
+    /// `room` is for `together` numbers.
+    template <class Room>
     UNDINE_HOST_DEVICE
     void
-    operator()(const int i) const
+    operator()(const int i, Room &room) const
     {
       const Place<dim, Real> place = places[i];
-      Row                    row{indices + list_slot(i, 0, capacity), 0};
+      int                    count = 0;
       if (place.tag.kind() != Kind::dummy && !place.tag.is_yielding())
         grid.for_each_run_around(
           place.x, [&](const int first_cell, const int end_cell, const Vector<dim, Real> &x) {
-            collect(i, x, starts[first_cell], starts[end_cell], row);
+            collect(i, x, starts[first_cell], starts[end_cell], room, count);
           });
-      if (row.count > capacity)
+      if (count > capacity)
         atomic_or(&control->failures, static_cast<unsigned int>(Failure::neighbours));
-      counts[i] = minimum(row.count, capacity);
+      counts[i] = minimum(count, capacity);
+      for (int k = 0; k < minimum(count, together); ++k)
+        indices[list_slot(i, k, capacity)] = room[k];
     }
 
   private:
-    /// Those that were found.
-    struct Row
-    {
-      int *next; ///< where the next one goes
-      int  count;
-    };
-
     /// Among the particles begin ... end-1, seen from x.
+    template <class Room>
     UNDINE_HOST_DEVICE
     void
-    collect(const int i, const Vector<dim, Real> &x, const int begin, const int end, Row &row) const
+    collect(const int                i,
+            const Vector<dim, Real> &x,
+            const int                begin,
+            const int                end,
+            Room                    &room,
+            int                     &count) const
     {
-      constexpr int together = 4; // their places are on the way at the same time
-      int           first    = begin;
-      for (; first + together <= end; first += together)
+      constexpr int at_once = 4; // their places are on the way at the same time
+      int           first   = begin;
+      for (; first + at_once <= end; first += at_once)
         {
-          Place<dim, Real> other[together];
+          Place<dim, Real> other[at_once];
           UNDINE_UNROLL
-          for (int k = 0; k < together; ++k)
+          for (int k = 0; k < at_once; ++k)
             other[k] = places[first + k];
           UNDINE_UNROLL
-          for (int k = 0; k < together; ++k)
-            look_at(i, x, first + k, other[k], row);
+          for (int k = 0; k < at_once; ++k)
+            look_at(i, x, first + k, other[k], room, count);
         }
       if (first == end)
         return;
-      Place<dim, Real> other[together - 1];
+      Place<dim, Real> other[at_once - 1];
       UNDINE_UNROLL
-      for (int k = 0; k < together - 1; ++k)
+      for (int k = 0; k < at_once - 1; ++k)
         other[k] = places[minimum(first + k, end - 1)];
       UNDINE_UNROLL
-      for (int k = 0; k < together - 1; ++k)
+      for (int k = 0; k < at_once - 1; ++k)
         if (first + k < end)
-          look_at(i, x, first + k, other[k], row);
+          look_at(i, x, first + k, other[k], room, count);
     }
 
+    template <class Room>
     UNDINE_HOST_DEVICE
     void
     look_at(const int                i,
             const Vector<dim, Real> &x,
             const int                j,
             const Place<dim, Real>  &other,
-            Row                     &row) const
+            Room                    &room,
+            int                     &count) const
     {
-      if (norm_square(other.x - x) < reach * reach && j != i && !other.tag.is_yielding())
-        {
-          if (row.count < capacity)
-            *row.next = j;
-          row.next += 32; // as in list_slot()
-          ++row.count;
-        }
+      if (!(norm_square(other.x - x) < reach * reach) || j == i || other.tag.is_yielding())
+        return;
+      if (count < together)
+        room[count] = j;
+      else if (count < capacity)
+        indices[list_slot(i, count, capacity)] = j;
+      ++count;
     }
   };
 
@@ -113,15 +122,16 @@ namespace undine::particles
     void
     find(const Particles<dim, Real> &particles, const int *cell_starts, StepControl *control)
     {
-      executor.for_each(particles.n,
-                        FindNeighbours<dim, Real>{grid,
-                                                  reach,
-                                                  capacity,
-                                                  particles.places,
-                                                  cell_starts,
-                                                  counts.data(),
-                                                  indices.data(),
-                                                  control});
+      using Find = FindNeighbours<dim, Real>;
+      executor.template for_each_with_room<Find::together, int>(particles.n,
+                                                                Find{grid,
+                                                                     reach,
+                                                                     capacity,
+                                                                     particles.places,
+                                                                     cell_starts,
+                                                                     counts.data(),
+                                                                     indices.data(),
+                                                                     control});
     }
 
     Neighbours<dim, Real>

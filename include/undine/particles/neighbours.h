@@ -64,10 +64,12 @@ namespace undine::particles
     void
     for_each(const int i, const Fetch &fetch, const Function &f) const
     {
-      using More                       = decltype(fetch(0));
-      constexpr int           together = 4; // their places are on the way at the same time
+      using More = decltype(fetch(0));
+      // So many are on the way at the same time; more would take the registers of other threads.
+      constexpr int           together = sizeof(More) > 16 ? 2 : 4;
       const Vector<dim, Real> x        = places[i].x;
       const int               count    = counts[i];
+      const bool              wraps    = grid.is_beside_periodic_side(x, Real(1.01) * reach);
       int                     first    = 0;
       for (; first + together <= count; first += together)
         {
@@ -85,12 +87,12 @@ namespace undine::particles
             }
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
-            call(f, x, j[k], other[k], more[k]);
+            call(f, x, wraps, j[k], other[k], more[k]);
         }
       for (; first < count; ++first)
         {
           const int j = indices[list_slot(i, first, capacity)];
-          call(f, x, j, places[j], fetch(j));
+          call(f, x, wraps, j, places[j], fetch(j));
         }
     }
 
@@ -100,12 +102,13 @@ namespace undine::particles
     void
     call(const Function          &f,
          const Vector<dim, Real> &x,
+         const bool               wraps,
          const int                j,
          const Place<dim, Real>  &other,
          const More              &more) const
     {
       Pair<dim, Real> pair;
-      pair.r                = grid.difference(other.x, x);
+      pair.r                = wraps ? grid.difference(other.x, x) : other.x - x;
       pair.square           = norm_square(pair.r) + Real(1e-12) * reach * reach;
       pair.inverse_distance = inverse_square_root(pair.square);
       pair.weight           = reach * pair.inverse_distance - 1;

@@ -89,6 +89,14 @@ namespace undine::particles
       return results;
     }
 
+    Throughput
+    throughput() override
+    {
+      Throughput result;
+      with_system([&](auto &present) { result = present.throughput(); });
+      return result;
+    }
+
     std::string
     describe() const override
     {

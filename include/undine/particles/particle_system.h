@@ -9,6 +9,7 @@
 #include <undine/particles/elastic_step.h>
 #include <undine/particles/explicit_forces.h>
 #include <undine/particles/make_constants.h>
+#include <undine/particles/measure_throughput.h>
 #include <undine/particles/moving_walls.h>
 #include <undine/particles/multigrid_arrays.h>
 #include <undine/particles/neighbour_list.h>
@@ -132,6 +133,14 @@ namespace undine::particles
     pass_results() const
     {
       return particles::pass_results(now, next, equation, bodies);
+    }
+
+    /// Of the last sub-step's matrix.
+    Throughput
+    throughput()
+    {
+      return ThroughputMeasurement<Executor, Real, Entry>(executor)(
+        {pressure_system().system, equation.numbers.data(), 0});
     }
 
   private:
@@ -306,17 +315,20 @@ namespace undine::particles
     void
     solve_pressure_equation()
     {
+      if (multigrid == nullptr)
+        {
+          executor.enter(Phase::pressure);
+          executor.run(n, pressure_system());
+          return;
+        }
+      executor.enter(Phase::multigrid);
+      multigrid->build(now.places.data(),
+                       equation.is_unknown.data(),
+                       matrix(),
+                       equation.diagonal.data(),
+                       cells.cell_starts());
       executor.enter(Phase::pressure);
-      if (multigrid != nullptr)
-        solve_by_multigrid();
-      else
-        executor.run(n,
-                     system<Real>(equation.diagonal,
-                                  equation.right_hand_side,
-                                  equation.pressures,
-                                  equation.numbers.data(),
-                                  numerics.tolerance,
-                                  &StepControl::pressure));
+      multigrid->solve(pressure_system(), cells.cell_starts());
     }
 
     template <class Value>
@@ -340,23 +352,15 @@ namespace undine::particles
         record};
     }
 
-    void
-    solve_by_multigrid()
+    ConjugateGradients<Real, Entry, Real>
+    pressure_system()
     {
-      executor.enter(Phase::multigrid);
-      multigrid->build(now.places.data(),
-                       equation.is_unknown.data(),
-                       matrix(),
-                       equation.diagonal.data(),
-                       cells.cell_starts());
-      executor.enter(Phase::pressure);
-      multigrid->solve(system<Real>(equation.diagonal,
-                                    equation.right_hand_side,
-                                    equation.pressures,
-                                    equation.numbers.data(),
-                                    numerics.tolerance,
-                                    &StepControl::pressure),
-                       cells.cell_starts());
+      return system<Real>(equation.diagonal,
+                          equation.right_hand_side,
+                          equation.pressures,
+                          equation.numbers.data(),
+                          numerics.tolerance,
+                          &StepControl::pressure);
     }
 
     VirtualFaces<dim, Real>
@@ -380,16 +384,15 @@ namespace undine::particles
     StepBounds           bounds;
     int                  n;
 
-    ParticleArrays<Executor, dim, Real>        now, next;
-    ElasticArrays<Executor, dim, Real>         bodies;
-    Buffer<Executor, StepControl>              control;
-    CellSort<Executor, dim, Real>              cells;
-    NeighbourList<Executor, dim, Real>         list;
-    PressureArrays<Executor, dim, Real, Entry> equation;
-    OpenBoundaries<dim, Real>                  open;
-    Buffer<Executor, int>                      crossed, crossed_before;
-    MovingWalls<Executor, dim, Real>           moving_walls;
-
+    ParticleArrays<Executor, dim, Real>                   now, next;
+    ElasticArrays<Executor, dim, Real>                    bodies;
+    Buffer<Executor, StepControl>                         control;
+    CellSort<Executor, dim, Real>                         cells;
+    NeighbourList<Executor, dim, Real>                    list;
+    PressureArrays<Executor, dim, Real, Entry>            equation;
+    OpenBoundaries<dim, Real>                             open;
+    Buffer<Executor, int>                                 crossed, crossed_before;
+    MovingWalls<Executor, dim, Real>                      moving_walls;
     std::unique_ptr<MultigridArrays<Executor, dim, Real>> multigrid; ///< nullptr: not used
   };
 } // namespace undine::particles

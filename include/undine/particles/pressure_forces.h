@@ -85,37 +85,34 @@ namespace undine::particles
     {
       Place<dim, Real>  place  = neighbours.places[i];
       Motion<dim, Real> motion = motions[i];
-      if (!control->done() && place.tag.is_free())
+      if (!control->done() && place.tag.kind() == Kind::fluid)
+        move(i, place, motion);
+      else if (!control->done() && place.tag.kind() == Kind::solid)
         {
-          Sum sum = this->sum(i, place.tag, motion.pressure);
-          if (place.tag.kind() == Kind::solid)
-            {
-              const int identity              = identities[i];
-              solid_accelerations[identity]   = sum.acceleration;
-              solid_surfaces[identity]        = sum.surface;
-              solid_surface_moments[identity] = sum.surface_moment;
-            }
-          else
-            {
-              const bool inside = neighbourhood.is_covered[i] != 0;
-              if (inside && constants.pair_force == PairForce::balanced)
-                sum.acceleration += sum.weight - constants.force.acceleration(place.x);
-              move(place, motion, sum.acceleration);
-              if (inside)
-                place.x += shift(sum.crowd);
-              place.x += way_out(sum);
-              place.x = constants.grid.wrapped(place.x);
-              if (!constants.grid.contains(place.x))
-                atomic_or(&control->failures, static_cast<unsigned int>(Failure::outside));
-            }
+          const int      identity         = identities[i];
+          const SolidSum sum              = this->sum<SolidSum>(i, place.tag, motion.pressure);
+          solid_accelerations[identity]   = sum.acceleration;
+          solid_surfaces[identity]        = sum.surface;
+          solid_surface_moments[identity] = sum.surface_moment;
         }
       new_places[i]  = place;
       new_motions[i] = motion;
     }
 
   private:
-    /// Over the neighbours of a particle.
-    struct Sum
+    /// The face to a neighbour.
+    struct Face
+    {
+      const Pair<dim, Real> &pair;
+      Vector<dim, Real>      area;        ///< [1/m]
+      Vector<dim, Real>      by_pressure; ///< acceleration [m/s^2]
+      Vector<dim, Real>      force;       ///< body force at its middle [m/s^2]
+      Real                   density;     ///< of the particle [kg/m^3]
+      bool                   is_within;   ///< a body
+    };
+
+    /// Over the neighbours of a particle of the fluid.
+    struct FluidSum
     {
       Vector<dim, Real> acceleration = Vector<dim, Real>::zero(); ///< [m/s^2]
       Vector<dim, Real> weight       = Vector<dim, Real>::zero(); ///< f by the faces [m/s^2]
@@ -123,11 +120,55 @@ namespace undine::particles
       Vector<dim, Real> bodies       = Vector<dim, Real>::zero(); ///< the same of bodies only [1/m]
       Real              body_density = 0; ///< their part of the number density [1]
 
+      UNDINE_HOST_DEVICE
+      void
+      add(const Pair<dim, Real> &pair, const Vector<dim, Real> &plain)
+      {
+        crowd += plain;
+        if (pair.tag.kind() == Kind::solid)
+          {
+            bodies += plain;
+            body_density += pair.weight;
+          }
+      }
+
+      UNDINE_HOST_DEVICE
+      void
+      add(const Face &face)
+      {
+        acceleration += face.by_pressure;
+        weight += (face.force * face.pair.r) * face.area;
+      }
+    };
+
+    /// Over those of a particle of a body.
+    struct SolidSum
+    {
+      Vector<dim, Real> acceleration = Vector<dim, Real>::zero(); ///< [m/s^2]
+
       /// What the faces within the body leave open, for ElasticBodies.
       Vector<dim, Real> surface        = Vector<dim, Real>::zero();
       Matrix<dim, Real> surface_moment = Matrix<dim, Real>::diagonal(1);
+
+      UNDINE_HOST_DEVICE
+      void
+      add(const Pair<dim, Real> &, const Vector<dim, Real> &)
+      {
+      }
+
+      UNDINE_HOST_DEVICE
+      void
+      add(const Face &face)
+      {
+        acceleration += face.by_pressure;
+        if (!face.is_within)
+          return;
+        surface -= (2 / face.density) * face.area;
+        surface_moment.add_outer_product(Real(-1), face.area, face.pair.r);
+      }
     };
 
+    template <class Sum>
     UNDINE_HOST_DEVICE
     Sum
     sum(const int i, const Tag tag, const Real P) const
@@ -148,12 +189,7 @@ namespace undine::particles
       neighbours.for_each(
         i, fetch, [&](const int, const Pair<dim, Real> &pair, const Other &other) {
           const Vector<dim, Real> plain = pair.weight_over_square() * pair.r;
-          sum.crowd += plain;
-          if (pair.tag.kind() == Kind::solid)
-            {
-              sum.bodies += plain;
-              sum.body_density += pair.weight;
-            }
+          sum.add(pair, plain);
           if (pair.tag.kind() == Kind::dummy || is_left_to_elasticity(tag, pair.tag))
             return;
           auto face  = faces.factor * plain;
@@ -167,13 +203,12 @@ namespace undine::particles
             }
           else if (constants.pair_force == PairForce::minimum)
             value = other.pressure - least;
-          sum.acceleration += (-value / density) * face;
-          sum.weight += (constants.force.acceleration(x + Real(0.5) * pair.r) * pair.r) * face;
-          if (tag.kind() == Kind::solid && pair.tag.code == tag.code)
-            {
-              sum.surface -= (2 / density) * face;
-              sum.surface_moment.add_outer_product(Real(-1), face, pair.r);
-            }
+          sum.add(Face{pair,
+                       face,
+                       (-value / density) * face,
+                       constants.force.acceleration(x + Real(0.5) * pair.r),
+                       density,
+                       tag.kind() == Kind::solid && pair.tag.code == tag.code});
         });
       return sum;
     }
@@ -193,8 +228,13 @@ namespace undine::particles
     Real
     twice_pressure(const Tag tag, const Tag other, const Real P_i, const Real P_j) const
     {
-      const Real a = constants.densities[tag.material()], b = constants.densities[other.material()];
-      const Real value = 2 * (b * P_i + a * P_j) / (a + b);
+      Real value = P_i + P_j;
+      if (tag.material() != other.material())
+        {
+          const Real a = constants.densities[tag.material()];
+          const Real b = constants.densities[other.material()];
+          value        = 2 * (b * P_i + a * P_j) / (a + b);
+        }
       return tag.code == other.code ? value : maximum(value, Real(0));
     }
 
@@ -207,6 +247,24 @@ namespace undine::particles
           least = minimum(least, motions[j].pressure);
       });
       return least;
+    }
+
+    /// Corrects a particle of the fluid.
+    UNDINE_HOST_DEVICE
+    void
+    move(const int i, Place<dim, Real> &place, Motion<dim, Real> &motion) const
+    {
+      FluidSum   sum    = this->sum<FluidSum>(i, place.tag, motion.pressure);
+      const bool inside = neighbourhood.is_covered[i] != 0;
+      if (inside && constants.pair_force == PairForce::balanced)
+        sum.acceleration += sum.weight - constants.force.acceleration(place.x);
+      move(place, motion, sum.acceleration);
+      if (inside)
+        place.x += shift(sum.crowd);
+      place.x += way_out(sum);
+      place.x = constants.grid.wrapped(place.x);
+      if (!constants.grid.contains(place.x))
+        atomic_or(&control->failures, static_cast<unsigned int>(Failure::outside));
     }
 
     UNDINE_HOST_DEVICE
@@ -225,7 +283,7 @@ namespace undine::particles
     /// make less than half of a neighbourhood [m].
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
-    way_out(const Sum &sum) const
+    way_out(const FluidSum &sum) const
     {
       const Real excess = maximum(Real(0), sum.body_density / constants.number_density - Real(0.5));
       return limited((-2 * excess * constants.spacing * constants.spacing * faces.factor) *

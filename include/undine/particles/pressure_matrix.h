@@ -2,9 +2,8 @@
 #ifndef undine_particles_pressure_matrix_h
 #define undine_particles_pressure_matrix_h
 
+#include <undine/particles/exact_float.h>
 #include <undine/particles/neighbours.h>
-
-#include <cstdint>
 
 namespace undine::particles
 {
@@ -55,9 +54,27 @@ namespace undine::particles
     Real
     coefficient(const Real scale) const
     {
-      const Real code = static_cast<Real>(bits & largest);
-      return code * code * (scale / (Real(largest) * Real(largest)));
+      return in_units<Real>() * unit(scale);
     }
+
+    /// The same in parts, of which the second is that of all entries. @{
+    template <class Real>
+    UNDINE_HOST_DEVICE
+    Real
+    in_units() const
+    {
+      const Real code = static_cast<Real>(float_beyond<largest>(bits) - two_to_23);
+      return code * code;
+    }
+
+    template <class Real>
+    UNDINE_HOST_DEVICE
+    static Real
+    unit(const Real scale)
+    {
+      return scale / (Real(largest) * Real(largest));
+    }
+    /// @}
 
     UNDINE_HOST_DEVICE
     static bool
@@ -102,6 +119,22 @@ namespace undine::particles
       return value;
     }
 
+    template <class Real>
+    UNDINE_HOST_DEVICE
+    Real
+    in_units() const
+    {
+      return value;
+    }
+
+    template <class Real>
+    UNDINE_HOST_DEVICE
+    static Real
+    unit(const Real)
+    {
+      return 1;
+    }
+
     UNDINE_HOST_DEVICE
     static bool
     can_reach(const int)
@@ -124,48 +157,50 @@ namespace undine::particles
     Entry *entries;
 
     /// sum_j k_ij x_j, for numbers or vectors x_j
-    template <class Value, class Stored>
+    template <class Value, class Numbers>
     UNDINE_HOST_DEVICE
     Value
-    row_times(const int row, const Stored *x) const
+    row_times(const int row, const Numbers &x) const
     {
       Value sum = Value();
       for_each_in_row<Value>(row, x, [&](const Entry entry, const Value &value) {
-        sum += entry.coefficient(scale) * value;
+        sum += entry.template in_units<Real>() * value;
       });
-      return sum;
+      return Entry::unit(scale) * sum;
     }
 
-    /// f(entry, x_j) for the entries of a row, and for the empty ones that fill its last group. The
-    /// entries of the next groups are on the way while the numbers that belong to the present one
-    /// are: as many groups as registers hold.
+    /// f(entry, x_j) for the entries of a row, and for the empty ones that fill its last group. As
+    /// many groups as registers hold are on the way at the same time; each is read into the
+    /// registers of one that is done, because to move one means to wait for it.
     template <class Value, class Numbers, class Function>
     UNDINE_HOST_DEVICE
     void
     for_each_in_row(const int row, const Numbers &x, const Function &f) const
     {
-      constexpr int ahead                   = sizeof(Value) > sizeof(double) ? 1 : 2;
-      const int     count                   = counts[row];
-      const Entry  *from                    = entries + list_slot(row, 0, capacity);
-      Entry         entry[ahead + 1][group] = {};
+      constexpr int groups               = sizeof(Value) > sizeof(double) ? 2 : 3;
+      const int     count                = counts[row];
+      const Entry  *next                 = entries + list_slot(row, 0, capacity);
+      Entry         entry[groups][group] = {};
       UNDINE_UNROLL
-      for (int g = 0; g < ahead; ++g)
-        fetch(from, g * group, count, entry[g]);
-      for (int first = 0; first < count; first += group)
+      for (int g = 0; g < groups; ++g)
+        fetch(next + 32 * group * g, g * group < count, entry[g]);
+      for (int first = 0; first < count; first += groups * group)
         {
-          Value value[group];
           UNDINE_UNROLL
-          for (int k = 0; k < group; ++k)
-            value[k] = x[row + entry[0][k].difference()];
-          fetch(from, first + ahead * group, count, entry[ahead]);
-          UNDINE_UNROLL
-          for (int k = 0; k < group; ++k)
-            {
-              f(entry[0][k], value[k]);
-              UNDINE_UNROLL
-              for (int g = 0; g < ahead; ++g)
-                entry[g][k] = entry[g + 1][k];
-            }
+          for (int g = 0; g < groups; ++g)
+            if (first + g * group < count)
+              {
+                Value value[group];
+                UNDINE_UNROLL
+                for (int k = 0; k < group; ++k)
+                  value[k] = x[row + entry[g][k].difference()];
+                UNDINE_UNROLL
+                for (int k = 0; k < group; ++k)
+                  f(entry[g][k], value[k]);
+                fetch(
+                  next + 32 * group * (groups + g), first + (groups + g) * group < count, entry[g]);
+              }
+          next += 32 * group * groups;
         }
     }
 
@@ -185,13 +220,13 @@ namespace undine::particles
     /// A group of entries, if the row has it.
     UNDINE_HOST_DEVICE
     static void
-    fetch(const Entry *from, const int first, const int count, Entry (&to)[group])
+    fetch(const Entry *from, const bool exists, Entry (&to)[group])
     {
-      if (first < count)
+      if (exists)
         {
           UNDINE_UNROLL
           for (int k = 0; k < group; ++k)
-            to[k] = Entry::once(from + 32 * (first + k));
+            to[k] = Entry::once(from + 32 * k);
         }
     }
   };

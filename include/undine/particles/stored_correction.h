@@ -2,9 +2,8 @@
 #ifndef undine_particles_stored_correction_h
 #define undine_particles_stored_correction_h
 
+#include <undine/particles/exact_float.h>
 #include <undine/particles/matrix.h>
-
-#include <cstdint>
 
 namespace undine::particles
 {
@@ -41,9 +40,9 @@ namespace undine::particles
     }
   };
 
-  /// In single precision one word of 16 bytes, which the device reads at once: M - I in steps of
-  /// 2^-17, 21 bits each. Both sides of a face see the same rounded M, so that faces stay equal and
-  /// opposite.
+  /// In single precision one word of 16 bytes, which the device reads at once: M - I + 8 in steps
+  /// of 2^-17, 21 bits each. Both sides of a face see the same rounded M, so that faces stay equal
+  /// and opposite.
   template <int dim>
   struct StoredCorrection<dim, float>
   {
@@ -58,9 +57,8 @@ namespace undine::particles
       StoredCorrection result = {};
       for (int k = 0; k < M.size; ++k)
         {
-          const float         x     = (M.entries[k] - identity(k)) * steps;
-          const int           value = static_cast<int>(x < 0 ? x - 0.5f : x + 0.5f);
-          const std::uint32_t bits  = static_cast<std::uint32_t>(value) & 0x1fffff;
+          const float         x    = (M.entries[k] - identity(k) + bound) * steps + 0.5f;
+          const std::uint32_t bits = minimum(static_cast<std::uint32_t>(x), largest);
           if (k < 4)
             result.words[k] |= bits;
           else // in what the first four leave
@@ -81,10 +79,11 @@ namespace undine::particles
       UNDINE_UNROLL
       for (int k = 0; k < M.size; ++k)
         {
-          const int value = k < 4 ? signed_bits(words[k < 4 ? k : 0] << 11) >> 11
-                                  : (signed_bits(words[k < 4 ? 0 : 2 * k - 8]) >> 21) * 1024 +
-                                      static_cast<int>(words[k < 4 ? 0 : 2 * k - 7] >> 21 & 0x3ff);
-          M.entries[k]    = identity(k) + static_cast<float>(value) * (1 / steps);
+          const std::uint32_t bits = k < 4 ? words[k < 4 ? k : 0]
+                                           : (words[k < 4 ? 0 : 2 * k - 8] >> 21) << 10 |
+                                               (words[k < 4 ? 0 : 2 * k - 7] >> 21 & 0x3ff);
+          M.entries[k] =
+            float_beyond<largest>(bits) * (1 / steps) + (identity(k) - bound - two_to_23 / steps);
         }
       return M;
     }
@@ -97,14 +96,8 @@ namespace undine::particles
     }
 
   private:
-    static constexpr float steps = 131072; ///< 2^17
-
-    UNDINE_HOST_DEVICE
-    static std::int32_t
-    signed_bits(const std::uint32_t bits)
-    {
-      return static_cast<std::int32_t>(bits);
-    }
+    static constexpr float         steps   = 131072; ///< 2^17
+    static constexpr std::uint32_t largest = (1u << 21) - 1;
 
     /// Of the entries of I, in the order of SymmetricMatrix.
     UNDINE_HOST_DEVICE
