@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "executors.h"
+#include "state_differences.h"
+
+#include <catch2/catch.hpp>
 
 using namespace particle_tests;
 

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-/// Runs on several executors and differences between them.
+/// Runs on several executors.
 namespace particle_tests
 {
   template <int dim>
@@ -52,30 +52,6 @@ namespace particle_tests
     ParticleState<dim> state;
     engine.fetch(state);
     return state;
-  }
-
-  /// The state of each identity.
-  template <int dim>
-  std::vector<std::size_t>
-  places_by_identity(const ParticleState<dim> &state)
-  {
-    std::vector<std::size_t> result(state.identities.size());
-    for (std::size_t i = 0; i < result.size(); ++i)
-      result[state.identities[i]] = i;
-    return result;
-  }
-
-  /// Largest distance of a particle from itself in another state [m].
-  template <int dim>
-  double
-  largest_distance(const ParticleState<dim> &a, const ParticleState<dim> &b)
-  {
-    const auto at = places_by_identity(a), bt = places_by_identity(b);
-    double     largest = 0;
-    for (std::size_t identity = 0; identity < at.size(); ++identity)
-      largest =
-        std::max(largest, norm_square(a.positions[at[identity]] - b.positions[bt[identity]]));
-    return std::sqrt(largest);
   }
 } // namespace particle_tests
 
