@@ -34,11 +34,13 @@ namespace undine::particles
       unsigned int  first_round; ///< never used before
     };
 
+    /// By all threads of the block, which must know the counter's phase before one counts in.
     __device__ explicit BlockExchange(const Workspace &workspace)
       : workspace(workspace)
       , round(workspace.first_round)
       , phase(counted() & flip)
     {
+      __syncthreads();
     }
 
     __device__ __forceinline__ void
@@ -95,14 +97,13 @@ namespace undine::particles
                    : "memory");
     }
 
-    /// Until all blocks have counted in; by the warp that did.
+    /// Until all blocks have counted in; by whole warps.
     __device__ __forceinline__ void
-    wait()
+    wait() const
     {
       if ((threadIdx.x & 31) == 0)
-        while ((counted() & flip) == phase)
+        while ((counted() & flip) == phase_before())
           ;
-      phase ^= flip;
       __syncwarp();
     }
 
@@ -155,6 +156,14 @@ namespace undine::particles
     }
 
   private:
+    /// The counter's highest bit until all blocks have counted in.
+    __device__ __forceinline__ unsigned int
+    phase_before() const
+    {
+      const unsigned int rounds = round - workspace.first_round - 1;
+      return phase ^ (rounds % 2 * flip);
+    }
+
     __device__ __forceinline__ FlaggedWord *
     values() const
     {
@@ -182,7 +191,7 @@ namespace undine::particles
 
     Workspace    workspace;
     unsigned int round;
-    unsigned int phase; ///< highest bit of the counter before the next round
+    unsigned int phase; ///< highest bit of the counter before the first round
   };
 } // namespace undine::particles
 

@@ -48,15 +48,12 @@ namespace undine::particles
     /// for the last sum of each block, by whole warps.
     template <class Take>
     __device__ __forceinline__ void
-    collect(BlockExchange &exchange, const Take &take) const
+    collect(const BlockExchange &exchange, const Take &take) const
     {
       const int block = threadIdx.x, blocks = gridDim.x, lane = threadIdx.x & 31;
       if (block < 32)
-        {
-          hand_out(exchange);
-          exchange.wait();
-        }
-      asm volatile("bar.sync 1, %0;" ::"n"(32 * collectors) : "memory");
+        hand_out(exchange);
+      exchange.wait(); // each warp for itself: racecheck does not understand named barriers
       const auto share = exchange.template share_of<count>(min(block, blocks - 1));
       __syncwarp();
       take(block, static_cast<float>(share[count - 1]));

@@ -127,10 +127,14 @@ namespace undine::particles
       if (threadIdx.x == 0)
         shared.values[n_near] = 0;
       __syncthreads();
-      int          last = 0;
-      unsigned int sum  = 0;
+      int          last = 0, last_row = -1;
+      bool         is_loose = false;
+      unsigned int sum      = 0;
       for_each_entry([&](const int row, const int local, const unsigned int root) {
-        const int owner = system.is_loose(row) ? n_near : owners[local];
+        if (row != last_row)
+          is_loose = system.is_loose(row);
+        last_row        = row;
+        const int owner = is_loose ? n_near : owners[local];
         if (owner != last)
           {
             atomicAdd(shared.couplings + last, sum);
@@ -178,21 +182,33 @@ namespace undine::particles
     {
       constexpr int width = BandedInverse::width;
       BandedInverse banded(n, memory);
-      for (int place = threadIdx.x; place < n * width; place += blockDim.x)
+      constexpr int at_once = 6; // for two rows a warp all
+      const int     places = n * width, threads = blockDim.x, blocks = gridDim.x;
+      for (int first = threadIdx.x; first < places; first += at_once * threads)
         {
-          const int k = place / width, l = place % width;
-          float     sum = 0;
-          for (int block = k * each;
-               block < min((k + 1) * each, static_cast<int>(gridDim.x)) && l <= reach;
-               ++block)
+          float sums[at_once] = {};
+          for (int of_each = 0; of_each < each; ++of_each)
             {
-              float        value;
-              float *const to[1]   = {&value};
-              const int    from[1] = {block * width + l};
+              float  values[at_once] = {};
+              float *to[at_once];
+              int    from[at_once];
+#pragma unroll
+              for (int k = 0; k < at_once; ++k)
+                {
+                  const int place = min(first + k * threads, places - 1);
+                  const int block = place / width * each + of_each, l = place % width;
+                  to[k]   = block < blocks && l <= reach ? values + k : nullptr;
+                  from[k] = min(block, blocks - 1) * width + l;
+                }
               exchange.get_values(to, from);
-              sum += value;
+#pragma unroll
+              for (int k = 0; k < at_once; ++k)
+                sums[k] += values[k];
             }
-          banded.at(k, l) = sum;
+#pragma unroll
+          for (int k = 0; k < at_once; ++k)
+            if (first + k * threads < places)
+              banded.at((first + k * threads) / width, threadIdx.x % width) = sums[k];
         }
       __syncthreads();
       banded.factorize(reach, 1e-5f);

@@ -6,6 +6,7 @@
 #include "device_kernels.cuh"
 #include "device_stopwatch.cuh"
 #include "find_device.h"
+#include "resident_bodies.cuh"
 #include "resident_solver.cuh"
 
 #include <undine/particles/damped_iterations.h>
@@ -37,6 +38,7 @@ namespace undine::particles
       check_device(cudaGetDeviceProperties(&properties, 0), "to describe itself");
       check_device(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "to start");
       resident          = ResidentSolver(properties, stream);
+      bodies            = ResidentBodies(properties, stream);
       workspace.counter = allocate<unsigned int>(1);
       for (auto &partial : workspace.partial)
         partial = allocate<Sums<Team::most_sums>>(Team::most_blocks);
@@ -48,6 +50,7 @@ namespace undine::particles
     {
       stopwatch.reset();
       resident.release(*this);
+      bodies.release(*this);
       release(workspace.counter);
       for (auto *partial : workspace.partial)
         release(partial);
@@ -169,12 +172,29 @@ namespace undine::particles
     void
     run_by_lanes(const int n, const Function &f)
     {
+      run_team_by_lanes(n, f);
+    }
+
+    template <class Function>
+    void
+    run_team_by_lanes(const int n, const Function &f)
+    {
       const int workers = n * DeviceLanes::number, threads = team_threads(workers, 128);
       launch_team(threads > 128 ? kernels::run<Function, kernels::team_threads, 1>
                                 : kernels::run<Function, 128, 1>,
                   workers,
                   threads,
                   f);
+    }
+
+    template <int dim>
+    void
+    run_by_lanes(const int n, const ElasticStep<dim, float> &step)
+    {
+      if (bodies.can_run(step))
+        bodies.run(*this, step, workspace);
+      else
+        run_team_by_lanes(n, step);
     }
 
     /// Solves systems that fit in the shared memories of the multiprocessors there.
@@ -304,6 +324,7 @@ namespace undine::particles
     cudaDeviceProp                   properties;
     cudaStream_t                     stream;
     ResidentSolver                   resident;
+    ResidentBodies                   bodies;
     Team::Workspace                  workspace   = {};
     char                            *scan_memory = nullptr;
     std::size_t                      scan_bytes  = 0;

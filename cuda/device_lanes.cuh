@@ -7,8 +7,9 @@
 namespace undine::particles
 {
   /// Neighbouring threads of a warp that share the work on one particle, see OneLane. They must all
-  /// call sum() and ballot().
-  class DeviceLanes
+  /// call sum() and ballot(), and so must all other threads that are `Present`.
+  template <class Present>
+  class LanesWith
   {
   public:
     static constexpr int number = 8;
@@ -86,7 +87,7 @@ namespace undine::particles
     __device__ static unsigned int
     mask()
     {
-      return ((1u << count()) - 1) << first();
+      return Present::mask(((1u << count()) - 1) << first());
     }
 
     template <class Real>
@@ -98,6 +99,33 @@ namespace undine::particles
       return value;
     }
   };
+
+
+  /// Who takes part in a sum besides a particle's own lanes. @{
+  struct Nobody
+  {
+    __device__ static unsigned int
+    mask(const unsigned int own)
+    {
+      return own;
+    }
+  };
+
+  struct RestOfWarp
+  {
+    __device__ static unsigned int
+    mask(const unsigned int)
+    {
+      return 0xffffffffu;
+    }
+  };
+  /// @}
+
+  using DeviceLanes = LanesWith<Nobody>;
+
+  /// They stay together: particles of a warp whose lanes went on by themselves would be worked on
+  /// one after the other.
+  using WarpLanes = LanesWith<RestOfWarp>;
 } // namespace undine::particles
 
 #endif

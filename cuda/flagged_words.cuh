@@ -2,6 +2,8 @@
 #ifndef undine_cuda_flagged_words_cuh
 #define undine_cuda_flagged_words_cuh
 
+#include <undine/particles/vector.h>
+
 #include <cuda_runtime.h>
 
 namespace undine::particles
@@ -74,6 +76,47 @@ namespace undine::particles
                  : "=l"(first), "=l"(second)
                  : "l"(from)
                  : "memory");
+  }
+
+
+  /// A vector together with its round, in one word of 16 bytes.
+  template <int dim>
+  struct alignas(16) FlaggedVector
+  {
+    Vector<dim, float> vector;
+    unsigned int       round;
+  };
+
+  template <int dim>
+  __device__ __forceinline__ void
+  put(FlaggedVector<dim> *to, const Vector<dim, float> &vector, const unsigned int round)
+  {
+    static_assert(sizeof(FlaggedVector<dim>) == 16, "it must fit into a word");
+    const unsigned long long low =
+      __float_as_uint(vector[0]) | (static_cast<FlaggedWord>(__float_as_uint(vector[1])) << 32);
+    asm volatile("{ .reg .b128 word; mov.b128 word, {%1, %2}; st.relaxed.gpu.global.b128 [%0], "
+                 "word; }" ::"l"(to),
+                 "l"(low),
+                 "l"(flagged(vector[dim - 1], round))
+                 : "memory");
+  }
+
+  template <int dim>
+  __device__ __forceinline__ FlaggedVector<dim>
+                             look_at(const FlaggedVector<dim> *from)
+  {
+    unsigned long long low, high;
+    asm volatile("{ .reg .b128 word; ld.relaxed.gpu.global.b128 word, [%2]; mov.b128 {%0, %1}, "
+                 "word; }"
+                 : "=l"(low), "=l"(high)
+                 : "l"(from)
+                 : "memory");
+    FlaggedVector<dim> word;
+    word.vector[0]       = number_in(low);
+    word.vector[1]       = __uint_as_float(static_cast<unsigned int>(low >> 32));
+    word.vector[dim - 1] = number_in(high);
+    word.round           = static_cast<unsigned int>(high >> 32);
+    return word;
   }
 } // namespace undine::particles
 

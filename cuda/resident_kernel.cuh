@@ -30,7 +30,6 @@ namespace undine::particles
         {
           if constexpr (Correction::exists)
             correction.invert(exchange, setup.reach, setup.vectors);
-          setup.hold();
           Solver(general, setup.rows, correction, setup.vectors, exchange, shared)();
         }
       else

@@ -45,8 +45,8 @@ namespace undine::particles
       ranks  = reinterpret_cast<int *>(bitmap) - n_words;
     }
 
-    /// All but hold(). Returns false on all blocks if the rows of one do not fit. `per_local` and
-    /// `per_own` are the bytes of vectors that will be needed besides.
+    /// Returns false on all blocks if the rows of one do not fit. `per_local` and `per_own` are the
+    /// bytes of vectors that will be needed besides.
     __device__ __forceinline__ bool
     fill(const int per_local, const int per_own)
     {
@@ -63,16 +63,6 @@ namespace undine::particles
       if (fits)
         number_columns();
       return everywhere(fits);
-    }
-
-    /// The entries that are held in registers; then vectors may be used.
-    __device__ __forceinline__ void
-    hold()
-    {
-      for_each_held([&](const int k, const int row, const PackedEntry entry) {
-        rows.held[k] = numbered(row, entry);
-      });
-      __syncthreads();
     }
 
     Rows  rows;
@@ -163,12 +153,14 @@ namespace undine::particles
       __syncthreads();
     }
 
-    /// f(k, row, entry) for the entries to hold; those that are left over get the row itself with
-    /// the coefficient zero.
+    /// f(k, row, entry) for the entries to hold, some at once; those that are left over get the row
+    /// itself with the coefficient zero.
     template <class Function>
     __device__ __forceinline__ void
     for_each_held(const Function &f) const
     {
+      constexpr int at_once = 8;
+      static_assert(most_held % at_once == 0, "all of them are read at once");
       if (most_held == 0 || rows.n_held == 0)
         return;
       const int slice = Rows::first_slice();
@@ -176,12 +168,20 @@ namespace undine::particles
       const int count = own == row_of_thread(slice) ? matrix.counts[row] : 0;
       const int lane  = threadIdx.x & (rows.lanes - 1);
 #pragma unroll
-      for (int k = 0; k < most_held; ++k)
-        f(k,
-          row,
-          k * rows.lanes + lane < count
-            ? matrix.entries[list_slot(row, k * rows.lanes + lane, matrix.capacity)]
-            : PackedEntry{0});
+      for (int first = 0; first < most_held; first += at_once)
+        {
+          PackedEntry entries[at_once];
+#pragma unroll
+          for (int m = 0; m < at_once; ++m)
+            {
+              const int k = (first + m) * rows.lanes + lane;
+              entries[m] =
+                k < count ? matrix.entries[list_slot(row, k, matrix.capacity)] : PackedEntry{0};
+            }
+#pragma unroll
+          for (int m = 0; m < at_once; ++m)
+            f(first + m, row, entries[m]);
+        }
     }
 
     /// f(row, slice, place, entry) for all but the first `before` of the rows of a warp's first
@@ -277,14 +277,6 @@ namespace undine::particles
       return ranks[column >> 5] + __popc(bitmap[column >> 5] & ((1u << (column & 31)) - 1));
     }
 
-    __device__ __forceinline__ unsigned int
-    numbered(const int row, const PackedEntry entry) const
-    {
-      return (static_cast<unsigned int>(local_number(row + entry.difference()))
-              << PackedEntry::weight_bits) |
-             (entry.bits & PackedEntry::largest);
-    }
-
     /// As many slices inside as there is room for, besides the columns and vectors. Returns whether
     /// there is enough outside for the others.
     __device__ __forceinline__ bool
@@ -320,10 +312,6 @@ namespace undine::particles
     number_columns()
     {
       rows.first_own = rows.n_own > 0 ? local_number(own_rows[0]) : 0;
-      for_each_entry(rows.n_held,
-                     [&](const int row, const int slice, const int place, const PackedEntry entry) {
-                       rows.entries_of(slice)[place] = numbered(row, entry);
-                     });
       for (int word = threadIdx.x; word < n_words; word += blockDim.x)
         {
           int          number = ranks[word];
@@ -333,11 +321,30 @@ namespace undine::particles
         }
       __syncthreads();
       if constexpr (Correction::exists)
-        correction.assemble(rows, corrections, [&](const auto &f) {
-          for_each_entry(0, [&](const int row, const int, const int, const PackedEntry entry) {
-            f(row, local_number(row + entry.difference()), entry.bits & PackedEntry::largest);
-          });
-        });
+        correction.assemble(rows, corrections, [&](const auto &f) { number_entries(f); });
+      else
+        number_entries([](const int, const int, const unsigned int) {});
+      __syncthreads();
+    }
+
+    /// And f(row, local column, root of the coefficient) for each.
+    template <class Function>
+    __device__ __forceinline__ void
+    number_entries(const Function &f)
+    {
+      const auto numbered = [&](const int row, const PackedEntry entry) {
+        const int          local = local_number(row + entry.difference());
+        const unsigned int root  = entry.bits & PackedEntry::largest;
+        f(row, local, root);
+        return (static_cast<unsigned int>(local) << PackedEntry::weight_bits) | root;
+      };
+      for_each_entry(rows.n_held,
+                     [&](const int row, const int slice, const int place, const PackedEntry entry) {
+                       rows.entries_of(slice)[place] = numbered(row, entry);
+                     });
+      for_each_held([&](const int k, const int row, const PackedEntry entry) {
+        rows.held[k] = numbered(row, entry);
+      });
     }
 
     Matrix         matrix;

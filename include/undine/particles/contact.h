@@ -24,10 +24,10 @@ namespace undine::particles
     int                     *counts;   ///< of partners, by identity
     int                     *partners; ///< identities, or walls' sorted places p as -1 - p
 
-    /// Those that are near enough to touch within a sub-step.
+    /// Those that are near enough to touch within a sub-step. Returns how many they are.
     template <class Lanes>
     UNDINE_HOST_DEVICE
-    void
+    int
     list_partners(const int identity, const Lanes &lanes) const
     {
       constexpr int together = 4; // on the way at the same time
@@ -57,79 +57,77 @@ namespace undine::particles
         }
       if (lanes.rank() == 0)
         counts[identity] = count;
+      return count;
     }
 
-    /// [m/s^2]
-    template <class Lanes>
-    UNDINE_HOST_DEVICE
-    Vector<dim, Real>
-    acceleration(const int identity, const Lanes &lanes) const
+    /// What contact does to a particle.
+    struct Response
     {
-      auto force = Vector<dim, Real>::zero();
-      if (counts[identity] == 0)
-        return force;
-      for_each_touch(identity, lanes, [&](const Touch &touch) {
-        const Real q = touch.q;
-        force += (touch.stiffness * (q - 1) * q * q * q) * touch.r;
-      });
-      return inverse_mass(identity) * lanes.sum(force);
-    }
-
-    /// A bound on the squares of the frequency that contact lets a particle have, and of the rate
-    /// at which it comes closer to others [1/s^2].
-    template <class Lanes>
-    UNDINE_HOST_DEVICE
-    Vector<2, Real>
-    rate_squares(const int identity, const Lanes &lanes) const
-    {
-      auto sums = Vector<2, Real>::zero();
-      if (counts[identity] == 0)
-        return sums;
-      const Real inverse = inverse_mass(identity);
-      for_each_touch(identity, lanes, [&](const Touch &touch) {
-        const Real q = touch.q, closing = minimum(Real(0), touch.opening_rate);
-        sums[0] += 2 * inverse * touch.stiffness * (3 * q - 2) * q * q * q;
-        sums[1] += closing * closing;
-      });
-      return lanes.sum(sums);
-    }
-
-  private:
-    /// Of two that touch.
-    struct Touch
-    {
-      Vector<dim, Real> r;            ///< to the other [m]
-      Real              opening_rate; ///< relative rate at which |r| grows [1/s]
-      Real              stiffness;    ///< k [N/m, in the plane per m]
-      Real              q;            ///< distance at which they begin to touch over |r|
+      Vector<dim, Real> acceleration; ///< [m/s^2]
+      /// Bounds on the squares of the frequency that contact lets it have, and of the rate at which
+      /// it comes closer to others [1/s^2].
+      Real frequency_square, closing_square;
     };
 
-    /// f(touch) for this lane's share of the partners that touch.
-    template <class Lanes, class Function>
+    /// Of a particle with `count` partners. point_of(identity) is where a partner is.
+    template <class Lanes, class Points>
     UNDINE_HOST_DEVICE
-    void
-    for_each_touch(const int identity, const Lanes &lanes, const Function &f) const
+    Response
+    response(const int                      identity,
+             const ElasticPoint<dim, Real> &point,
+             const int                      count,
+             const Lanes                   &lanes,
+             const Points                  &point_of) const
     {
-      const Real own   = bodies.materials[bodies.bodies[identity]].contact;
-      const auto point = bodies.points[identity];
-      const int  count = counts[identity];
+      Response sum = {Vector<dim, Real>::zero(), 0, 0};
+      if (count == 0)
+        return sum;
       for (int k = lanes.rank(); k < count; k += lanes.count())
         {
           const int  partner = partners[list_slot(identity, k, neighbours.capacity)];
           const bool is_wall = partner < 0;
           const auto other   = is_wall ? ElasticPoint<dim, Real>{neighbours.places[-1 - partner].x,
                                                                  Vector<dim, Real>::zero()}
-                                       : bodies.points[partner];
+                                       : point_of(partner);
           const auto r       = neighbours.grid.difference(point.x, other.x);
           const Real square  = norm_square(r);
           const Real touch   = touching_distance(identity, is_wall ? identity : partner);
           if (square < touch * touch)
-            f(Touch{r,
-                    r * (other.v - point.v) / square,
-                    is_wall ? 2 * own : // it does not give
-                      minimum(own, bodies.materials[bodies.bodies[partner]].contact),
-                    touch * inverse_square_root(square)});
+            {
+              const Real k_ij    = stiffness(identity, partner);
+              const Real q       = touch * inverse_square_root(square);
+              const Real closing = minimum(Real(0), r * (other.v - point.v) / square);
+              sum.acceleration += (k_ij * (q - 1) * q * q * q) * r;
+              sum.frequency_square += 2 * k_ij * (3 * q - 2) * q * q * q;
+              sum.closing_square += closing * closing;
+            }
         }
+      const Real inverse_mass = 1 / (bodies.materials[bodies.bodies[identity]].density * volume);
+      return {inverse_mass * lanes.sum(sum.acceleration),
+              inverse_mass * lanes.sum(sum.frequency_square),
+              lanes.sum(sum.closing_square)};
+    }
+
+    /// At the present points.
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    Response
+    response(const int identity, const Lanes &lanes) const
+    {
+      return response(
+        identity, bodies.points[identity], counts[identity], lanes, [&](const int partner) {
+          return bodies.points[partner];
+        });
+    }
+
+  private:
+    /// Of the softer one; a wall does not give [N/m, in the plane per m].
+    UNDINE_HOST_DEVICE
+    Real
+    stiffness(const int identity, const int partner) const
+    {
+      const Real own = bodies.materials[bodies.bodies[identity]].contact;
+      return partner < 0 ? 2 * own : minimum(own, bodies.materials[bodies.bodies[partner]].contact);
     }
 
     /// [m]; of a wall's particle that of `identity` itself.
@@ -139,13 +137,6 @@ namespace undine::particles
     {
       const Real folded = Real(0.4);
       return other != identity && are_bonded(identity, other) ? folded * spacing : spacing;
-    }
-
-    UNDINE_HOST_DEVICE
-    Real
-    inverse_mass(const int identity) const
-    {
-      return 1 / (bodies.materials[bodies.bodies[identity]].density * volume);
     }
 
     /// Is the neighbour at place j of i, where `identity` is? Reads all that it may need at once.

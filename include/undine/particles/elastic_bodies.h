@@ -3,6 +3,7 @@
 #define undine_particles_elastic_bodies_h
 
 #include <undine/particles/cell_grid.h>
+#include <undine/particles/elastic_state.h>
 #include <undine/particles/lanes.h>
 #include <undine/particles/neighbours.h>
 #include <undine/particles/rotation.h>
@@ -10,74 +11,6 @@
 
 namespace undine::particles
 {
-  /// Of one elastic body.
-  template <class Real>
-  struct ElasticMaterial
-  {
-    Real lambda, mu; ///< Lame's parameters [Pa]
-    Real density;    ///< [kg/m^3]
-    Real hourglass;  ///< alpha: stiffness against motions that deformation gradients do not see [1]
-    Real damping;    ///< zeta: share of critical damping of neighbours' relative motion [1]
-    Real bulk_damping; ///< bulk viscosity over rho c_p l0, which damps sound [1]
-    Real contact; ///< stiffness of contact with walls and other bodies [N/m, in the plane per m]
-  };
-
-  /// Words that the device reads at once. @{
-
-  /// Of the reference configuration.
-  template <int dim, class Real>
-  struct alignas(4 * sizeof(Real)) ReferencePoint
-  {
-    Vector<dim, Real> x;            ///< X [m]
-    Real              inverse_mean; ///< 1 / a, a = tr(A) / dim [1/m^2]
-  };
-
-  template <int dim, class Real>
-  struct alignas(4 * sizeof(Real)) ElasticPoint
-  {
-    Vector<dim, Real> x; ///< [m]
-    Vector<dim, Real> v; ///< [m/s]
-  };
-
-  /// A particle's part in the force of its bonds, T = P A^{-1} - (2 alpha mu / a) F [Pa/m^2], P of
-  /// first Piola and Kirchhoff.
-  template <int dim, class Real>
-  struct alignas(4 * sizeof(Real)) Traction
-  {
-    Matrix<dim, Real> matrix;
-  };
-  /// @}
-
-
-  /// The particles of all elastic bodies, by identity. The reference configuration and its
-  /// neighbourhoods never change: forces are total Lagrangian.
-  template <int dim, class Real>
-  struct ElasticBodies
-  {
-    int n;
-
-    const ReferencePoint<dim, Real> *reference;
-    const int                       *bodies;    ///< number of the body
-    const ElasticMaterial<Real>     *materials; ///< of the bodies
-    const unsigned char             *held;      ///< does not move
-    int                              capacity;  ///< of the list of neighbours in the reference
-    const int                       *counts;
-    const int                       *indices;
-    const Matrix<dim, Real>         *inverse_moments; ///< A^{-1}, A = sum w X_ij X_ij^T [1/m^2]
-
-    ElasticPoint<dim, Real> *points;
-    Matrix<dim, Real>       *deformations; ///< F
-    Matrix<dim, Real>       *rotations;    ///< R, last valid one
-    Traction<dim, Real>     *tractions;
-
-    const Real *carried; ///< of the bodies: mean pressure around them that elasticity carries [Pa]
-
-    /// Of the particle's surface that does not touch its own body: its faces over rho V [m^2/kg in
-    /// space], and their first moments about the centre over V [1].
-    const Vector<dim, Real> *surfaces;
-    const Matrix<dim, Real> *surface_moments;
-  };
-
   /// Corotated linear elasticity of particles, derived from one energy, so that momentum and
   /// angular momentum are exact:
   ///     W = sum_i V (mu |F_i - R_i|^2 + lambda/2 tr(R_i^T F_i - I)^2)
@@ -103,6 +36,29 @@ namespace undine::particles
       Real              weight;       ///< w_ij [1]
       Real              inverse_mean; ///< 1 / a_j
     };
+
+    /// The k-th bond of i as the reference knows it; after the last one of i with itself, with the
+    /// weight zero.
+    UNDINE_HOST_DEVICE
+    Bond
+    reference_bond(const int i, const int k) const
+    {
+      const int j = bodies.indices[list_slot(i, minimum(k, bodies.capacity - 1), bodies.capacity)];
+      return bond_to(j, bodies.reference[i].x, bodies.reference[j], k < bodies.counts[i]);
+    }
+
+    /// With the points of both ends.
+    UNDINE_HOST_DEVICE
+    Bond
+    at_present(Bond                           bond,
+               const ElasticPoint<dim, Real> &own,
+               const Vector<dim, Real>       &x,
+               const Vector<dim, Real>       &v) const
+    {
+      bond.x = grid.difference(x, own.x);
+      bond.v = v - own.v;
+      return bond;
+    }
 
     /// f(bond) for this lane's share of the bonds of i, and some with the weight zero. The list is
     /// filled up with such ones, so that it can be read before it is known how many there are.
@@ -134,14 +90,8 @@ namespace undine::particles
           UNDINE_UNROLL
           for (int k = 0; k < together; ++k)
             {
-              const auto X_ij = reference[k].x - X;
-              const Real w    = reach * inverse_square_root(positive(norm_square(X_ij))) - 1;
-              f(Bond{j[k],
-                     X_ij,
-                     grid.difference(other[k].x, point.x),
-                     other[k].v - point.v,
-                     first + k * lanes.count() < count ? w : Real(0),
-                     reference[k].inverse_mean});
+              const bool exists = first + k * lanes.count() < count;
+              f(at_present(bond_to(j[k], X, reference[k], exists), point, other[k].x, other[k].v));
             }
           first += together * lanes.count();
         }
@@ -155,62 +105,118 @@ namespace undine::particles
       return bodies.materials[bodies.bodies[i]];
     }
 
+    /// What a particle is besides its bonds; constant in a sub-step.
+    struct Particle
+    {
+      ElasticMaterial<Real> material;
+      Real                  inverse_mean; ///< 1 / a_i
+      Real                  carried;      ///< as in ElasticBodies, all that follow
+      Matrix<dim, Real>     inverse_moment;
+      Vector<dim, Real>     surface;
+      Matrix<dim, Real>     surface_moment;
+    };
+
+    /// Of one particle at present.
+    struct Deformation
+    {
+      Matrix<dim, Real> F, R, T; ///< gradient, rotation, traction
+    };
+
+    UNDINE_HOST_DEVICE
+    Particle
+    particle(const int i) const
+    {
+      const int body = bodies.bodies[i];
+      return {bodies.materials[body],
+              inverse_mean(i),
+              bodies.carried[body],
+              bodies.inverse_moments[i],
+              bodies.surfaces[i],
+              bodies.surface_moments[i]};
+    }
+
+    /// Bonds are given as for_each(f), which calls f(bond) for this lane's share.
+    template <class Lanes, class Bonds>
+    UNDINE_HOST_DEVICE
+    Deformation
+    deformation(const Particle          &particle,
+                const Matrix<dim, Real> &last_rotation,
+                const Lanes             &lanes,
+                const Bonds             &for_each) const
+    {
+      auto moment = Matrix<dim, Real>::diagonal(0), rate = moment;
+      for_each([&](const Bond &bond) {
+        moment.add_outer_product(bond.weight, bond.x, bond.X);
+        rate.add_outer_product(bond.weight, bond.v, bond.X);
+      });
+      const auto &properties = particle.material;
+      const Real  stiffness  = 2 * properties.hourglass * properties.mu * particle.inverse_mean;
+      const auto  F          = lanes.sum(moment) * particle.inverse_moment;
+      const auto  R          = rotation_of(F, last_rotation);
+      auto        T          = stress(properties,
+                      F,
+                      R,
+                      lanes.sum(rate) * particle.inverse_moment,
+                      particle.carried,
+                      particle.surface_moment * R) *
+               particle.inverse_moment;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          T[a][b] -= stiffness * F[a][b];
+      return {F, R, T};
+    }
+
+    /// The acceleration by elasticity, damping and the carried pressure [m/s^2]; T is the
+    /// particle's own traction. for_each(f) calls f(bond, traction of its other end).
+    template <class Lanes, class Bonds>
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    acceleration(const Particle          &particle,
+                 const Matrix<dim, Real> &T,
+                 const Lanes             &lanes,
+                 const Bonds             &for_each) const
+    {
+      const auto &properties = particle.material;
+      const Real  stiffness  = 2 * properties.hourglass * properties.mu;
+      const Real  rate =
+        is_damped ? sound_impedance(properties) * properties.damping / (8 * spacing) : Real(0);
+      auto force = Vector<dim, Real>::zero();
+      for_each([&](const Bond &bond, const Matrix<dim, Real> &other) {
+        force += bond.weight * (T * bond.X + other * bond.X);
+        force += (bond.weight * (stiffness * (particle.inverse_mean + bond.inverse_mean) +
+                                 rate * (bond.v * bond.x) / positive(norm_square(bond.x)))) *
+                 bond.x;
+      });
+      return (1 / properties.density) * lanes.sum(force) - particle.carried * particle.surface;
+    }
+
     /// F, R and T at the present places.
     template <class Lanes>
     UNDINE_HOST_DEVICE
     void
     deform(const int i, const Lanes &lanes) const
     {
-      const int  body           = bodies.bodies[i];
-      const auto inverse_moment = bodies.inverse_moments[i];
-      const auto last           = bodies.rotations[i];
-      const auto surface        = bodies.surface_moments[i];
-      auto       moment = Matrix<dim, Real>::diagonal(0), rate = moment;
-      for_each_bond(i, lanes, [&](const Bond &bond) {
-        moment.add_outer_product(bond.weight, bond.x, bond.X);
-        rate.add_outer_product(bond.weight, bond.v, bond.X);
-      });
-      const auto properties = bodies.materials[body];
-      const Real carried    = bodies.carried[body];
-      const Real stiffness  = 2 * properties.hourglass * properties.mu * inverse_mean(i);
-      const auto F          = lanes.sum(moment) * inverse_moment;
-      const auto R          = rotation_of(F, last);
-      const auto P =
-        stress(properties, F, R, lanes.sum(rate) * inverse_moment, carried, surface * R);
+      const auto own  = particle(i);
+      const auto last = bodies.rotations[i];
+      const auto now =
+        deformation(own, last, lanes, [&](const auto &f) { for_each_bond(i, lanes, f); });
       if (lanes.rank() != 0)
         return;
-      bodies.deformations[i] = F;
-      bodies.rotations[i]    = R;
-      auto traction          = P * inverse_moment;
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-          traction[a][b] -= stiffness * F[a][b];
-      bodies.tractions[i].matrix = traction;
+      bodies.deformations[i]     = now.F;
+      bodies.rotations[i]        = now.R;
+      bodies.tractions[i].matrix = now.T;
     }
 
-    /// The acceleration by elasticity, damping and the carried pressure [m/s^2], after deform() of
-    /// all.
+    /// As above, after deform() of all.
     template <class Lanes>
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
     acceleration(const int i, const Lanes &lanes) const
     {
-      const auto              properties = material(i);
-      const Real              stiffness  = 2 * properties.hourglass * properties.mu;
-      const auto              T_i        = bodies.tractions[i].matrix;
-      const Vector<dim, Real> carried    = bodies.carried[bodies.bodies[i]] * bodies.surfaces[i];
-      const Real              a_i        = inverse_mean(i);
-      const Real              rate =
-        is_damped ? sound_impedance(properties) * properties.damping / (8 * spacing) : Real(0);
-      auto force = Vector<dim, Real>::zero();
-      for_each_bond(i, lanes, [&](const Bond &bond) {
-        const auto &T_j = bodies.tractions[bond.j].matrix;
-        force += bond.weight * (T_i * bond.X + T_j * bond.X);
-        force += (bond.weight * (stiffness * (a_i + bond.inverse_mean) +
-                                 rate * (bond.v * bond.x) / positive(norm_square(bond.x)))) *
-                 bond.x;
+      return acceleration(particle(i), bodies.tractions[i].matrix, lanes, [&](const auto &f) {
+        for_each_bond(
+          i, lanes, [&](const Bond &bond) { f(bond, bodies.tractions[bond.j].matrix); });
       });
-      return (1 / properties.density) * lanes.sum(force) - carried;
     }
 
     /// Changes of F and of P A^{-1} with places that move along u, R and the cofactors of F held.
@@ -261,15 +267,13 @@ namespace undine::particles
       return (1 / properties.density) * force;
     }
 
-    /// The square of the speed of pressure waves where they are fastest, after deform() of all
-    /// [m^2/s^2].
+    /// The square of the speed of pressure waves where they are fastest [m^2/s^2].
     UNDINE_HOST_DEVICE
-    Real
-    sound_square(const int i) const
+    static Real
+    sound_square(const ElasticMaterial<Real> &properties, const Matrix<dim, Real> &F)
     {
-      const auto &properties = material(i);
-      const auto  F = bodies.deformations[i], C = cofactors(F);
-      Real        square = 0; // of |C C^T - 1|, which bounds the change of the largest stretch
+      const auto C      = cofactors(F);
+      Real       square = 0; // of |C C^T - 1|, which bounds the change of the largest stretch
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
           {
@@ -303,6 +307,23 @@ namespace undine::particles
     }
 
   private:
+    UNDINE_HOST_DEVICE
+    Bond
+    bond_to(const int                        j,
+            const Vector<dim, Real>         &X,
+            const ReferencePoint<dim, Real> &other,
+            const bool                       exists) const
+    {
+      const auto X_ij   = other.x - X;
+      const Real weight = reach * inverse_square_root(positive(norm_square(X_ij))) - 1;
+      return {j,
+              X_ij,
+              Vector<dim, Real>::zero(),
+              Vector<dim, Real>::zero(),
+              exists ? weight : Real(0),
+              other.inverse_mean};
+    }
+
     /// Not zero, as it would be of a particle with itself, with which lists are filled up.
     UNDINE_HOST_DEVICE
     static Real

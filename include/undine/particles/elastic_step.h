@@ -5,8 +5,8 @@
 #include <undine/particles/body_force.h>
 #include <undine/particles/contact.h>
 #include <undine/particles/elastic_bodies.h>
+#include <undine/particles/explicit_steps.h>
 #include <undine/particles/implicit_elasticity.h>
-#include <undine/particles/step_control.h>
 #include <undine/particles/sums.h>
 
 namespace undine::particles
@@ -41,6 +41,8 @@ namespace undine::particles
     StepBounds                 bounds;
     StepControl               *control;
 
+    using Response = typename Contact<dim, Real>::Response;
+
     template <class Team>
     UNDINE_HOST_DEVICE
     void
@@ -55,92 +57,104 @@ namespace undine::particles
         control->elastic_rates[0] = control->elastic_rates[1] = 0;
       team.sync();
       const int steps = is_stiff() ? now.move_implicitly(team) : now.move_explicitly(team);
-      if (team.is_first() && purpose != ElasticRun::attempt)
-        control->elastic_steps_total += steps;
-      team.for_each(n, [&](const int i) { end(i, now); });
-      if (purpose == ElasticRun::final && carry_share > 0)
-        carry_pressure(team);
+      if (team.is_first())
+        count(steps);
+      team.for_each(n, [&](const int i) { end(i, now.bodies().points[i]); });
+      carry_pressure(team);
     }
 
-  private:
     /// Would it take too many explicit steps?
     UNDINE_HOST_DEVICE
     bool
     is_stiff() const
     {
       return bounds.most_elastic_steps > 0 &&
-             number_of_steps(control->dt, bounds.elastic_rate) > bounds.most_elastic_steps;
+             ExplicitSteps(control->dt, bounds).number(0) > bounds.most_elastic_steps;
     }
 
-    /// Explicit steps in `time` [s].
+    /// Where and how fast a particle starts.
     UNDINE_HOST_DEVICE
-    int
-    number_of_steps(const double time, const double rate) const
+    ElasticPoint<dim, Real>
+    start_of(const int i) const
     {
-      return static_cast<int>(minimum(maximum(ceil(time * rate / bounds.elastic_share), 1.), 1e5));
+      return {purpose == ElasticRun::final ? x_start[i] : elasticity.bodies.points[i].x,
+              v_start[i]};
     }
 
-    /// Steps follow what the rate is at their beginning. Returns how many they were.
-    template <class Team>
+    /// Symplectic Euler.
     UNDINE_HOST_DEVICE
-    int
-    move_explicitly(Team &team)
+    static ElasticPoint<dim, Real>
+    moved(const ElasticPoint<dim, Real> &point,
+          const bool                     is_held,
+          const Real                     h,
+          const Vector<dim, Real>       &a)
     {
-      const int n    = bodies().n;
-      const int most = 100 * number_of_steps(control->dt, bounds.elastic_rate);
-      double    left = control->dt;
-      for (int step = 0;; ++step)
-        {
-          std::uint32_t *const measured = &control->elastic_rates[step % 2];
-          team.for_each_by_lanes(n, [&](const int i, const auto &lanes) {
-            elasticity.deform(i, lanes);
-            measure_rate(i, lanes, measured);
-          });
-          team.sync();
-          const double rate =
-            maximum(bounds.elastic_rate, static_cast<double>(number_of_bits(*measured)));
-          const int  steps = number_of_steps(left, rate);
-          const Real h     = static_cast<Real>(left / steps);
-          team.for_each_by_lanes(n, [&](const int i, const auto &lanes) { move(i, h, lanes); });
-          if (team.is_first())
-            control->elastic_rates[(step + 1) % 2] = 0;
-          team.sync();
-          swap();
-          if (steps == 1)
-            return step + 1;
-          if (step == most)
-            {
-              if (team.is_first())
-                atomic_or(&control->failures, static_cast<unsigned int>(Failure::crushed));
-              return most;
-            }
-          left -= left / steps;
-        }
+      const auto v = is_held ? Vector<dim, Real>::zero() : point.v + h * a;
+      return {point.x + h * v, v};
     }
 
-    /// How far the fastest waves, the hardest and the fastest contacts are from those of bodies at
-    /// rest.
-    template <class Lanes>
+    /// By the fluid's pressure [m/s^2].
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    pressure_acceleration(const int i) const
+    {
+      return purpose == ElasticRun::final ? pressure_accelerations[i] : Vector<dim, Real>::zero();
+    }
+
+    /// How fast the fastest waves, the hardest and the fastest contacts of a particle are, as in
+    /// StepBounds [1/s]; 0: not faster than those of bodies at rest.
+    UNDINE_HOST_DEVICE
+    float
+    rate_of(const ElasticMaterial<Real> &material,
+            const Matrix<dim, Real>     &F,
+            const Response              &contacts) const
+    {
+      const Real square =
+        elasticity.sound_square(material, F) / (elasticity.spacing * elasticity.spacing) +
+        contacts.frequency_square / lattice_frequency_square +
+        contacts.closing_square * closing_factor * closing_factor;
+      return square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate)
+               ? static_cast<float>(sqrt(square))
+               : 0.f;
+    }
+
+    /// By one worker.
     UNDINE_HOST_DEVICE
     void
-    measure_rate(const int i, const Lanes &lanes, std::uint32_t *measured) const
+    count(const int steps) const
     {
-      const auto contacts = contact.rate_squares(i, lanes);
-      if (lanes.rank() != 0)
-        return;
-      const Real square = elasticity.sound_square(i) / (elasticity.spacing * elasticity.spacing) +
-                          contacts[0] / lattice_frequency_square +
-                          contacts[1] * closing_factor * closing_factor;
-      if (square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate))
-        atomic_maximum(measured, static_cast<float>(sqrt(square)));
+      if (purpose != ElasticRun::attempt)
+        control->elastic_steps_total += steps;
     }
 
-    /// Square of the highest frequency of a lattice of particles over c_p / l0: explicit steps are
-    /// stable up to about 0.95 l0 / c_p.
-    static constexpr Real lattice_frequency_square = Real(4.4);
+    UNDINE_HOST_DEVICE
+    void
+    fail() const
+    {
+      atomic_or(&control->failures, static_cast<unsigned int>(Failure::crushed));
+    }
 
-    /// In a step two may come closer by elastic_share over this of their distance.
-    static constexpr Real closing_factor = Real(4);
+    /// Hand over where a particle ends.
+    UNDINE_HOST_DEVICE
+    void
+    end(const int i, const ElasticPoint<dim, Real> &point) const
+    {
+      const auto x = point.x, v = point.v;
+      const int  slot = contact.where[i];
+      places[slot].x  = elasticity.grid.wrapped(x);
+      if (!elasticity.grid.contains(places[slot].x))
+        atomic_or(&control->failures, static_cast<unsigned int>(Failure::outside));
+      if (purpose == ElasticRun::attempt)
+        {
+          // The mean velocity: what matters to the fluid is how far the surface comes, not in which
+          // phase of an unresolved vibration it arrives.
+          motions[slot].v = static_cast<Real>(1 / control->dt) * (x - x_start[i]);
+          return;
+        }
+      motions[slot].v             = v;
+      elasticity.bodies.points[i] = point;
+      atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(v))));
+    }
 
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
     /// swing with their own sound. What it carries beyond twice the pressure is given back
@@ -151,6 +165,8 @@ namespace undine::particles
     void
     carry_pressure(Team &team) const
     {
+      if (purpose != ElasticRun::final || !(carry_share > 0))
+        return;
       for (int body = 0; body < n_bodies; ++body)
         {
           const auto sums =
@@ -170,7 +186,15 @@ namespace undine::particles
         }
     }
 
+  private:
     static constexpr Real release = 10;
+
+    /// Square of the highest frequency of a lattice of particles over c_p / l0: explicit steps are
+    /// stable up to about 0.95 l0 / c_p.
+    static constexpr Real lattice_frequency_square = Real(4.4);
+
+    /// In a step two may come closer by elastic_share over this of their distance.
+    static constexpr Real closing_factor = Real(4);
 
     UNDINE_HOST_DEVICE
     ElasticBodies<dim, Real> &
@@ -187,11 +211,53 @@ namespace undine::particles
       contact.list_partners(i, lanes);
       if (lanes.rank() != 0)
         return;
-      if (purpose == ElasticRun::final)
-        bodies().points[i].x = x_start[i];
-      else
-        x_start[i] = bodies().points[i].x;
-      bodies().points[i].v = v_start[i];
+      const auto start   = start_of(i);
+      x_start[i]         = start.x;
+      bodies().points[i] = start;
+    }
+
+    /// Steps follow what the rate is at their beginning. Returns how many they were.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    int
+    move_explicitly(Team &team)
+    {
+      const int     n = bodies().n;
+      ExplicitSteps steps(control->dt, bounds);
+      while (steps.goes_on)
+        {
+          std::uint32_t *const measured = &control->elastic_rates[steps.taken % 2];
+          std::uint32_t *const later    = &control->elastic_rates[(steps.taken + 1) % 2];
+          team.for_each_by_lanes(n, [&](const int i, const auto &lanes) {
+            elasticity.deform(i, lanes);
+            measure_rate(i, lanes, measured);
+          });
+          team.sync();
+          const Real h = static_cast<Real>(steps.next(number_of_bits(*measured)));
+          team.for_each_by_lanes(n, [&](const int i, const auto &lanes) { move(i, h, lanes); });
+          if (team.is_first())
+            *later = 0;
+          team.sync();
+          swap();
+        }
+      if (steps.failed && team.is_first())
+        fail();
+      return steps.taken;
+    }
+
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    void
+    measure_rate(const int i, const Lanes &lanes, std::uint32_t *measured) const
+    {
+      const auto contacts = contact.response(i, lanes);
+      if (lanes.rank() != 0)
+        return;
+      const auto &bodies = elasticity.bodies;
+      const float rate =
+        rate_of(bodies.materials[bodies.bodies[i]], bodies.deformations[i], contacts);
+      if (rate > 0)
+        atomic_maximum(measured, rate);
     }
 
     template <class Lanes>
@@ -199,13 +265,10 @@ namespace undine::particles
     void
     move(const int i, const Real h, const Lanes &lanes)
     {
-      ElasticPoint<dim, Real> point = bodies().points[i];
-      const auto              a     = acceleration(i, lanes);
-      if (lanes.rank() != 0)
-        return;
-      point.v = bodies().held[i] ? Vector<dim, Real>::zero() : point.v + h * a;
-      point.x += h * point.v;
-      points_next[i] = point;
+      const auto point = bodies().points[i];
+      const auto a     = acceleration(i, lanes);
+      if (lanes.rank() == 0)
+        points_next[i] = moved(point, elasticity.bodies.held[i], h, a);
     }
 
     /// One step of backward Euler; what contacts and pressures do is held constant.
@@ -240,10 +303,8 @@ namespace undine::particles
     Vector<dim, Real>
     acceleration(const int i, const Lanes &lanes) const
     {
-      auto result = force.acceleration(elasticity.bodies.points[i].x);
-      if (purpose == ElasticRun::final)
-        result += pressure_accelerations[i];
-      result += contact.acceleration(i, lanes);
+      auto result = force.acceleration(elasticity.bodies.points[i].x) + pressure_acceleration(i);
+      result += contact.response(i, lanes).acceleration;
       return result += elasticity.acceleration(i, lanes);
     }
 
@@ -254,29 +315,6 @@ namespace undine::particles
       auto *const last = bodies().points;
       bodies().points = contact.bodies.points = points_next;
       points_next                             = last;
-    }
-
-    /// `now` knows where the last points are.
-    UNDINE_HOST_DEVICE
-    void
-    end(const int i, ElasticStep &now) const
-    {
-      const auto point = now.bodies().points[i];
-      const auto x = point.x, v = point.v;
-      const int  slot = contact.where[i];
-      places[slot].x  = elasticity.grid.wrapped(x);
-      if (!elasticity.grid.contains(places[slot].x))
-        atomic_or(&control->failures, static_cast<unsigned int>(Failure::outside));
-      if (purpose == ElasticRun::attempt)
-        {
-          // The mean velocity: what matters to the fluid is how far the surface comes, not in which
-          // phase of an unresolved vibration it arrives.
-          motions[slot].v = static_cast<Real>(1 / control->dt) * (x - x_start[i]);
-          return;
-        }
-      motions[slot].v             = v;
-      elasticity.bodies.points[i] = point;
-      atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(v))));
     }
   };
 } // namespace undine::particles

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The device computes what the host computes. Where there is no device, comparisons with it are
 // skipped and say so; what holds for each executor is tried for those that there are.
-#include "particle_scene.h"
+#include "executors.h"
 #include "state_differences.h"
 
 #include <catch2/catch.hpp>
@@ -10,51 +10,6 @@ using namespace particle_tests;
 
 namespace
 {
-  template <int dim>
-  std::unique_ptr<Engine<dim>>
-  engine_on(const std::string &executor, const ParticleScene<dim> &scene)
-  {
-    auto engine =
-      Registry<EngineFactory<dim>>::instance().make(executor)->make(Precision::single_precision);
-    engine->load(scene.setup, scene.state);
-    return engine;
-  }
-
-  template <int dim>
-  bool
-  has_device()
-  {
-    const auto factory = Registry<EngineFactory<dim>>::instance().make("device");
-    return factory->reason_not_available().empty();
-  }
-
-  /// True where there is no device, which is said.
-  template <int dim>
-  bool
-  is_skipped()
-  {
-    if (!has_device<dim>())
-      WARN("skipped: there is no device to compare with");
-    return !has_device<dim>();
-  }
-
-  template <int dim>
-  std::vector<std::string>
-  executors()
-  {
-    return has_device<dim>() ? std::vector<std::string>{"host", "device"}
-                             : std::vector<std::string>{"host"};
-  }
-
-  template <int dim>
-  ParticleState<dim>
-  state_of(const Engine<dim> &engine)
-  {
-    ParticleState<dim> state;
-    engine.fetch(state);
-    return state;
-  }
-
   /// A drop with a ball in it that crosses free space.
   template <int dim>
   ParticleScene<dim>
