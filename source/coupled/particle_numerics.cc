@@ -232,6 +232,13 @@ namespace undine
       "1",
       Allowed::between(0, 1),
       "Particles with less than this share of the full number density are at the surface.");
+    options.add(
+      "Body surface density",
+      numerics.body_surface_density,
+      "1",
+      Allowed::between(0, 1),
+      "The same for the particles of bodies; flat faces of bodies in air have 0.68 (2D) or "
+      "0.73 (3D).");
     options.add("One-sided density",
                 numerics.one_sided_density,
                 "1",

@@ -84,6 +84,7 @@ namespace undine::particles
     constants.crowd_rate =
       longest > 0 ? static_cast<Real>(numerics.crowd_share / longest) : Real(0);
     constants.surface_density       = static_cast<Real>(numerics.surface_density);
+    constants.body_surface_density  = static_cast<Real>(numerics.body_surface_density);
     constants.one_sided_density     = static_cast<Real>(numerics.one_sided_density);
     constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);
     constants.air                   = static_cast<Real>(numerics.air);

@@ -64,6 +64,7 @@ namespace undine::particles
     Real crowd_rate;   ///< and in a second, if that is less [1/s]; 0: no such bound
 
     Real surface_density;       ///< n* < this * n0: at the free surface
+    Real body_surface_density;  ///< the same of bodies' particles
     Real one_sided_density;     ///< n* < this * n0 and
     Real surface_one_sidedness; ///< |sum w r/|r|| > this * n0: also at the free surface
     Real air;                   ///< how strongly missing neighbours pull pressures to zero [1]

@@ -78,13 +78,16 @@ namespace undine::particles
     }
 
   private:
+    /// A body's particle beside which water has opened a little gap is not at the free surface: its
+    /// pressure would be given, zero, and pull that of all the water around to it. Faces of bodies
+    /// in air have 0.68 (in the plane) or 0.73 of a full neighbourhood.
     UNDINE_HOST_DEVICE
     bool
     is_covered(const Tag tag, const int identity, const Real n, const Vector<dim, Real> &side) const
     {
-      if (tag.kind() == Kind::solid && inside_body[identity])
-        return true;
       const Real n0 = constants.number_density;
+      if (tag.kind() == Kind::solid)
+        return inside_body[identity] || n >= constants.body_surface_density * n0;
       if (!(n >= constants.surface_density * n0))
         return false;
       const Real one_sided = constants.surface_one_sidedness * n0;

@@ -33,6 +33,7 @@ namespace undine::particles
     Coupling  coupling        = Coupling::simultaneous;
 
     double surface_density       = 0.9;  ///< share of n0 [1]
+    double body_surface_density  = 0.8;  ///< share of n0, of bodies' particles [1]
     double one_sided_density     = 0.97; ///< share of n0 [1]
     double surface_one_sidedness = 0.2;  ///< share of n0 [1]
     double air                   = 2;    ///< weight of missing neighbours; 0: no pressure there [1]

@@ -99,7 +99,8 @@ namespace undine
     }
 
 
-    /// Parts that a scene can choose often share keys: such rows become one, with all conditions.
+    /// Parts that a scene can choose often share keys: such rows become one, with all conditions,
+    /// or without any if one of them is always known.
     std::vector<Options::Entry>
     without_repetition(const std::vector<const Options::Entry *> &entries)
     {
@@ -114,6 +115,8 @@ namespace undine
             });
           if (same == result.end())
             result.push_back(*entry);
+          else if (same->condition.empty() || entry->condition.empty())
+            same->condition.clear();
           else if (const auto name = entry->condition.find(" = "); name != std::string::npos)
             same->condition += " | " + entry->condition.substr(name + 3);
         }
