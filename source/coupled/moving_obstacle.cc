@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/moving_obstacle.h>
+#include <undine/coupled/plain_vector.h>
 
 #include <fmt/format.h>
 
@@ -10,18 +11,7 @@ namespace undine
   namespace
   {
     constexpr double accuracy = 1e-3; // of velocities by differences [frames]
-
-
-    template <int dim>
-    particles::Vector<dim, double>
-    plain(const dealii::Tensor<1, dim> &vector)
-    {
-      particles::Vector<dim, double> result;
-      for (int axis = 0; axis < dim; ++axis)
-        result[axis] = vector[axis];
-      return result;
-    }
-  } // namespace
+  }                                   // namespace
 
 
   template <int dim>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/particle_model.h>
+#include <undine/coupled/plain_vector.h>
 
 #include <fmt/format.h>
 
@@ -24,17 +25,6 @@ namespace undine
           "Try: start it without mpirun; it uses all cores by threads, see "
           "'Particles / Threads'.");
       return scene;
-    }
-
-
-    template <int dim>
-    particles::Vector<dim, double>
-    plain(const dealii::Tensor<1, dim> &vector)
-    {
-      particles::Vector<dim, double> result;
-      for (int axis = 0; axis < dim; ++axis)
-        result[axis] = vector[axis];
-      return result;
     }
 
 

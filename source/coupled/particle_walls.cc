@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/particle_walls.h>
 #include <undine/coupled/point_grid.h>
+#include <undine/interface/obstacle_description.h>
 #include <undine/interface/shape_boundary.h>
 
 #include <algorithm>
@@ -212,37 +213,6 @@ namespace undine
 
   namespace
   {
-    /// What a scene says about one obstacle.
-    template <int dim>
-    struct Obstacle
-    {
-      Obstacle(const std::string &name, const Options &options)
-        : description(name, options)
-      {
-        options.add("Displacement",
-                    displacement,
-                    "m",
-                    Allowed::anything(),
-                    "At time t, of the point that rests at x: a prescribed motion.");
-      }
-
-      ShapeDescription<dim> description;
-      Expression<dim, dim>  displacement;
-    };
-
-
-    template <int dim>
-    std::vector<Obstacle<dim>>
-    read_obstacles(const Options &scene)
-    {
-      const auto                 section = scene.section("Obstacles");
-      std::vector<Obstacle<dim>> result;
-      for (const auto &name : section.named_sections("pillar"))
-        result.emplace_back(name, section.section(name));
-      return result;
-    }
-
-
     template <int dim>
     std::vector<WallParticle<dim>>
     fitted(const Obstacle<dim>            &obstacle,
