@@ -250,6 +250,13 @@ namespace undine
                 Allowed::between(0, 1),
                 "What counts as one side: length of the weights' vector sum as share of the full "
                 "number density.");
+    options.add(
+      "Fade",
+      numerics.surface_fade,
+      "1",
+      Allowed::positive(),
+      "Being at the surface begins by so much above these three limits and is complete by "
+      "so much beyond them.");
     options.add("Air",
                 numerics.air,
                 "1",

@@ -63,6 +63,7 @@ namespace undine::particles
     constants.number_density = static_cast<Real>(lattice.number_density);
     constants.spread         = static_cast<Real>(lattice.spread * l0 * l0);
     constants.filling        = static_cast<Real>(lattice.filling);
+    constants.surface_lack   = static_cast<Real>(lattice.surface_lack);
     for (int axis = 0; axis < dim; ++axis)
       {
         constants.force.gravity[axis] = static_cast<Real>(setup.gravity[axis]);
@@ -87,6 +88,7 @@ namespace undine::particles
     constants.body_surface_density  = static_cast<Real>(numerics.body_surface_density);
     constants.one_sided_density     = static_cast<Real>(numerics.one_sided_density);
     constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);
+    constants.surface_fade          = static_cast<Real>(numerics.surface_fade);
     constants.air                   = static_cast<Real>(numerics.air);
     constants.collision_distance    = static_cast<Real>(numerics.collision_distance * l0);
     constants.restitution           = static_cast<Real>(numerics.restitution);

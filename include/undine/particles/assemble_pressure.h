@@ -89,13 +89,13 @@ namespace undine::particles
     void
     fill_row(const int i) const
     {
-      const Tag  tag      = neighbours.places[i].tag;
-      const auto M        = neighbourhood.corrections[i].matrix();
-      const auto v        = motions[i].v;
-      const bool closes   = faces_diagonal != nullptr;
-      const bool is_inner = closes && neighbourhood.is_covered[i] && tag.is_free();
-      auto       gap      = Vector<dim, Real>::zero();
-      int        count    = 0;
+      const Tag  tag       = neighbours.places[i].tag;
+      const auto M         = neighbourhood.corrections[i].matrix();
+      const auto v         = motions[i].v;
+      const bool closes    = faces_diagonal != nullptr;
+      const bool has_faces = closes && tag.is_free();
+      auto       gap       = Vector<dim, Real>::zero();
+      int        count     = 0;
       Real       sum = 0, flow = 0;
       bool       reached = true, has_given = false;
       struct Other
@@ -114,7 +114,7 @@ namespace undine::particles
               flow += (other.v - v) * plain;
               return;
             }
-          const auto open = is_inner ? faces.open(M, other.M.matrix(), pair) : plain;
+          const auto open = has_faces ? faces.open(M, other.M.matrix(), pair) : plain;
           flow += (other.v - v) * open;
           gap -= open;
           const Entry entry =
@@ -136,21 +136,19 @@ namespace undine::particles
       if (closes)
         {
           faces_diagonal[i] = maximum(sum, Real(1e-6));
-          if (is_inner)
-            {
-              gaps[i]                     = gap;
-              neighbourhood.is_covered[i] = has_given ? 2 : 1;
-            }
+          if (has_faces)
+            gaps[i] = neighbourhood.coverages[i] * gap;
         }
+      neighbourhood.is_beside_given[i] = has_given ? 1 : 0;
     }
 
     UNDINE_HOST_DEVICE
     Real
     air(const int i, const Tag tag) const
     {
-      if (neighbourhood.is_covered[i] || tag.kind() == Kind::solid)
+      if (tag.kind() == Kind::solid)
         return 0;
-      return constants.air *
+      return (1 - neighbourhood.coverages[i]) * constants.air *
              maximum(Real(0), constants.number_density - neighbourhood.densities[i]);
     }
 
@@ -166,10 +164,10 @@ namespace undine::particles
 
   /// The right-hand side of the pressure equation, rho_f lambda n0 / (2 dim) s; runs after the
   /// potentials are known. In the fluid
-  ///     s = -div v* / dt + gamma (f / f0 - 1) / dt^2  [1/s^2]
-  /// with the sum f of filling(), or by one of the other sources the error of the number density,
-  /// (n* - n0) / (n0 dt^2), or a share of it; none in bodies: pressure takes them along as if they
-  /// were fluid of another density, and elasticity keeps their volume.
+  ///     s = -div v* / dt + gamma (f / f* - 1) / dt^2  [1/s^2]
+  /// with the sum f of filling() and what there should be of it, or by one of the other sources the
+  /// error of the number density, (n* - n0) / (n0 dt^2), or a share of it; none in bodies: pressure
+  /// takes them along as if they were fluid of another density, and elasticity keeps their volume.
   template <int dim, class Real, class Entry>
   struct MeasureSource
   {
@@ -274,20 +272,20 @@ namespace undine::particles
       }
     };
 
-    /// By the same faces as the forces of pressures, where faces close.
+    /// By the same faces as the forces of pressures.
     UNDINE_HOST_DEVICE
     Real
     divergence(const int i, const Tag tag) const
     {
       Real sum = right_hand_side[i];
-      if (faces.potentials == nullptr || !neighbourhood.is_covered[i] || !tag.is_free())
+      if (faces.potentials == nullptr || !tag.is_free())
         return sum;
       const Others others{motions, faces.potentials};
       const Other  own = others[i];
       matrix.template for_each_in_row<Other>(i, others, [&](const Entry entry, const Other &other) {
         sum += entry.coefficient(matrix.scale) * ((other.v - own.v) * (own.L - other.L));
       });
-      return neighbourhood.is_covered[i] == 2 ? sum + beside_given(i, tag, own) : sum;
+      return neighbourhood.is_beside_given[i] ? sum + beside_given(i, tag, own) : sum;
     }
 
     /// The same for neighbours whose pressure is given, which have no entries.

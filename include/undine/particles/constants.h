@@ -47,6 +47,7 @@ namespace undine::particles
     Real                number_density; ///< n0 [1]
     Real                spread;         ///< lambda [m^2]
     Real                filling;        ///< f0, of filling() [1]
+    Real                surface_lack;   ///< of Lattice [1]
 
     BodyForce<dim, Real> force;
     Real                 viscosity;                ///< kinematic, of the fluid [m^2/s]
@@ -67,6 +68,7 @@ namespace undine::particles
     Real body_surface_density;  ///< the same of bodies' particles
     Real one_sided_density;     ///< n* < this * n0 and
     Real surface_one_sidedness; ///< |sum w r/|r|| > this * n0: also at the free surface
+    Real surface_fade;          ///< over twice of which both fade
     Real air;                   ///< how strongly missing neighbours pull pressures to zero [1]
 
     Real collision_distance; ///< [m]

@@ -27,6 +27,8 @@ namespace undine::particles
     double number_density; ///< n0 = sum w [1]
     double spread;         ///< lambda = sum w r^2 / n0 [spacing^2]
     double filling;        ///< f0 = sum f [1]
+    /// What a particle in a plane surface lacks of f / f0, over |sum w r / |r||^2 / n0^2 [1].
+    double surface_lack;
   };
 
   /// `reach` is r_e in spacings.

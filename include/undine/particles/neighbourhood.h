@@ -16,10 +16,14 @@ namespace undine::particles
   template <int dim, class Real>
   struct Neighbourhood
   {
-    Real          *densities;  ///< number density n* [1]
-    Real          *fillings;   ///< sum of filling() over that of a full lattice [1]
-    int           *is_unknown; ///< 1: has a row in the pressure equation
-    unsigned char *is_covered; ///< 0: at the free surface; 2: covered, beside given pressures
+    Real *densities; ///< number density n* [1]
+    /// 1 + the error of the volume: sum of filling() over that of a full lattice and, as it should
+    /// be there, what a plane surface with as one-sided neighbours takes of it [1].
+    Real *fillings;
+    int  *is_unknown; ///< 1: has a row in the pressure equation
+    Real *coverages;  ///< 0: at the free surface; 1: not [1]
+    /// 1: has neighbours with given pressures; AssemblePressure says it of those with a row.
+    unsigned char *is_beside_given;
     /// M, which makes gradients exact for linear fields.
     StoredCorrection<dim, Real> *corrections;
     StoredVector<dim, Real>     *ways_in; ///< as by MeasureWaysIn; nullptr: no bodies
@@ -27,7 +31,8 @@ namespace undine::particles
 
   /// Measures them, over all kinds of neighbours; but M of fluid and bodies without dummies, which
   /// have no pressure. At the free surface are particles with few neighbours, and those with
-  /// somewhat few which are all on one side.
+  /// somewhat few which are all on one side. In between are particles of the fluid that are a
+  /// little of both: a limit that rounding decides on would send single particles different ways.
   template <int dim, class Real>
   struct MeasureNeighbourhood
   {
@@ -44,7 +49,7 @@ namespace undine::particles
     {
       const Tag tag         = neighbours.places[i].tag;
       result.is_unknown[i]  = 0;
-      result.is_covered[i]  = 0;
+      result.coverages[i]   = 0;
       result.densities[i]   = 0;
       result.fillings[i]    = 0;
       const auto identity   = SymmetricMatrix<dim, Real>::diagonal(1);
@@ -67,31 +72,52 @@ namespace undine::particles
       });
       if (result.ways_in != nullptr && tag.kind() == Kind::fluid)
         result.ways_in[i] = bodies.way_in(constants.number_density);
-      const bool covered    = is_covered(tag, identities[i], n, side);
-      result.densities[i]   = n;
-      result.fillings[i]    = f / constants.filling;
-      result.is_covered[i]  = covered ? 1 : 0;
-      const bool unknown    = has_pressure(tag, n, covered);
-      result.is_unknown[i]  = unknown ? 1 : 0;
+      side *= 1 / constants.number_density;
+      const Real coverage  = this->coverage(tag, identities[i], n / constants.number_density, side);
+      result.densities[i]  = n;
+      result.fillings[i]   = f / constants.filling + constants.surface_lack * norm_square(side);
+      result.coverages[i]  = coverage;
+      const bool unknown   = has_pressure(tag, n, coverage > 0);
+      result.is_unknown[i] = unknown ? 1 : 0;
+      const Real share     = tag.kind() == Kind::solid ? Real(1) : coverage;
       result.corrections[i] = StoredCorrection<dim, Real>::of(
-        covered || tag.kind() == Kind::solid ? correction(moment) : identity, unknown);
+        share > 0 ? mixed(identity, correction(moment), share) : identity, unknown);
     }
 
   private:
-    /// A body's particle beside which water has opened a little gap is not at the free surface: its
-    /// pressure would be given, zero, and pull that of all the water around to it. Faces of bodies
-    /// in air have 0.68 (in the plane) or 0.73 of a full neighbourhood.
+    /// `n` and `side` as shares of n0. A body's particle beside which water has opened a little gap
+    /// is not at the free surface: its pressure would be given, zero, and pull that of all the
+    /// water around to it. Faces of bodies in air have 0.68 (in the plane) or 0.73 of a full
+    /// neighbourhood.
     UNDINE_HOST_DEVICE
-    bool
-    is_covered(const Tag tag, const int identity, const Real n, const Vector<dim, Real> &side) const
+    Real
+    coverage(const Tag tag, const int identity, const Real n, const Vector<dim, Real> &side) const
     {
-      const Real n0 = constants.number_density;
       if (tag.kind() == Kind::solid)
-        return inside_body[identity] || n >= constants.body_surface_density * n0;
-      if (!(n >= constants.surface_density * n0))
-        return false;
-      const Real one_sided = constants.surface_one_sidedness * n0;
-      return n >= constants.one_sided_density * n0 || norm_square(side) <= one_sided * one_sided;
+        return inside_body[identity] || n >= constants.body_surface_density ? Real(1) : Real(0);
+      const Real has_few       = fade(constants.surface_density - n);
+      const Real has_fewer     = fade(constants.one_sided_density - n);
+      const Real are_one_sided = fade(sqrt(norm_square(side)) - constants.surface_one_sidedness);
+      return (1 - has_few) * (1 - has_fewer * are_one_sided);
+    }
+
+    /// From 0 to 1 about zero, smoothly.
+    UNDINE_HOST_DEVICE
+    Real
+    fade(const Real beyond) const
+    {
+      const Real x =
+        minimum(Real(1), maximum(Real(0), Real(0.5) + beyond / (2 * constants.surface_fade)));
+      return x * x * (3 - 2 * x);
+    }
+
+    UNDINE_HOST_DEVICE
+    static SymmetricMatrix<dim, Real>
+    mixed(const SymmetricMatrix<dim, Real> &a, SymmetricMatrix<dim, Real> b, const Real share_of_b)
+    {
+      for (int k = 0; k < b.size; ++k)
+        b.entries[k] = a.entries[k] + share_of_b * (b.entries[k] - a.entries[k]);
+      return b;
     }
 
     /// With air, pressures at the free surface are unknown too; only drops that fly alone have

@@ -246,10 +246,9 @@ namespace undine::particles
                                                         control.data()});
       solve_pressure_equation();
       executor.for_each(n,
-                        TakePressures<dim, Real>{equation.is_unknown.data(),
+                        TakePressures<dim, Real>{equation.neighbourhood(),
                                                  equation.pressures.data(),
-                                                 now.places.data(),
-                                                 now.motions.data(),
+                                                 now.view(),
                                                  constants.coupling == Coupling::surface_pressure,
                                                  control.data()});
     }

@@ -20,7 +20,8 @@ namespace undine::particles
       , densities(executor, n)
       , fillings(executor, n)
       , is_unknown(executor, n)
-      , is_covered(executor, n)
+      , coverages(executor, n)
+      , is_beside_given(executor, n)
       , corrections(executor, n)
       , ways_in(executor, n_solid > 0 ? n : 0)
       , counts(executor, n)
@@ -41,7 +42,8 @@ namespace undine::particles
       return {densities.data(),
               fillings.data(),
               is_unknown.data(),
-              is_covered.data(),
+              coverages.data(),
+              is_beside_given.data(),
               corrections.data(),
               ways()};
     }
@@ -64,7 +66,8 @@ namespace undine::particles
 
     Buffer<Executor, Real>                        densities, fillings;
     Buffer<Executor, int>                         is_unknown;
-    Buffer<Executor, unsigned char>               is_covered;
+    Buffer<Executor, Real>                        coverages;
+    Buffer<Executor, unsigned char>               is_beside_given;
     Buffer<Executor, StoredCorrection<dim, Real>> corrections;
     Buffer<Executor, StoredVector<dim, Real>>     ways_in;
     Buffer<Executor, int>                         counts;

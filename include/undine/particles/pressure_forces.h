@@ -29,24 +29,28 @@ namespace undine::particles
   };
 
 
-  /// Gives the particles their pressures, which do not pull.
+  /// Gives the particles their pressures, which do not pull, and tells their neighbours how far
+  /// they are fluid at the free surface.
   template <int dim, class Real>
   struct TakePressures
   {
-    const int              *is_unknown;
-    const Real             *solution;
-    const Place<dim, Real> *places;
-    Motion<dim, Real>      *motions;
-    bool                    keeps_solids; ///< whose pressures are given
-    const StepControl      *control;
+    Neighbourhood<dim, Real> neighbourhood;
+    const Real              *solution;
+    Particles<dim, Real>     particles;
+    bool                     keeps_solids; ///< whose pressures are given
+    const StepControl       *control;
 
     UNDINE_HOST_DEVICE
     void
     operator()(const int i) const
     {
-      if (control->done() || (keeps_solids && places[i].tag.kind() == Kind::solid))
+      const Kind kind = particles.places[i].tag.kind();
+      particles.potentials[i].set_companion(kind == Kind::fluid ? 1 - neighbourhood.coverages[i]
+                                                                : Real(0));
+      if (control->done() || (keeps_solids && kind == Kind::solid))
         return;
-      motions[i].pressure = is_unknown[i] ? maximum(solution[i], Real(0)) : Real(0);
+      particles.motions[i].pressure =
+        neighbourhood.is_unknown[i] ? maximum(solution[i], Real(0)) : Real(0);
     }
   };
 
@@ -56,7 +60,8 @@ namespace undine::particles
   ///     P_ij = (rho_j P_i + rho_i P_j) / (rho_i + rho_j)
   /// that makes both particles of a pair accelerate alike, and virtual faces a_ij by PairForce;
   /// then the correction of velocity and place (the source's equations 8 to 10), and a shift
-  /// towards even spacing. For bodies the acceleration is only kept.
+  /// towards even spacing, next to the free surface along it: across, it would push the surface
+  /// outwards. For bodies the acceleration is only kept.
   ///
   /// Inside the fluid the body force f = -grad phi, of which the particles already have all, is
   /// replaced by that through the same faces,
@@ -118,13 +123,15 @@ namespace undine::particles
       Vector<dim, Real> weight       = Vector<dim, Real>::zero(); ///< f by the faces [m/s^2]
       Vector<dim, Real> crowd        = Vector<dim, Real>::zero(); ///< sum w r / r^2 [1/m]
       Vector<dim, Real> bodies       = Vector<dim, Real>::zero(); ///< the same of bodies only [1/m]
+      Vector<dim, Real> surface      = Vector<dim, Real>::zero(); ///< and of the free surface [1/m]
       Real              body_density = 0; ///< their part of the number density [1]
 
       UNDINE_HOST_DEVICE
       void
-      add(const Pair<dim, Real> &pair, const Vector<dim, Real> &plain)
+      add(const Pair<dim, Real> &pair, const Vector<dim, Real> &plain, const Real at_surface)
       {
         crowd += plain;
+        surface += at_surface * plain;
         if (pair.tag.kind() == Kind::solid)
           {
             bodies += plain;
@@ -152,7 +159,7 @@ namespace undine::particles
 
       UNDINE_HOST_DEVICE
       void
-      add(const Pair<dim, Real> &, const Vector<dim, Real> &)
+      add(const Pair<dim, Real> &, const Vector<dim, Real> &, Real)
       {
       }
 
@@ -189,7 +196,7 @@ namespace undine::particles
       neighbours.for_each(
         i, fetch, [&](const int, const Pair<dim, Real> &pair, const Other &other) {
           const Vector<dim, Real> plain = pair.weight_over_square() * pair.r;
-          sum.add(pair, plain);
+          sum.add(pair, plain, other.side.surface());
           if (pair.tag.kind() == Kind::dummy || is_left_to_elasticity(tag, pair.tag))
             return;
           auto face  = faces.factor * plain;
@@ -254,13 +261,12 @@ namespace undine::particles
     void
     move(const int i, Place<dim, Real> &place, Motion<dim, Real> &motion) const
     {
-      FluidSum   sum    = this->sum<FluidSum>(i, place.tag, motion.pressure);
-      const bool inside = neighbourhood.is_covered[i] != 0;
-      if (inside && constants.pair_force == PairForce::balanced)
-        sum.acceleration += sum.weight - constants.force.acceleration(place.x);
+      FluidSum   sum      = this->sum<FluidSum>(i, place.tag, motion.pressure);
+      const Real coverage = neighbourhood.coverages[i];
+      if (constants.pair_force == PairForce::balanced)
+        sum.acceleration += coverage * (sum.weight - constants.force.acceleration(place.x));
       move(place, motion, sum.acceleration);
-      if (inside)
-        place.x += shift(sum.crowd);
+      place.x += coverage * along_surface(sum.surface, shift(sum.crowd));
       place.x += way_out(sum);
       place.x = constants.grid.wrapped(place.x);
       if (!constants.grid.contains(place.x))
@@ -299,6 +305,17 @@ namespace undine::particles
       return limited((-constants.shifting * constants.spacing * constants.spacing * faces.factor) *
                        crowd,
                      constants.shifting_limit);
+    }
+
+    /// Without what is across the free surface, as far as that is near: a full layer of its
+    /// particles next to this one makes a sum `surface` of half a face.
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    along_surface(const Vector<dim, Real> &surface, const Vector<dim, Real> &shift) const
+    {
+      const Vector<dim, Real> across = (constants.spacing * faces.factor) * surface;
+      const Real              little = Real(0.1);
+      return shift - (shift * across / (norm_square(across) + little * little)) * across;
     }
 
     UNDINE_HOST_DEVICE

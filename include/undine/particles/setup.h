@@ -36,6 +36,7 @@ namespace undine::particles
     double body_surface_density  = 0.8;  ///< share of n0, of bodies' particles [1]
     double one_sided_density     = 0.97; ///< share of n0 [1]
     double surface_one_sidedness = 0.2;  ///< share of n0 [1]
+    double surface_fade          = 0.03; ///< half the width over which both fade [1]
     double air                   = 2;    ///< weight of missing neighbours; 0: no pressure there [1]
 
     double collision_distance = 0.8;  ///< [spacings]

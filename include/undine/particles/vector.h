@@ -129,6 +129,22 @@ namespace undine::particles
   {
     Real entries[4];
 
+    /// A fourth number, for something else that the same readers need; assigning a vector makes it
+    /// zero.
+    UNDINE_HOST_DEVICE
+    Real
+    companion() const
+    {
+      return entries[3];
+    }
+
+    UNDINE_HOST_DEVICE
+    void
+    set_companion(const Real value)
+    {
+      entries[3] = value;
+    }
+
     UNDINE_HOST_DEVICE
     operator Vector<dim, Real>() const
     {

@@ -22,7 +22,8 @@ namespace undine::particles
   {
     Real                               factor;      ///< dim / n0
     const StoredCorrection<dim, Real> *corrections; ///< M
-    const StoredVector<dim, Real>     *potentials;  ///< L; nullptr: faces are not used
+    const StoredVector<dim, Real>     *potentials;  ///< L; nullptr: faces are not used. With what
+                                                    ///< TakePressures tells of the free surface
 
     /// What a particle contributes to its faces.
     struct Side
@@ -36,6 +37,14 @@ namespace undine::particles
       potential() const
       {
         return M.has_unknown() ? Vector<dim, Real>(L) : Vector<dim, Real>::zero();
+      }
+
+      /// How much it is fluid at the free surface [1].
+      UNDINE_HOST_DEVICE
+      Real
+      surface() const
+      {
+        return L.companion();
       }
     };
 

@@ -183,6 +183,35 @@ TEMPLATE_TEST_CASE_SIG("After a hundred steps at rest particles are where they a
 }
 
 
+/// Whatever decides between the inside and the free surface must not let rounding decide.
+TEMPLATE_TEST_CASE_SIG("After a hundred steps at rest particles are where they are in double",
+                       "[particles]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  for (const int depth : {8, 10})
+    {
+      auto scene = settled(tank<dim>(12, depth, Ball::without));
+      solve_tightly(scene);
+      const auto exact = scene.engine(Precision::double_precision);
+      for (const auto &executor : executors<dim>())
+        {
+          INFO(executor << ", depth " << depth);
+          const auto   engine = engine_on(executor, scene);
+          unsigned int steps  = 0;
+          while (steps < 100)
+            {
+              if (executor == executors<dim>().front())
+                exact->advance(0.005);
+              steps += engine->advance(0.005).sub_steps;
+            }
+          CHECK(largest_distance(state_of(*engine), state_of(*exact)) < 1e-2 * scene.setup.spacing);
+        }
+    }
+}
+
+
 TEMPLATE_TEST_CASE_SIG("After a hundred steps of a drift particles are where they are on the host",
                        "[particles]",
                        ((int dim), dim),
