@@ -89,13 +89,13 @@ namespace undine::particles
     void
     fill_row(const int i) const
     {
-      const Tag  tag       = neighbours.places[i].tag;
-      const auto M         = neighbourhood.corrections[i].matrix();
-      const auto v         = motions[i].v;
-      const bool closes    = faces_diagonal != nullptr;
-      const bool has_faces = closes && tag.is_free();
-      auto       gap       = Vector<dim, Real>::zero();
-      int        count     = 0;
+      const Tag  tag      = neighbours.places[i].tag;
+      const auto M        = neighbourhood.corrections[i].matrix();
+      const auto v        = motions[i].v;
+      const bool closes   = faces_diagonal != nullptr;
+      const Real coverage = closes && tag.is_free() ? neighbourhood.coverages[i] : Real(0);
+      auto       gap      = Vector<dim, Real>::zero();
+      int        count    = 0;
       Real       sum = 0, flow = 0;
       bool       reached = true, has_given = false;
       struct Other
@@ -114,7 +114,9 @@ namespace undine::particles
               flow += (other.v - v) * plain;
               return;
             }
-          const auto open = has_faces ? faces.open(M, other.M.matrix(), pair) : plain;
+          auto open = plain;
+          if (coverage > 0)
+            open += coverage * (faces.open(M, other.M.matrix(), pair) - plain);
           flow += (other.v - v) * open;
           gap -= open;
           const Entry entry =
@@ -136,8 +138,7 @@ namespace undine::particles
       if (closes)
         {
           faces_diagonal[i] = maximum(sum, Real(1e-6));
-          if (has_faces)
-            gaps[i] = neighbourhood.coverages[i] * gap;
+          gaps[i]           = coverage * gap;
         }
       neighbourhood.is_beside_given[i] = has_given ? 1 : 0;
     }
@@ -272,20 +273,24 @@ namespace undine::particles
       }
     };
 
-    /// By the same faces as the forces of pressures.
+    /// By the same faces as the forces of pressures, as far as they close: at the free surface by
+    /// those faces water at rest swirls with twice the energy.
     UNDINE_HOST_DEVICE
     Real
     divergence(const int i, const Tag tag) const
     {
-      Real sum = right_hand_side[i];
-      if (faces.potentials == nullptr || !tag.is_free())
-        return sum;
+      const Real coverage = neighbourhood.coverages[i];
+      if (faces.potentials == nullptr || !tag.is_free() || !(coverage > 0))
+        return right_hand_side[i];
+      Real         sum = 0;
       const Others others{motions, faces.potentials};
       const Other  own = others[i];
       matrix.template for_each_in_row<Other>(i, others, [&](const Entry entry, const Other &other) {
         sum += entry.coefficient(matrix.scale) * ((other.v - own.v) * (own.L - other.L));
       });
-      return neighbourhood.is_beside_given[i] ? sum + beside_given(i, tag, own) : sum;
+      if (neighbourhood.is_beside_given[i])
+        sum += beside_given(i, tag, own);
+      return right_hand_side[i] + coverage * sum;
     }
 
     /// The same for neighbours whose pressure is given, which have no entries.
