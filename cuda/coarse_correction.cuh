@@ -38,9 +38,10 @@ namespace undine::particles
       int          near[most];          ///< number among those with local columns; -1: none
       unsigned int couplings[most + 1]; ///< of the own rows, by near aggregate
       float        of_warps[32];
-      float        sums[most];                      ///< over all aggregates
-      float        solution[most];                  ///< of E x = sums, by near aggregate
-      float        values[most + 1], changes[most]; ///< Z^T-part of the preconditioned residual
+      float        products[most], residuals[most]; ///< sums over all aggregates
+      float        of_products[most], of_residuals[most]; ///< E^{-1} times them, by near aggregate
+      float        values[most + 1]; ///< what is added to the unknowns of a near aggregate
+      float        changes[most];    ///< the same of the step
     };
 
     using System = LinearSystem<float, PackedEntry, float>;
@@ -218,14 +219,20 @@ namespace undine::particles
       __syncthreads();
     }
 
-    /// Take a block's sum; by a whole warp, for blocks that follow each other.
+    /// Take a block's sums of products and of residuals; by a whole warp, for blocks that follow
+    /// each other.
     __device__ __forceinline__ void
-    take(const int block, float sum) const
+    take(const int block, float product, float residual) const
     {
       for (int distance = 1; distance < each; distance *= 2)
-        sum += __shfl_xor_sync(0xffffffffu, sum, distance);
-      if (block % each == 0 && block / each < n)
-        shared.sums[block / each] = sum;
+        {
+          product += __shfl_xor_sync(0xffffffffu, product, distance);
+          residual += __shfl_xor_sync(0xffffffffu, residual, distance);
+        }
+      if (block % each != 0 || block / each >= n)
+        return;
+      shared.products[block / each]  = product;
+      shared.residuals[block / each] = residual;
     }
 
     /// E^{-1} times the sums, for near aggregates; by all warps but the first.
@@ -238,41 +245,52 @@ namespace undine::particles
       const int     lane    = static_cast<int>(threadIdx.x) % lanes;
       for (int first = 0; first < n_near; first += workers)
         {
-          const int    row  = min(first + worker, n_near - 1);
-          const float *from = inverse + row * n;
-          float        sum  = 0;
+          const int    row     = min(first + worker, n_near - 1);
+          const float *from    = inverse + row * n;
+          float        product = 0, residual = 0;
 #pragma unroll 4
           for (int k = lane; k < n; k += lanes)
-            sum += from[k] * shared.sums[k];
+            {
+              product += from[k] * shared.products[k];
+              residual += from[k] * shared.residuals[k];
+            }
           for (int distance = lanes / 2; distance > 0; distance /= 2)
-            sum += __shfl_xor_sync(0xffffffffu, sum, distance);
+            {
+              product += __shfl_xor_sync(0xffffffffu, product, distance);
+              residual += __shfl_xor_sync(0xffffffffu, residual, distance);
+            }
           if (lane == 0 && first + worker < n_near)
-            shared.solution[row] = sum;
+            {
+              shared.of_products[row]  = product;
+              shared.of_residuals[row] = residual;
+            }
         }
     }
 
-    /// The solution for the sums of the first residual is where values start.
+    /// For the first residual.
     __device__ __forceinline__ void
     start() const
     {
       const int k = threadIdx.x;
       if (k < n_near)
         {
-          shared.values[k]  = shared.solution[k];
+          shared.values[k]  = shared.of_residuals[k];
           shared.changes[k] = 0;
         }
     }
 
-    /// Values after a step of the conjugate gradients, like its residual.
+    /// For the residual after a step of the conjugate gradients, from the one before and the step:
+    /// not from the values before, which would drift away from the residual, until steps are no
+    /// longer conjugate.
     __device__ __forceinline__ void
     advance(const float alpha, const float beta) const
     {
       const int k = threadIdx.x;
       if (k < n_near)
         {
-          const float change = shared.solution[k] + beta * shared.changes[k];
+          const float change = shared.of_products[k] + beta * shared.changes[k];
           shared.changes[k]  = change;
-          shared.values[k] -= alpha * change;
+          shared.values[k]   = shared.of_residuals[k] - alpha * change;
         }
     }
 

@@ -25,14 +25,15 @@ namespace undine::particles
     static constexpr int per_local = 4 * sizeof(Value) + 4;
     static constexpr int per_own   = 2 * sizeof(Value) + 4;
 
-    /// (r, u), (w, u) of the components; with a correction also |r|^2 and the block's sum of w.
-    static constexpr int n_sums = 2 * count + (Correction::exists ? 2 : 0);
+    /// (r, u), (w, u) of the components; with a correction also |r|^2, and the block's w and r.
+    static constexpr int n_totals = 2 * count + (Correction::exists ? 1 : 0);
+    static constexpr int n_sums   = n_totals + (Correction::exists ? 2 : 0);
 
     static constexpr int most_held = count == 1 ? 24 : 0; ///< of ResidentRows
 
     using Rows = ResidentRows<most_held>;
 
-    using Summation = BlockSums<n_sums>;
+    using Summation = BlockSums<n_sums, n_sums - n_totals>;
 
     /// What the warps of a block tell each other.
     struct Shared
@@ -102,7 +103,7 @@ namespace undine::particles
     }
 
   private:
-    using Products = Sums<n_sums>;
+    using Products = Sums<n_totals>;
     using Part     = Components<Value>;
 
     __device__ __forceinline__ static bool
@@ -212,9 +213,9 @@ namespace undine::particles
       if (threadIdx.x >= 32 * Summation::collectors)
         fetch();
       else
-        summation.collect(exchange, [&](const int block, const float share) {
+        summation.collect(exchange, [&](const int block, const Sums<n_sums> &share) {
           if constexpr (Correction::exists)
-            correction.take(block, share);
+            correction.take(block, share.values[n_totals], share.values[n_totals + 1]);
         });
     }
 
@@ -261,7 +262,8 @@ namespace undine::particles
         if constexpr (Correction::exists)
           {
             sums[2 * count] += residual * residual * inverse[local];
-            sums[n_sums - 1] += correction.share_of(local) * Au;
+            sums[n_sums - 2] += correction.share_of(local) * Au;
+            sums[n_sums - 1] += correction.share_of(local) * residual;
           }
       });
       summation.add(sums);

@@ -93,7 +93,7 @@ namespace undine::particles
                    const int                end,
                    const Function          &f) const
     {
-      constexpr int at_once = 4; // their places are on the way at the same time
+      constexpr int at_once = 8; // their places are on the way at the same time
       int           first   = begin;
       for (; first + at_once <= end; first += at_once)
         {
