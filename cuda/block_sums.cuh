@@ -6,10 +6,9 @@
 
 namespace undine::particles
 {
-  /// Some sums over all threads of all blocks of a launch, taken together; of the last `n_shares` of
-  /// them only the blocks' shares are taken. The first warps of each block collect what blocks hand
-  /// out; the others have time for something else.
-  template <int count, int n_shares = 0>
+  /// Some sums over all threads of all blocks of a launch, taken together. The first warps of each
+  /// block collect what blocks hand out; the others have time for something else.
+  template <int count>
   class BlockSums
   {
   public:
@@ -18,19 +17,12 @@ namespace undine::particles
     /// Warps that collect, one block a thread.
     static constexpr int collectors = BlockExchange::most_blocks / 32;
 
-    static constexpr int n_totals = count - n_shares;
-
-    /// How many places in registers so many sums take that a warp reduces together.
-    __device__ __host__ static constexpr int
-    spread(const int sums)
-    {
-      return sums <= 4 ? 4 : 8;
-    }
+    static constexpr int spread = count <= 4 ? 4 : 8; ///< sums that a warp reduces together
 
     struct Shared
     {
-      float of_warps[spread(count)][warps];
-      float of_blocks[spread(n_totals)][collectors]; ///< 32 each
+      float of_warps[spread][warps];
+      float of_blocks[spread][collectors]; ///< 32 each
     };
 
     __device__ explicit BlockSums(Shared &shared)
@@ -43,17 +35,17 @@ namespace undine::particles
     add(const float (&sums)[count]) const
     {
       const int lane = threadIdx.x & 31;
-      float     parts[spread(count)];
+      float     parts[spread];
 #pragma unroll
-      for (int k = 0; k < spread(count); ++k)
+      for (int k = 0; k < spread; ++k)
         parts[k] = k < count ? sums[k] : 0.f;
       const int which = reduce(parts);
-      if (lane % (32 / spread(count)) == 0)
+      if (lane % (32 / spread) == 0)
         shared.of_warps[which][threadIdx.x / 32] = parts[0];
     }
 
-    /// After add() and __syncthreads(), by the collectors, in a round of theirs: take(block, sums),
-    /// the shares of each block, by whole warps; zero for those that are not there.
+    /// After add() and __syncthreads(), by the collectors, in a round of theirs: take(block, share)
+    /// for the share of each block, by whole warps; zero for those that are not there.
     template <class Take>
     __device__ __forceinline__ void
     collect(const BlockExchange &exchange, const Take &take) const
@@ -67,22 +59,22 @@ namespace undine::particles
       if (block >= blocks) // the last one's has been read again
         share = Sums<count>();
       take(block, share);
-      float parts[spread(n_totals)];
+      float parts[spread];
 #pragma unroll
-      for (int k = 0; k < spread(n_totals); ++k)
-        parts[k] = k < n_totals ? static_cast<float>(share.values[k]) : 0.f;
+      for (int k = 0; k < spread; ++k)
+        parts[k] = k < count ? static_cast<float>(share.values[k]) : 0.f;
       const int which = reduce(parts);
-      if (lane % (32 / spread(n_totals)) == 0)
+      if (lane % (32 / spread) == 0)
         shared.of_blocks[which][threadIdx.x / 32] = parts[0];
     }
 
     /// Over all blocks, after collect() and __syncthreads().
-    __device__ __forceinline__ Sums<n_totals>
+    __device__ __forceinline__ Sums<count>
                                total() const
     {
-      Sums<n_totals> sums;
+      Sums<count> sums;
 #pragma unroll
-      for (int k = 0; k < n_totals; ++k)
+      for (int k = 0; k < count; ++k)
 #pragma unroll
         for (int part = 0; part < collectors; ++part)
           sums.values[k] += shared.of_blocks[k][part];
@@ -92,14 +84,13 @@ namespace undine::particles
   private:
     /// Over the warp. Each step halves the lanes that a sum is spread over, or the sums in a lane:
     /// in the end it has one, whose number is returned.
-    template <int n>
     __device__ __forceinline__ static int
-    reduce(float (&parts)[n])
+    reduce(float (&parts)[spread])
     {
       const int lane  = threadIdx.x & 31;
       int       which = 0;
 #pragma unroll
-      for (int distance = 16, half = n / 2; distance > 0; distance /= 2, half /= 2)
+      for (int distance = 16, half = spread / 2; distance > 0; distance /= 2, half /= 2)
         if (half > 0)
           {
             const bool upper = (lane & distance) != 0;
