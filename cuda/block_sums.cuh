@@ -45,7 +45,7 @@ namespace undine::particles
     }
 
     /// After add() and __syncthreads(), by the collectors, in a round of theirs: take(block, share)
-    /// for the last sum of each block, by whole warps.
+    /// for the share of each block, by whole warps; zero for those that are not there.
     template <class Take>
     __device__ __forceinline__ void
     collect(const BlockExchange &exchange, const Take &take) const
@@ -54,13 +54,15 @@ namespace undine::particles
       if (block < 32)
         hand_out(exchange);
       exchange.wait(); // each warp for itself: racecheck does not understand named barriers
-      const auto share = exchange.template share_of<count>(min(block, blocks - 1));
+      auto share = exchange.template share_of<count>(min(block, blocks - 1));
       __syncwarp();
-      take(block, static_cast<float>(share[count - 1]));
+      if (block >= blocks) // the last one's has been read again
+        share = Sums<count>();
+      take(block, share);
       float parts[spread];
 #pragma unroll
       for (int k = 0; k < spread; ++k)
-        parts[k] = k < count && block < blocks ? static_cast<float>(share.values[k]) : 0.f;
+        parts[k] = k < count ? static_cast<float>(share.values[k]) : 0.f;
       const int which = reduce(parts);
       if (lane % (32 / spread) == 0)
         shared.of_blocks[which][threadIdx.x / 32] = parts[0];

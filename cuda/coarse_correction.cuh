@@ -24,6 +24,9 @@ namespace undine::particles
   /// away. Aggregates are what blocks own, so that sums over them travel together with the other
   /// sums of an iteration; every block solves for those that its columns belong to. As blocks own
   /// rows in the order of the matrix, E has a narrow band; what might be outside of it is left out.
+  /// What the correction adds follows from step to step like the residual, and now and then from
+  /// the residual itself: else rounding would lead it away from there, until steps are no longer
+  /// conjugate.
   /// Loose rows belong to no aggregate.
   class CoarseCorrection
   {
@@ -38,8 +41,9 @@ namespace undine::particles
       int          near[most];          ///< number among those with local columns; -1: none
       unsigned int couplings[most + 1]; ///< of the own rows, by near aggregate
       float        of_warps[32];
-      float        sums[most];                      ///< over all aggregates
+      float        sums[most], residuals[most];     ///< over all aggregates
       float        solution[most];                  ///< of E x = sums, by near aggregate
+      float        of_residuals[most];              ///< of E x = residuals
       float        values[most + 1], changes[most]; ///< Z^T-part of the preconditioned residual
     };
 
@@ -218,38 +222,33 @@ namespace undine::particles
       __syncthreads();
     }
 
-    /// Take a block's sum; by a whole warp, for blocks that follow each other.
+    /// Take a block's sum; by a whole warp, for blocks that follow each other. @{
     __device__ __forceinline__ void
-    take(const int block, float sum) const
+    take(const int block, const float sum) const
     {
-      for (int distance = 1; distance < each; distance *= 2)
-        sum += __shfl_xor_sync(0xffffffffu, sum, distance);
-      if (block % each == 0 && block / each < n)
-        shared.sums[block / each] = sum;
+      add_up(block, sum, shared.sums);
     }
 
-    /// E^{-1} times the sums, for near aggregates; by all warps but the first.
+    __device__ __forceinline__ void
+    take_residual(const int block, const float sum) const
+    {
+      add_up(block, sum, shared.residuals);
+    }
+    /// @}
+
+    /// E^{-1} times the sums, for near aggregates; by all warps but the first. @{
     __device__ __forceinline__ void
     solve() const
     {
-      constexpr int lanes   = 16;
-      const int     workers = (static_cast<int>(blockDim.x) - 32) / lanes;
-      const int     worker  = (static_cast<int>(threadIdx.x) - 32) / lanes;
-      const int     lane    = static_cast<int>(threadIdx.x) % lanes;
-      for (int first = 0; first < n_near; first += workers)
-        {
-          const int    row  = min(first + worker, n_near - 1);
-          const float *from = inverse + row * n;
-          float        sum  = 0;
-#pragma unroll 4
-          for (int k = lane; k < n; k += lanes)
-            sum += from[k] * shared.sums[k];
-          for (int distance = lanes / 2; distance > 0; distance /= 2)
-            sum += __shfl_xor_sync(0xffffffffu, sum, distance);
-          if (lane == 0 && first + worker < n_near)
-            shared.solution[row] = sum;
-        }
+      solve(shared.sums, shared.solution);
     }
+
+    __device__ __forceinline__ void
+    solve_for_residuals() const
+    {
+      solve(shared.residuals, shared.of_residuals);
+    }
+    /// @}
 
     /// The solution for the sums of the first residual is where values start.
     __device__ __forceinline__ void
@@ -261,6 +260,15 @@ namespace undine::particles
           shared.values[k]  = shared.solution[k];
           shared.changes[k] = 0;
         }
+    }
+
+    /// What the residual itself says; then advance().
+    __device__ __forceinline__ void
+    follow_residual() const
+    {
+      const int k = threadIdx.x;
+      if (k < n_near)
+        shared.values[k] = shared.of_residuals[k];
     }
 
     /// Values after a step of the conjugate gradients, like its residual.
@@ -292,6 +300,37 @@ namespace undine::particles
 
   private:
     static constexpr int shift = 12; ///< of squared roots of coefficients, so that sums fit
+
+    __device__ __forceinline__ void
+    add_up(const int block, float sum, float (&to)[most]) const
+    {
+      for (int distance = 1; distance < each; distance *= 2)
+        sum += __shfl_xor_sync(0xffffffffu, sum, distance);
+      if (block % each == 0 && block / each < n)
+        to[block / each] = sum;
+    }
+
+    __device__ __forceinline__ void
+    solve(const float (&sums)[most], float (&solution)[most]) const
+    {
+      constexpr int lanes   = 16;
+      const int     workers = (static_cast<int>(blockDim.x) - 32) / lanes;
+      const int     worker  = (static_cast<int>(threadIdx.x) - 32) / lanes;
+      const int     lane    = static_cast<int>(threadIdx.x) % lanes;
+      for (int first = 0; first < n_near; first += workers)
+        {
+          const int    row  = min(first + worker, n_near - 1);
+          const float *from = inverse + row * n;
+          float        sum  = 0;
+#pragma unroll 4
+          for (int k = lane; k < n; k += lanes)
+            sum += from[k] * sums[k];
+          for (int distance = lanes / 2; distance > 0; distance /= 2)
+            sum += __shfl_xor_sync(0xffffffffu, sum, distance);
+          if (lane == 0 && first + worker < n_near)
+            solution[row] = sum;
+        }
+    }
 
     /// Near aggregates of the local columns.
     __device__ __forceinline__ void

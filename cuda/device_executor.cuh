@@ -28,6 +28,7 @@ namespace undine::particles
 
     /// Particles.
     static constexpr int multigrid_pays_from = 300000;
+    static constexpr int room_pays_from      = 100000;
 
     /// Throws InputError if there is no device.
     DeviceExecutor()
@@ -277,7 +278,7 @@ namespace undine::particles
         check_device(cudaMemcpyAsync(to, from, n * sizeof(T), kind, stream), "to copy");
     }
 
-    /// A pass that lines up behind the last one, see kernels::line_up().
+    /// A pass that lines up behind the last one, see kernels::line_up() and wait_for_last_pass().
     template <class Kernel, class Function>
     void
     launch(const Kernel kernel, const int n, const Function &f) const

@@ -15,12 +15,20 @@ namespace undine::particles
     constexpr int few_threads      = 64;  ///< of a small team, each with many registers
 
     /// Lets the next pass get ready while this one runs, and waits until the last one is done: the
-    /// time that a launch takes is hidden.
+    /// time that a launch takes is hidden. Not in kernels with shared memory: of a multiprocessor
+    /// that starts the next pass while it has some of them, that pass gets only the small first
+    /// cache that they leave, until it ends.
     __device__ __forceinline__ void
     line_up()
     {
       NV_IF_TARGET(NV_PROVIDES_SM_90,
                    (cudaTriggerProgrammaticLaunchCompletion(); cudaGridDependencySynchronize();))
+    }
+
+    __device__ __forceinline__ void
+    wait_for_last_pass()
+    {
+      NV_IF_TARGET(NV_PROVIDES_SM_90, (cudaGridDependencySynchronize();))
     }
 
     template <class Function>
@@ -51,7 +59,7 @@ namespace undine::particles
     __launch_bounds__(for_each_threads) for_each_with_room(const int n, const Function f)
     {
       __shared__ Number rooms[size * for_each_threads];
-      line_up();
+      wait_for_last_pass();
       const int    i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
       Room<Number> room{rooms + threadIdx.x};
       if (i < n)

@@ -4,6 +4,7 @@
 
 #include "block_sums.cuh"
 #include "coarse_correction.cuh"
+#include "step_lengths.cuh"
 
 #include <undine/particles/conjugate_gradients.h>
 
@@ -25,8 +26,11 @@ namespace undine::particles
     static constexpr int per_local = 4 * sizeof(Value) + 4;
     static constexpr int per_own   = 2 * sizeof(Value) + 4;
 
-    /// (r, u), (w, u) of the components; with a correction also |r|^2 and the block's sum of w.
+    /// (r, u), (w, u) of the components; with a correction also the block's sum of w, and |r|^2 or,
+    /// in one of `period` iterations, the block's sum of r, which the correction then follows.
     static constexpr int n_sums = 2 * count + (Correction::exists ? 2 : 0);
+
+    static constexpr int period = 16;
 
     static constexpr int most_held = count == 1 ? 24 : 0; ///< of ResidentRows
 
@@ -39,8 +43,11 @@ namespace undine::particles
     {
       typename Summation::Shared summation;
 
-      float alpha[count], beta[count];
-      bool  goes_on;
+      typename StepLengths<count>::Shared lengths;
+
+      double size;   ///< of the right-hand side
+      double square; ///< of the residual, as it was last measured
+      bool   goes_on;
     };
 
     __device__
@@ -70,10 +77,10 @@ namespace undine::particles
     __device__ __forceinline__ void
     operator()()
     {
-      solve_empty_rows();
+      solve_empty_rows<Value>(general.system);
       load();
       begin();
-      for (int iteration = 0;; ++iteration)
+      for (;; ++iteration)
         {
           exchange.begin_round();
           multiply();
@@ -81,7 +88,7 @@ namespace undine::particles
           gather();
           __syncthreads();
           if (is_first_warp())
-            choose_step(iteration);
+            take_step();
           else
             correct();
           __syncthreads();
@@ -89,12 +96,14 @@ namespace undine::particles
             break;
           if constexpr (Correction::exists)
             {
-              correction.advance(shared.alpha[0], shared.beta[0]);
+              if (follows_residual())
+                correction.follow_residual();
+              correction.advance(shared.lengths.alpha[0], shared.lengths.beta[0]);
               __syncthreads();
             }
           update();
           if (is_first_warp())
-            prepare_step();
+            lengths.prepare();
           __syncthreads();
         }
       for (int own = threadIdx.x; own < rows.n_own; own += blockDim.x)
@@ -111,6 +120,12 @@ namespace undine::particles
       return threadIdx.x < 32;
     }
 
+    __device__ __forceinline__ bool
+    follows_residual() const
+    {
+      return Correction::exists && iteration % period == period - 1;
+    }
+
     /// |r|^2
     __device__ __forceinline__ static double
     square_of(const Products &products)
@@ -121,17 +136,6 @@ namespace undine::particles
       for (int k = 0; k < count; ++k)
         sum += products.values[k];
       return sum;
-    }
-
-    /// Rows without neighbours belong to no block.
-    __device__ __forceinline__ void
-    solve_empty_rows() const
-    {
-      const auto &system = general.system;
-      for (int row = blockIdx.x * blockDim.x + threadIdx.x; row < system.matrix.n;
-           row += gridDim.x * blockDim.x)
-        if (system.matrix.counts[row] == 0)
-          system.solution[row] = (1 / system.diagonal[row]) * Value(system.right_hand_side[row]);
     }
 
     /// The guess as u.
@@ -180,10 +184,10 @@ namespace undine::particles
       __syncthreads();
       gather();
       __syncthreads();
-      if (is_first_warp())
-        size = summation.total()[0];
-      else
+      if (!is_first_warp())
         correct();
+      else if (threadIdx.x == 0)
+        shared.size = summation.total()[0];
       __syncthreads();
       if constexpr (Correction::exists)
         correction.start();
@@ -212,9 +216,13 @@ namespace undine::particles
       if (threadIdx.x >= 32 * Summation::collectors)
         fetch();
       else
-        summation.collect(exchange, [&](const int block, const float share) {
+        summation.collect(exchange, [&](const int block, const Sums<n_sums> &share) {
           if constexpr (Correction::exists)
-            correction.take(block, share);
+            {
+              correction.take(block, share[n_sums - 1]);
+              if (follows_residual())
+                correction.take_residual(block, share[2 * count]);
+            }
         });
     }
 
@@ -222,7 +230,11 @@ namespace undine::particles
     correct() const
     {
       if constexpr (Correction::exists)
-        correction.solve();
+        {
+          correction.solve();
+          if (follows_residual())
+            correction.solve_for_residuals();
+        }
     }
 
     /// f(own row, sum_j k_ij u_j), by one thread a row.
@@ -260,8 +272,9 @@ namespace undine::particles
           }
         if constexpr (Correction::exists)
           {
-            sums[2 * count] += residual * residual * inverse[local];
-            sums[n_sums - 1] += correction.share_of(local) * Au;
+            const float share = correction.share_of(local);
+            sums[2 * count] += residual * (follows_residual() ? share : residual * inverse[local]);
+            sums[n_sums - 1] += share * Au;
           }
       });
       summation.add(sums);
@@ -274,41 +287,25 @@ namespace undine::particles
         exchange.put_value(row * count + k, Part::of(value, k));
     }
 
-    /// With 1 / alpha the curvature is (w, u) - beta^2 last curvature.
     __device__ __forceinline__ void
-    choose_step(const int iteration)
+    take_step()
     {
-      const Products now     = summation.total();
-      const double   square  = square_of(now);
-      const double   goal    = general.bounds.tolerance * general.bounds.tolerance * size;
-      const bool     goes_on = square > goal && iteration < general.bounds.max_iterations;
-#pragma unroll
-      for (int k = 0; k < count; ++k)
-        {
-          const double beta = now.values[k] * inverse_last[k];
-          curvature[k]      = now.values[count + k] - beta * beta * curvature[k];
-          if (threadIdx.x == 0)
-            {
-              shared.beta[k]  = static_cast<float>(beta);
-              shared.alpha[k] = curvature[k] != 0 ? static_cast<float>(now.values[k]) /
-                                                      static_cast<float>(curvature[k])
-                                                  : 0.f;
-            }
-        }
+      const Products now = summation.total();
+      lengths.choose(now, shared.lengths);
       if (threadIdx.x == 0)
-        shared.goes_on = goes_on;
-      if (!goes_on && blockIdx.x == 0 && threadIdx.x == 0)
-        general.report(iteration, size > 0 ? sqrt(square / size) : 0.);
-      last = now;
+        look_at_residual(now);
     }
 
-    /// For the next iteration, while there is time; by the first warp.
+    /// Is it small enough?
     __device__ __forceinline__ void
-    prepare_step()
+    look_at_residual(const Products &now) const
     {
-#pragma unroll
-      for (int k = 0; k < count; ++k)
-        inverse_last[k] = last.values[k] != 0 ? 1 / last.values[k] : 0.;
+      const double goal = general.bounds.tolerance * general.bounds.tolerance * shared.size;
+      if (!follows_residual())
+        shared.square = square_of(now);
+      shared.goes_on = shared.square > goal && iteration < general.bounds.max_iterations;
+      if (!shared.goes_on && blockIdx.x == 0)
+        general.report(iteration, shared.size > 0 ? sqrt(shared.square / shared.size) : 0.);
     }
 
     /// The products of other blocks' rows, by all warps but those that collect sums; some on the
@@ -344,8 +341,8 @@ namespace undine::particles
       float alpha[count], beta[count];
       for (int c = 0; c < count; ++c)
         {
-          alpha[c] = shared.alpha[c];
-          beta[c]  = shared.beta[c];
+          alpha[c] = shared.lengths.alpha[c];
+          beta[c]  = shared.lengths.beta[c];
         }
       for (int local = threadIdx.x; local < rows.n_local; local += blockDim.x)
         {
@@ -379,12 +376,9 @@ namespace undine::particles
     BlockExchange  exchange;
     Shared        &shared;
     Summation      summation;
+    int            iteration = 0;
 
-    // Of the first warp.
-    double   size = 0;                 ///< of the right-hand side
-    Products last;                     ///< sums of the last iteration
-    double   inverse_last[count] = {}; ///< of the first of them
-    double   curvature[count]    = {};
+    StepLengths<count> lengths; ///< of the first warp
 
     // In shared memory: of local unknowns; of own ones.
     float *inverse;

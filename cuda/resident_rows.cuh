@@ -155,6 +155,18 @@ namespace undine::particles
       return value;
     }
   };
+
+
+  /// Rows without neighbours, which belong to no block; by all threads of all blocks.
+  template <class Value, class System>
+  __device__ __forceinline__ void
+  solve_empty_rows(const System &system)
+  {
+    for (int row = blockIdx.x * blockDim.x + threadIdx.x; row < system.matrix.n;
+         row += gridDim.x * blockDim.x)
+      if (system.matrix.counts[row] == 0)
+        system.solution[row] = (1 / system.diagonal[row]) * Value(system.right_hand_side[row]);
+  }
 } // namespace undine::particles
 
 #endif

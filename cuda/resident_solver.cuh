@@ -133,7 +133,7 @@ namespace undine::particles
       return each;
     }
 
-    static constexpr int static_room     = 8 * 1024;  ///< static shared memory of a block, at most
+    static constexpr int static_room     = 9 * 1024;  ///< static shared memory of a block, at most
     static constexpr int least_room      = 90 * 1024; ///< shared memory of a block
     static constexpr int least_aggregate = 500;       ///< particles
     static constexpr int most_rows       = 400000;

@@ -186,6 +186,7 @@ namespace undine::particles
 
     /// Particles.
     static constexpr int multigrid_pays_from = 100000;
+    static constexpr int room_pays_from      = 0;
 
     /// `threads` = 0: as many as OpenMP gives, all cores unless OMP_NUM_THREADS says otherwise.
     explicit HostExecutor(const int threads)

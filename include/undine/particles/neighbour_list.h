@@ -22,9 +22,22 @@ namespace undine::particles
     int                    *indices;
     StepControl            *control;
 
-    /// So many of a row are written together with those of other rows: the device's memory takes
-    /// single numbers badly.
+    /// So many of a row are written together with those of other rows, where there is room: the
+    /// device's memory takes single numbers badly.
     static constexpr int together = 16 * dim;
+
+    UNDINE_HOST_DEVICE
+    void
+    operator()(const int i) const
+    {
+      int count = 0;
+      for_each_near(i, [&](const int j) {
+        if (count < capacity)
+          indices[list_slot(i, count, capacity)] = j;
+        ++count;
+      });
+      finish(i, count);
+    }
 
     /// `room` is for `together` numbers.
     template <class Room>
@@ -32,33 +45,55 @@ namespace undine::particles
     void
     operator()(const int i, Room &room) const
     {
-      const Place<dim, Real> place = places[i];
-      int                    count = 0;
-      if (place.tag.kind() != Kind::dummy && !place.tag.is_yielding())
-        grid.for_each_run_around(
-          place.x, [&](const int first_cell, const int end_cell, const Vector<dim, Real> &x) {
-            collect(i, x, starts[first_cell], starts[end_cell], room, count);
-          });
-      if (count > capacity)
-        atomic_or(&control->failures, static_cast<unsigned int>(Failure::neighbours));
-      counts[i] = minimum(count, capacity);
+      int count = 0;
+      for_each_near(i, [&](const int j) {
+        if (count < together)
+          room[count] = j;
+        else if (count < capacity)
+          indices[list_slot(i, count, capacity)] = j;
+        ++count;
+      });
       for (int k = 0; k < minimum(count, together); ++k)
         indices[list_slot(i, k, capacity)] = room[k];
+      finish(i, count);
     }
 
   private:
-    /// Among the particles begin ... end-1, seen from x.
-    template <class Room>
     UNDINE_HOST_DEVICE
     void
-    collect(const int                i,
-            const Vector<dim, Real> &x,
-            const int                begin,
-            const int                end,
-            Room                    &room,
-            int                     &count) const
+    finish(const int i, const int count) const
     {
-      constexpr int at_once = 4; // their places are on the way at the same time
+      if (count > capacity)
+        atomic_or(&control->failures, static_cast<unsigned int>(Failure::neighbours));
+      counts[i] = minimum(count, capacity);
+    }
+
+    /// f(j) for the neighbours j of i.
+    template <class Function>
+    UNDINE_HOST_DEVICE
+    void
+    for_each_near(const int i, const Function &f) const
+    {
+      const Place<dim, Real> place = places[i];
+      if (place.tag.kind() == Kind::dummy || place.tag.is_yielding())
+        return;
+      grid.for_each_run_around(
+        place.x, [&](const int first_cell, const int end_cell, const Vector<dim, Real> &x) {
+          for_each_among(i, x, starts[first_cell], starts[end_cell], f);
+        });
+    }
+
+    /// Among the particles begin ... end-1, seen from x.
+    template <class Function>
+    UNDINE_HOST_DEVICE
+    void
+    for_each_among(const int                i,
+                   const Vector<dim, Real> &x,
+                   const int                begin,
+                   const int                end,
+                   const Function          &f) const
+    {
+      constexpr int at_once = 8; // their places are on the way at the same time
       int           first   = begin;
       for (; first + at_once <= end; first += at_once)
         {
@@ -68,7 +103,7 @@ namespace undine::particles
             other[k] = places[first + k];
           UNDINE_UNROLL
           for (int k = 0; k < at_once; ++k)
-            look_at(i, x, first + k, other[k], room, count);
+            look_at(i, x, first + k, other[k], f);
         }
       if (first == end)
         return;
@@ -79,26 +114,20 @@ namespace undine::particles
       UNDINE_UNROLL
       for (int k = 0; k < at_once - 1; ++k)
         if (first + k < end)
-          look_at(i, x, first + k, other[k], room, count);
+          look_at(i, x, first + k, other[k], f);
     }
 
-    template <class Room>
+    template <class Function>
     UNDINE_HOST_DEVICE
     void
     look_at(const int                i,
             const Vector<dim, Real> &x,
             const int                j,
             const Place<dim, Real>  &other,
-            Room                    &room,
-            int                     &count) const
+            const Function          &f) const
     {
-      if (!(norm_square(other.x - x) < reach * reach) || j == i || other.tag.is_yielding())
-        return;
-      if (count < together)
-        room[count] = j;
-      else if (count < capacity)
-        indices[list_slot(i, count, capacity)] = j;
-      ++count;
+      if (norm_square(other.x - x) < reach * reach && j != i && !other.tag.is_yielding())
+        f(j);
     }
   };
 
@@ -123,15 +152,18 @@ namespace undine::particles
     find(const Particles<dim, Real> &particles, const int *cell_starts, StepControl *control)
     {
       using Find = FindNeighbours<dim, Real>;
-      executor.template for_each_with_room<Find::together, int>(particles.n,
-                                                                Find{grid,
-                                                                     reach,
-                                                                     capacity,
-                                                                     particles.places,
-                                                                     cell_starts,
-                                                                     counts.data(),
-                                                                     indices.data(),
-                                                                     control});
+      const Find find{grid,
+                      reach,
+                      capacity,
+                      particles.places,
+                      cell_starts,
+                      counts.data(),
+                      indices.data(),
+                      control};
+      if (particles.n < Executor::room_pays_from)
+        executor.for_each(particles.n, find);
+      else
+        executor.template for_each_with_room<Find::together, int>(particles.n, find);
     }
 
     Neighbours<dim, Real>

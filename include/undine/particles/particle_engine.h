@@ -148,13 +148,11 @@ namespace undine::particles
       executor->set_threads(setup.numerics.threads);
       n = static_cast<int>(state.positions.size()) + n_parked;
       snapshot.reset();
-      scratch.reset();
       system.reset();
       wide.reset();
       system   = std::make_unique<System<Entry>>(*executor, setup, lattice(), n);
       snapshot = std::make_unique<Snapshot<Executor, dim, Real>>(
         *executor, n, system->elastic().n, static_cast<int>(setup.bodies.size()));
-      scratch = std::make_unique<Buffer<Executor, StepControl>>(*executor, 1);
       take_state(system->arrays(), system->elastic(), state);
     }
 
@@ -207,20 +205,17 @@ namespace undine::particles
     /// What it does depends on the particles only, so that a saved state continues as the run that
     /// saved it.
     template <class AnySystem>
-    StepControl
+    void
     begin(AnySystem &present, const double length)
     {
-      scratch->clear();
-      executor->for_each(n, MeasureSpeed<dim, Real>{present.arrays().view(), scratch->data()});
       StepControl fresh;
-      fresh.frame         = length;
-      fresh.largest_speed = scratch->values()[0].largest_speed;
+      fresh.frame = length;
       if (static_cast<int>(paths.size()) != setup.n_moving)
         throw InputError("it is not said how walls move in this frame.");
       atomic_maximum(&fresh.largest_speed, static_cast<float>(fastest(paths, length)));
-      present.begin_frame(fresh, paths);
+      StepControl *control = present.begin_frame(fresh, paths);
+      executor->for_each(n, MeasureSpeed<dim, Real>{present.arrays().view(), control});
       present.prepare();
-      return fresh;
     }
 
     /// Sub-steps are enqueued in batches of as many as the last one lets expect.
@@ -228,8 +223,9 @@ namespace undine::particles
     StepControl
     attempt(AnySystem &present, const double length)
     {
-      StepControl control = begin(present, length);
-      int         batch   = expected;
+      begin(present, length);
+      StepControl control;
+      int         batch = expected;
       do
         {
           for (int k = 0; k < batch; ++k)
@@ -273,7 +269,6 @@ namespace undine::particles
     std::unique_ptr<System<Entry>> system;
     std::unique_ptr<System<Wide>>  wide; ///< instead of `system`
     std::unique_ptr<Snapshot<Executor, dim, Real>> snapshot;
-    std::unique_ptr<Buffer<Executor, StepControl>> scratch;
   };
 
 

@@ -51,10 +51,9 @@ namespace undine::particles
       , crossed_before(executor, open.n > 0 ? n : 0)
       , moving_walls(executor, constants, bodies.n, setup.n_moving)
     {
-      using Preconditioner = Numerics::Preconditioner;
-      if (numerics.preconditioner == Preconditioner::multigrid ||
-          (numerics.preconditioner == Preconditioner::automatic &&
-           n > Executor::multigrid_pays_from))
+      const auto wanted = numerics.preconditioner;
+      if (wanted == Numerics::Preconditioner::multigrid ||
+          (wanted == Numerics::Preconditioner::automatic && n > Executor::multigrid_pays_from))
         multigrid =
           std::make_unique<MultigridArrays<Executor, dim, Real>>(executor, constants.grid, n);
     }
@@ -103,11 +102,12 @@ namespace undine::particles
       return control.values()[0];
     }
 
-    void
+    StepControl *
     begin_frame(const StepControl &value, const WallPaths<dim> &paths)
     {
-      control.set({value});
       moving_walls.set_paths(paths);
+      control.set({value});
+      return control.data();
     }
 
     /// One sub-step of the length that it chooses itself; nothing after the end of the frame.

@@ -306,6 +306,33 @@ TEMPLATE_TEST_CASE_SIG("Two runs give the same bits", "[particles]", ((int dim),
 }
 
 
+/// Blocks of the device work on equally many rows each, and some of them together on an aggregate.
+TEMPLATE_TEST_CASE_SIG(
+  "Solvers of the device converge about as fast as those of the host, at any size",
+  "[particles]",
+  ((int dim), dim),
+  2,
+  3)
+{
+  if (is_skipped<dim>())
+    return;
+  const int          first = dim == 2 ? 80 : 12;
+  const int          size  = first + (dim == 2 ? 2 : 1) * GENERATE(range(0, 10));
+  ParticleScene<dim> scene(0.02);
+  scene.add_tank(cube<dim>(size), 2);
+  scene.for_each_point(cube<dim>(0), cube<dim>(size), [&](const Point<dim> &x) {
+    scene.add(x, Kind::fluid, 0, Point<dim>::zero());
+  });
+  scene.setup.gravity = along<dim>(dim - 1, -9.81);
+  scene.setup.depth   = size * scene.setup.spacing;
+  INFO(size);
+  const auto host   = engine_on("host", scene)->advance(0.001).pressure;
+  const auto device = engine_on("device", scene)->advance(0.001).pressure;
+  CHECK(device.not_converged == 0);
+  CHECK(device.most_iterations < 1.4 * host.most_iterations);
+}
+
+
 TEMPLATE_TEST_CASE_SIG("Multigrid and Jacobi's method find the same pressures, one in fewer steps",
                        "[particles]",
                        ((int dim), dim),
