@@ -114,9 +114,9 @@ namespace undine::particles
               flow += (other.v - v) * plain;
               return;
             }
-          auto open = plain;
-          if (coverage > 0)
-            open += coverage * (faces.open(M, other.M.matrix(), pair) - plain);
+          // In this order fewer registers are needed than with VirtualFaces::open().
+          const auto open =
+            (1 - coverage) * plain + (coverage / 2) * (M * plain + other.M.matrix() * plain);
           flow += (other.v - v) * open;
           gap -= open;
           const Entry entry =
