@@ -40,7 +40,7 @@ namespace undine::particles
         }
       cycle.n_large = minimum(maximum(cycle.n_large, 1), levels.n - 1);
       cycle.damping = Real(0.95);
-      cycle.factor  = Real(1.6);
+      cycle.factor  = Real(1.8);
     }
 
     /// After the matrix has been assembled. `starts` are those of the cells.
@@ -88,7 +88,7 @@ namespace undine::particles
     }
 
   private:
-    static constexpr int small    = 1024; ///< cells: not worth the waiting of all workers
+    static constexpr int small    = 256;  ///< cells: not worth the waiting of all workers
     static constexpr int coarsest = 8;
 
     /// At least two.
