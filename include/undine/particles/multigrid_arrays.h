@@ -88,7 +88,7 @@ namespace undine::particles
     }
 
   private:
-    static constexpr int small    = 256;  ///< cells: not worth the waiting of all workers
+    static constexpr int small    = 256; ///< cells: not worth the waiting of all workers
     static constexpr int coarsest = 8;
 
     /// At least two.
