@@ -165,10 +165,11 @@ namespace undine::particles
 
   /// The right-hand side of the pressure equation, rho_f lambda n0 / (2 dim) s; runs after the
   /// potentials are known. In the fluid
-  ///     s = -div v* / dt + gamma (f / f* - 1) / dt^2  [1/s^2]
-  /// with the sum f of filling() and what there should be of it, or by one of the other sources the
-  /// error of the number density, (n* - n0) / (n0 dt^2), or a share of it; none in bodies: pressure
-  /// takes them along as if they were fluid of another density, and elasticity keeps their volume.
+  ///     s = -div v* / dt + gamma e / dt^2  [1/s^2]
+  /// with the error e of the volume, Neighbourhood::fillings - 1 (P3b), or by one of the other
+  /// sources that of the number density, (n* - n0) / (n0 dt^2), or a share of it; none in bodies:
+  /// pressure takes them along as if they were fluid of another density, and elasticity keeps their
+  /// volume.
   template <int dim, class Real, class Entry>
   struct MeasureSource
   {
