@@ -26,13 +26,13 @@ namespace undine
     , fluid(fluid)
     , state(state)
     , newton(parts.models.solid->numerics().newton)
-    , end_time(fluid.time + fluid.dt)
+    , end_time(fluid.end)
     , old_solid(state.solid)
     , equations(*parts.models.solid,
                 parts.mass,
                 old_solid,
                 parts.environment,
-                fluid.time,
+                fluid.start,
                 fluid.dt,
                 parts.timing,
                 loads_at_rest())

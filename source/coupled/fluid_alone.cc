@@ -24,10 +24,10 @@ namespace undine
 
   template <int dim>
   void
-  FluidAlone<dim>::step(State<dim> &state, Report &report)
+  FluidAlone<dim>::step(State<dim> &state, const Stage &stage, Report &report)
   {
     const auto timed    = timing.section("fluid");
-    const auto fluid    = fluid_side.predict(state, report.dt);
+    const auto fluid    = fluid_side.predict(state, stage);
     const auto geometry = fluid_side.geometry();
 
     typename Projection<dim>::Report projected;
@@ -35,11 +35,11 @@ namespace undine
       const auto phase = timing.section("project");
       projected        = projection.project(state.fluid,
                                      fluid->flow.velocity(),
-                                     fluid->time + fluid->dt,
+                                     fluid->end,
                                      fluid->dt,
                                      geometry ? geometry->pushed(fluid->dt) : PushedVolume());
     }
-    if (ledger.is_on())
+    if (ledger.is_on() && stage.is_last)
       balance(state, projected, fluid->dt);
     report.linear_iterations += projected.iterations;
     fluid_side.finish(*fluid, state, report, projected.divergence);

@@ -28,16 +28,17 @@ namespace undine
 
   template <int dim>
   void
-  FluidSide<dim>::place_surfaces(const State<dim> &state, const double dt)
+  FluidSide<dim>::place_surfaces(const State<dim> &state, const Stage &stage)
   {
     if (!cut)
       return;
     const auto   phase = timing.section("cut cells");
-    const double time  = state.clock.time;
-    const auto   now   = models.surface->positions(state.solid, time);
+    const double time  = state.clock.time + stage.start() + stage.ahead();
+    const auto   now   = models.surface->positions(state.solid, time, stage.ahead());
     cut->place(state.surface_positions.empty() ? now : state.surface_positions,
                now,
-               models.surface->velocities(state.solid, time, dt));
+               stage.keeps_rates ? models.surface->velocities_at(state.solid, time, stage.length) :
+                                   models.surface->velocities(state.solid, time, stage.length));
   }
 
 
@@ -48,7 +49,7 @@ namespace undine
                              const double     dt,
                              Report          &report)
   {
-    place_surfaces(state, dt);
+    place_surfaces(state, single_stage(dt));
     const double time = state.clock.time;
     state.fluid       = model.initial_state(bodies().open_parts);
     for (const auto &effect : models.effects)
@@ -68,30 +69,35 @@ namespace undine
 
   template <int dim>
   std::unique_ptr<FluidStep<dim>>
-  FluidSide<dim>::predict(State<dim> &state, const double dt)
+  FluidSide<dim>::predict(State<dim> &state, const Stage &stage)
   {
-    ledger.start(state.fluid.velocity);
-    place_surfaces(state, dt);
+    if (stage.is_first)
+      ledger.start(state.fluid.velocity);
+    place_surfaces(state, stage);
     auto fluid = std::make_unique<FluidStep<dim>>(
-      model, state.fluid, uniform_gravity, state.clock.time, dt, timing, bodies());
+      model, state.fluid, state.next_velocity, uniform_gravity, state.clock.time, stage, timing, bodies());
+    const auto book = [&](const typename Ledger<dim>::Phase phase) {
+      if (stage.is_last)
+        ledger.add(phase, state.fluid.velocity);
+    };
     {
       const auto phase = timing.section("transport");
       for (const auto &effect : models.effects)
         effect->transport(*fluid);
       fluid->settle();
-      ledger.add(Ledger<dim>::transport, state.fluid.velocity);
+      book(Ledger<dim>::transport);
     }
     {
       const auto phase = timing.section("accelerate");
       for (const auto &effect : models.effects)
         effect->accelerate(*fluid);
-      ledger.add(Ledger<dim>::forces, state.fluid.velocity);
+      book(Ledger<dim>::forces);
     }
     {
       const auto phase = timing.section("diffuse");
       for (const auto &effect : models.effects)
         effect->diffuse(*fluid);
-      ledger.add(Ledger<dim>::diffusion, state.fluid.velocity);
+      book(Ledger<dim>::diffusion);
     }
     return fluid;
   }
@@ -99,7 +105,7 @@ namespace undine
 
   template <int dim>
   void
-  FluidSide<dim>::finish(const FluidStep<dim> &fluid,
+  FluidSide<dim>::finish(FluidStep<dim> &fluid,
                          State<dim>           &state,
                          Report               &report,
                          const double          divergence)
@@ -112,8 +118,10 @@ namespace undine
         state.surface_positions = cut->surface_positions();
       }
     report.linear_iterations += fluid.linear_iterations;
+    if (!fluid.stage.is_last)
+      return;
     const auto phase = timing.section("measure");
-    add_columns(report, state.fluid, divergence, fluid.time + fluid.dt);
+    add_columns(report, state.fluid, divergence, fluid.end);
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/coupled_step.h>
 #include <undine/coupled/fluid_side.h>
+#include <undine/coupled/solid_stage.h>
 #include <undine/coupled/stepping_scheme.h>
 #include <undine/solid/solid_columns.h>
 #include <undine/solid/solid_step.h>
@@ -15,7 +16,7 @@ namespace undine
   };
 
 
-  /// Bodies in a fluid, solved together. A step of length h from t^n:
+  /// Bodies in a fluid, solved together. A stage of length h from its start:
   ///
   ///  1. fluid: transport, forces, implicit terms of every effect that is on; v^n becomes v*
   ///  2. Newton's method for u^{n+1} and p                                     (CoupledEquations)
@@ -50,9 +51,10 @@ namespace undine
     }
 
     void
-    step(State<dim> &state, Report &report) override
+    step(State<dim> &state, const Stage &stage, Report &report) override
     {
-      const auto       fluid = fluid_side.predict(state, report.dt);
+      start_stage(state, stage);
+      const auto       fluid = fluid_side.predict(state, stage);
       CoupledStep<dim> coupled({models,
                                 solid_step.mass(),
                                 environment,
@@ -64,13 +66,16 @@ namespace undine
                                state,
                                settings.boundary_flux);
       const auto       solid = coupled.solve();
-      balance(coupled, solid, report.dt);
+      end_stage(state, stage);
+      if (stage.is_last)
+        balance(coupled, solid, stage.length);
       report.newton_iterations += solid.newton.iterations;
       report.linear_iterations += solid.newton.linear_iterations;
       report.newton_reduction = reduction(solid.newton);
       report.note             = solid.note;
       fluid_side.finish(*fluid, state, report, coupled.divergence());
-      add_solid_columns(report, state, fluid->time + fluid->dt, solid);
+      if (stage.is_last)
+        add_solid_columns(report, state, fluid->end, solid);
     }
 
   private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/single_physics.h>
+#include <undine/coupled/solid_stage.h>
 #include <undine/solid/solid_columns.h>
 
 namespace undine
@@ -31,20 +32,24 @@ namespace undine
 
   template <int dim>
   void
-  SolidAlone<dim>::step(State<dim> &state, Report &report)
+  SolidAlone<dim>::step(State<dim> &state, const Stage &stage, Report &report)
   {
-    const double time  = state.clock.time;
-    const auto   solid = solid_step.step(state.solid, environment, time, report.dt, timing);
-    ledger.start();
-    if (solid.balance)
-      ledger.add(*solid.balance, report.dt);
+    const double time = state.clock.time;
+    start_stage(state, stage);
+    const auto solid =
+      solid_step.step(state.solid, environment, time + stage.start(), stage.length, timing);
+    end_stage(state, stage);
+    if (solid.balance && stage.is_last)
+      ledger.add(*solid.balance, stage.length);
     report.newton_iterations += solid.newton.iterations;
     report.linear_iterations += solid.newton.linear_iterations;
     report.newton_reduction = reduction(solid.newton);
     report.note             = solid.note;
-    const auto measured     = timing.section("measure");
+    if (!stage.is_last)
+      return;
+    const auto measured = timing.section("measure");
     append(report.columns,
-           solid_columns(model, solid_step, environment, state.solid, time + report.dt, solid));
+           solid_columns(model, solid_step, environment, state.solid, time + stage.end, solid));
   }
 
 

@@ -20,6 +20,7 @@ namespace undine
              Allowed::between(0, 20),
              "A step that fails is redone with half its length; the run stops where that would be "
              "less than Step halved so often.");
+    integrator = choose_time_integrator(options);
     options.section("Output").add(
       "Ledger",
       keeps_ledger,
@@ -65,8 +66,7 @@ namespace undine
       try
         {
           report.dt = asked / (1u << report.cuts);
-          physics->step(state, report);
-          append(report.columns, ledger->columns());
+          advance(state, report);
           assert_finite(report.columns);
           allowed_step = report.cuts > 0 ? report.dt : 2 * allowed_step;
           return report;
@@ -85,6 +85,18 @@ namespace undine
           state = saved;
           throw;
         }
+  }
+
+
+  /// A step of report.dt [s].
+  template <int dim>
+  void
+  SteppingScheme<dim>::advance(State<dim> &state, Report &report)
+  {
+    ledger->start();
+    for (const auto &stage : integrator->stages(report.dt, state.clock.step > 0))
+      physics->step(state, stage, report);
+    append(report.columns, ledger->columns());
   }
 
 

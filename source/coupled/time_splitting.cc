@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/coupled/fluid_side.h>
+#include <undine/coupled/solid_stage.h>
 #include <undine/coupled/stepping_scheme.h>
 #include <undine/solid/solid_columns.h>
 #include <undine/solid/solid_step.h>
@@ -44,14 +45,15 @@ namespace undine
     }
 
     void
-    step(State<dim> &state, Report &report) override
+    step(State<dim> &state, const Stage &stage, Report &report) override
     {
       SurfaceExchange<dim> exchange;
       // J p^n, where the grid was cut when p^n was computed.
       exchange.on_bodies    = geometry_of(models, state)->pressure_forces(state.fluid.pressure);
-      const auto   fluid    = fluid_side.predict(state, report.dt);
+      start_stage(state, stage);
+      const auto   fluid    = fluid_side.predict(state, stage);
       const auto  &geometry = *fluid_side.geometry();
-      const double end      = fluid->time + fluid->dt;
+      const double end      = fluid->end;
       exchange.at_rest      = geometry.other_forces(fluid->gravity, end);
       auto forces           = models.solid->vector();
       models.surface->add_to_bodies(forces, exchange.on_bodies);
@@ -59,12 +61,13 @@ namespace undine
 
       auto       way = state.solid.displacement;
       const auto solid =
-        solid_step.step(state.solid, environment, fluid->time, fluid->dt, timing, forces);
+        solid_step.step(state.solid, environment, fluid->start, fluid->dt, timing, forces);
       way.sadd(-1, 1, state.solid.displacement);
+      end_stage(state, stage);
       exchange.way         = models.surface->with_bodies(way, still());
       exchange.velocities  = node_velocities(state, exchange.way, fluid->dt);
       const auto projected = project(state, *fluid, exchange.velocities);
-      if (ledger.is_on())
+      if (ledger.is_on() && stage.is_last)
         {
           const auto phase  = timing.section("measure");
           exchange.by_fluid = geometry.pressure_forces(state.fluid.pressure);
@@ -78,7 +81,8 @@ namespace undine
       report.newton_reduction = reduction(solid.newton);
       report.note             = solid.note;
       fluid_side.finish(*fluid, state, report, projected.divergence);
-      add_solid_columns(report, state, end, solid);
+      if (stage.is_last)
+        add_solid_columns(report, state, end, solid);
     }
 
   private:
@@ -92,7 +96,7 @@ namespace undine
         const auto phase = timing.section("project");
         return projection.project(state.fluid,
                                   fluid.flow.velocity(),
-                                  fluid.time + fluid.dt,
+                                  fluid.end,
                                   fluid.dt,
                                   fluid_side.geometry()->pushed(velocities, fluid.dt));
       }

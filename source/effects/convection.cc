@@ -37,20 +37,36 @@ namespace undine
     void
     transport(FluidStep<dim> &step) const override
     {
-      const auto   timed    = step.timing.section("convection");
+      const auto timed = step.timing.section("convection");
+      if (step.stage.keeps_rates)
+        for (auto *velocity : step.to_carry())
+          carry(*velocity, step.flow);
+      else
+        carry_with_acceleration(step);
+    }
+
+  private:
+    void
+    carry(Velocity<dim> &velocity, const Flow<dim> &flow) const
+    {
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        velocity[axis] = method->advect(flow, velocity[axis], VelocityCondition<dim>(axis));
+    }
+
+    void
+    carry_with_acceleration(FluidStep<dim> &step) const
+    {
       auto        &velocity = step.state.velocity;
       const auto  &now      = step.state.acceleration;
       const double share    = FluidStep<dim>::carried_share * step.dt;
       for (unsigned int axis = 0; axis < dim; ++axis)
-        {
-          add_to_whole_faces(velocity[axis], share, now[axis]);
-          velocity[axis] = method->advect(step.flow, velocity[axis], VelocityCondition<dim>(axis));
-          add_to_whole_faces(velocity[axis], -share, now[axis]);
-        }
+        add_to_whole_faces(velocity[axis], share, now[axis]);
+      carry(velocity, step.flow);
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        add_to_whole_faces(velocity[axis], -share, now[axis]);
       step.carried = velocity;
     }
 
-  private:
     /// A body may have come or gone between the two: faces that it divides have no acceleration.
     static void
     add_to_whole_faces(Field<dim> &component, const double factor, const Field<dim> &acceleration)

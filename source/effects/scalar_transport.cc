@@ -190,9 +190,10 @@ namespace undine
       for (const auto &field : fields)
         if (!field->source.is_zero())
           {
-            auto &values = step.state.scalars.at(field->name);
+            auto        &values = step.state.scalars.at(field->name);
+            const double way    = step.stage.way();
             for_each_value(values, [&](double &value, const auto &place, const auto &) {
-              value += step.dt * field->source.value(place, step.time + step.dt / 2);
+              value += way * field->source.value(place, step.time + way / 2);
             });
             set_means(values, step.model.grid());
           }
@@ -209,7 +210,7 @@ namespace undine
               field->equation = std::make_unique<ImplicitDiffusion<dim>>(
                 step.model, step.model.grid().cells(), *field, field->diffusivity);
             step.linear_iterations += field->equation->step(
-              step.state.scalars.at(field->name), step.time + step.dt, step.dt);
+              step.state.scalars.at(field->name), step.end, step.stage.way());
           }
     }
 

@@ -62,10 +62,10 @@ namespace undine
         pressure,
         open_faces(step.model, step.flow.velocity(), velocity.open_parts(), step.time));
       add(velocity, step.dt, gradient);
-      set_boundary_velocity(velocity, step.model, step.time + step.dt);
+      set_boundary_velocity(velocity, step.model, step.end);
       for (unsigned int axis = 0; axis < dim; ++axis)
         step.linear_iterations +=
-          solver(step.model, axis).step(velocity[axis], step.time + step.dt, step.dt);
+          solver(step.model, axis).step(velocity[axis], step.end, step.dt);
       step.pressure_correction = pressure_correction(step.model, velocity);
       add(velocity, -step.dt, gradient);
     }

@@ -26,6 +26,7 @@ namespace undine
   template <int dim>
   NearBodies<dim>::NearBodies(const Flow<dim> &flow_, const Field<dim> &source)
     : flow(flow_)
+    , lattice(source.lattice())
     , axis(source.lattice().normal_axis())
   {
     if (const auto *obstruction = flow.bodies().obstruction)
@@ -36,9 +37,11 @@ namespace undine
 
   template <int dim>
   double
-  NearBodies<dim>::value_at(const dealii::Point<dim> &foot) const
+  NearBodies<dim>::value_at(const GridIndex<dim>     &index,
+                            const dealii::Point<dim> &place,
+                            const dealii::Point<dim> &foot) const
   {
-    if (const auto seen = samples->at(foot))
+    if (const auto seen = samples->along(index, place, foot))
       return *seen;
     return axis < dim ? flow.bodies().obstruction->nearest_velocity(foot)[axis] : unknown;
   }
@@ -56,8 +59,34 @@ namespace undine
   }
 
 
+  template <int dim>
+  Field<dim>
+  kept_in_place(const Flow<dim>              &flow,
+                const Field<dim>             &field,
+                const BoundaryCondition<dim> &condition)
+  {
+    const auto            source = completed(flow, field, condition);
+    const NearBodies<dim> near(flow, source);
+    Field<dim>            kept(source.shared_lattice(), flow.bodies().open_parts);
+    const auto           *divided = kept.divided();
+    for_each_value(kept, [&](double &value, const auto &place, const GridIndex<dim> &index) {
+      const bool is_part =
+        divided != nullptr && divided->kind(index) != LatticeParts<dim>::Kind::whole;
+      value = is_part || flow.vicinity().is_near(place, place) ?
+                near.value_at(index, place, place) :
+                source(index);
+    });
+    near.finish(kept, condition);
+    return kept;
+  }
+
+
   template class NearBodies<2>;
   template class NearBodies<3>;
+  template Field<2>
+  kept_in_place(const Flow<2> &, const Field<2> &, const BoundaryCondition<2> &);
+  template Field<3>
+  kept_in_place(const Flow<3> &, const Field<3> &, const BoundaryCondition<3> &);
   template Field<2>
   completed(const Flow<2> &, Field<2>, const BoundaryCondition<2> &);
   template Field<3>

@@ -110,6 +110,7 @@ namespace undine
         auto &component          = state.velocity[axis];
         component                = Field<dim>(mac_grid.faces(axis), open_parts);
         state.acceleration[axis] = component;
+        state.change[axis]       = component;
         if (!parameters.initial_velocity.is_zero())
           for_each_value(component, [&](double &value, const auto &place, const auto &) {
             value = parameters.initial_velocity.value(place, 0, axis);

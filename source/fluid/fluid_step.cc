@@ -21,29 +21,88 @@ namespace undine
           result.parts()[k] = old(result.divided()->all()[k].index);
       return result;
     }
+
+
+    /// The flow in the middle of the stage's way.
+    template <int dim>
+    Velocity<dim>
+    carrying_velocity(const FluidState<dim> &state, const Stage &stage)
+    {
+      auto result = state.velocity;
+      if (stage.keeps_rates)
+        add(result, stage.way() / 2, state.change);
+      return result;
+    }
+
+
+    /// (after - before) / length.
+    template <int dim>
+    Velocity<dim>
+    difference(Velocity<dim> after, const Velocity<dim> &before, const double length)
+    {
+      add(after, -1., before);
+      Velocity<dim> result = after;
+      add(result, 1 / length - 1, after);
+      return result;
+    }
   } // namespace
 
 
   template <int dim>
   FluidStep<dim>::FluidStep(const FluidModel<dim>            &model_,
                             FluidState<dim>                  &state_,
+                            Velocity<dim>                    &next_,
                             const dealii::Tensor<1, dim>     &gravity_,
                             const double                      time_,
-                            const double                      dt_,
+                            const Stage                      &stage_,
                             TimingTree                       &timing_,
                             const typename Flow<dim>::Bodies &bodies)
     : model(model_)
     , state(state_)
+    , next(next_)
     , gravity(gravity_)
-    , time(time_)
-    , dt(dt_)
+    , stage(stage_)
+    , time(time_ + stage.begin)
+    , start(time_ + stage.start())
+    , end(time_ + stage.end)
+    , dt(stage.length)
     , timing(timing_)
-    , flow(model_, state_.velocity, time_, dt_, bodies)
+    , flow(model_, carrying_velocity(state_, stage), time, stage.way(), bodies)
   {
-    const auto &now = bodies.open_parts;
-    if (state.pressure.open_parts() == now)
-      return;
-    state.pressure = moved_to(state.pressure, now);
+    if (stage.keeps_rates)
+      start_from_rates();
+    if (state.pressure.open_parts() != bodies.open_parts)
+      move_pressure_and_acceleration();
+  }
+
+
+  /// v^0 of this stage, and what the next one needs of v^n and a^n.
+  template <int dim>
+  void
+  FluidStep<dim>::start_from_rates()
+  {
+    before = state.velocity;
+    if (stage.is_first)
+      add(state.velocity, stage.rate, state.acceleration);
+    else
+      state.velocity = next;
+    next = Velocity<dim>();
+    if (!stage.is_last)
+      {
+        next = before;
+        add(next, stage.next_old, state.acceleration);
+      }
+  }
+
+
+  template <int dim>
+  void
+  FluidStep<dim>::move_pressure_and_acceleration()
+  {
+    const auto &now = flow.bodies().open_parts;
+    state.pressure  = moved_to(state.pressure, now);
+    if (stage.keeps_rates)
+      return; // accelerations have been carried as part of velocities
     for (auto &component : state.acceleration.components)
       component = moved_to(component, now);
     if (!now)
@@ -58,28 +117,54 @@ namespace undine
 
 
   template <int dim>
+  std::vector<Velocity<dim> *>
+  FluidStep<dim>::to_carry()
+  {
+    if (stage.is_last)
+      return {&state.velocity};
+    return {&state.velocity, &next};
+  }
+
+
+  /// The same velocity on what bodies leave of the grid now.
+  template <int dim>
+  Velocity<dim>
+  FluidStep<dim>::settled(const Velocity<dim> &velocity) const
+  {
+    auto result = velocity;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      result[axis] = kept_in_place(flow, velocity[axis], VelocityCondition<dim>(axis));
+    return result;
+  }
+
+
+  template <int dim>
   void
   FluidStep<dim>::settle()
   {
-    const auto &now = flow.bodies().open_parts;
-    if (state.velocity[0].open_parts() == now)
-      return;
-    const Flow<dim> still(model, flow.velocity(), time, 0., flow.bodies());
-    for (unsigned int axis = 0; axis < dim; ++axis)
+    for (auto *velocity : to_carry())
+      if ((*velocity)[0].open_parts() != flow.bodies().open_parts)
+        *velocity = settled(*velocity);
+    if (stage.keeps_rates)
       {
-        const VelocityCondition<dim> condition(axis);
-        const auto                   source = completed(still, state.velocity[axis], condition);
-        state.velocity[axis]                = carry(
-          still, source, condition, [&](const auto &, const auto &face) { return source(face); });
+        carried = state.velocity;
+        before  = settled(before);
       }
   }
 
 
   template <int dim>
   void
-  FluidStep<dim>::finish() const
+  FluidStep<dim>::finish()
   {
-    if (carried)
+    if (stage.keeps_rates)
+      {
+        state.acceleration = difference(state.velocity, *carried, stage.length);
+        state.change       = difference(state.velocity, before, stage.way());
+        if (!stage.is_last)
+          add(next, stage.next_new, state.acceleration);
+      }
+    else if (carried)
       for (unsigned int axis = 0; axis < dim; ++axis)
         for_each(state.velocity[axis].owned(), [&](const GridIndex<dim> &face) {
           const auto *divided = state.velocity[axis].divided();

@@ -13,6 +13,10 @@ namespace undine
     /// Share that a visible point has even where its multilinear weight is zero, if those with more
     /// weight are hidden.
     constexpr double least_weight = 1e-3;
+
+    /// Share of the way from a point to the centroid of its part: far less than is smoothed
+    /// otherwise, far more than rounding.
+    constexpr double side_share = 1e-10;
   } // namespace
 
 
@@ -99,9 +103,9 @@ namespace undine
 
   template <int dim>
   std::optional<double>
-  VisibleSamples<dim>::value_of(const GridIndex<dim>     &index,
-                                const dealii::Point<dim> &place,
-                                const bool                all_visible) const
+  VisibleSamples<dim>::value_of(const GridIndex<dim> &index,
+                                const Eye            &eye,
+                                const bool            all_visible) const
   {
     using Kind          = typename LatticeParts<dim>::Kind;
     const auto &lattice = field.lattice();
@@ -116,20 +120,38 @@ namespace undine
       {
         const auto sample = lattice.point(index);
         const bool counts =
-          (all_visible || is_visible(sample, place)) && !obstruction.swept(sample);
+          (all_visible || is_visible(sample, eye.place)) && !obstruction.swept(sample);
         return counts ? std::optional<double>(field(index)) : std::nullopt;
       }
     const auto found =
       parts.find(IndexBox<dim>{{}, lattice.shape()}.position(lattice.wrapped(inside)));
     if (found == parts.end())
       return {};
-    const auto image = lattice.point(inside) - lattice.point(lattice.wrapped(inside));
-    double     sum = 0, n_visible = 0;
-    for (const auto &sample : found->second)
-      if (is_visible(sample.place + image, place))
+    const bool is_own = eye.own != nullptr && inside == *eye.own;
+    return value_of_parts(found->second,
+                          lattice.point(inside) - lattice.point(lattice.wrapped(inside)),
+                          eye,
+                          is_own);
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  VisibleSamples<dim>::value_of_parts(const std::vector<Sample>    &samples,
+                                      const dealii::Tensor<1, dim> &image,
+                                      const Eye                    &eye,
+                                      const bool                    only_nearest) const
+  {
+    double sum = 0, n_visible = 0, nearest = std::numeric_limits<double>::infinity();
+    for (const auto &sample : samples)
+      if (is_visible(sample.place + image, eye.place))
         {
-          sum += sample.value;
-          n_visible += 1;
+          const double distance = (sample.place + image - eye.place).norm();
+          if (only_nearest && distance >= nearest)
+            continue;
+          nearest   = distance;
+          sum       = only_nearest ? sample.value : sum + sample.value;
+          n_visible = only_nearest ? 1 : n_visible + 1;
         }
     return n_visible > 0 ? std::optional<double>(sum / n_visible) : std::nullopt;
   }
@@ -138,6 +160,26 @@ namespace undine
   template <int dim>
   std::optional<double>
   VisibleSamples<dim>::at(const dealii::Point<dim> &place) const
+  {
+    return interpolated(place, {place, nullptr});
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  VisibleSamples<dim>::along(const GridIndex<dim>     &index,
+                             const dealii::Point<dim> &place,
+                             const dealii::Point<dim> &foot) const
+  {
+    const auto point = field.lattice().point(index);
+    // A trace of the way to the centroid says on which side of the point the fluid is.
+    return interpolated(point + (foot - place) + side_share * (place - point), {foot, &index});
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  VisibleSamples<dim>::interpolated(const dealii::Point<dim> &place, const Eye &eye) const
   {
     GridIndex<dim>          lower;
     std::array<double, dim> weights;
@@ -150,8 +192,10 @@ namespace undine
     auto upper = lower;
     for (unsigned int d = 0; d < dim; ++d)
       ++upper[d];
-    const bool all_visible =
-      vicinity.is_clear(field.lattice().point(lower), field.lattice().point(upper));
+    const auto below = field.lattice().point(lower), above = field.lattice().point(upper);
+    bool       all_visible = vicinity.is_clear(below, above);
+    for (unsigned int d = 0; d < dim; ++d)
+      all_visible = all_visible && eye.place[d] >= below[d] && eye.place[d] <= above[d];
     double sum = 0, total = 0, raised_sum = 0, raised_total = 0;
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {
@@ -159,11 +203,11 @@ namespace undine
         double weight = 1;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const int above = (corner >> d) & 1;
-            index[d] += above;
-            weight *= above == 1 ? weights[d] : 1 - weights[d];
+            const int higher = (corner >> d) & 1;
+            index[d] += higher;
+            weight *= higher == 1 ? weights[d] : 1 - weights[d];
           }
-        if (const auto value = value_of(index, place, all_visible))
+        if (const auto value = value_of(index, eye, all_visible))
           {
             sum += weight * *value;
             total += weight;

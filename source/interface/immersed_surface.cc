@@ -116,12 +116,19 @@ namespace undine
 
   template <int dim>
   std::vector<dealii::Point<dim>>
-  ImmersedSurface<dim>::positions(const SolidState &state, const double time) const
+  ImmersedSurface<dim>::positions(const SolidState &state,
+                                  const double      time,
+                                  const double      ahead) const
   {
     auto result = all_obstacles.positions(time);
     check_motion(result, time);
     if (body_surface)
-      result = joined(body_surface->positions(state.displacement), result);
+      {
+        auto displacement = state.displacement;
+        if (ahead != 0)
+          displacement.add(ahead, state.velocity);
+        result = joined(body_surface->positions(displacement), result);
+      }
     check(result);
     return result;
   }
@@ -138,6 +145,17 @@ namespace undine
     if (body_surface)
       result = joined(body_surface->gather(state.velocity), result);
     return result;
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  ImmersedSurface<dim>::velocities_at(const SolidState &state,
+                                      const double      time,
+                                      const double      dt) const
+  {
+    const double around = 0.01 * dt;
+    return velocities(state, time - around, 2 * around);
   }
 
 

@@ -184,6 +184,8 @@ namespace undine
         action(std::string("fluid/velocity_") + char('x' + axis), fluid.velocity[axis]);
       for (unsigned int axis = 0; axis < dim; ++axis)
         action(std::string("fluid/acceleration_") + char('x' + axis), fluid.acceleration[axis]);
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        action(std::string("fluid/change_") + char('x' + axis), fluid.change[axis]);
       action("fluid/pressure", fluid.pressure);
       for (auto &scalar : fluid.scalars)
         action("fluid/scalars/" + scalar.first, scalar.second);

@@ -32,13 +32,13 @@ namespace undine
   SolidModel<dim>::declare(const Options &options)
   {
     read_bodies<dim>(options.section("Bodies"));
-    SolidNumerics(options.section("Solid numerics"));
+    SolidNumerics numerics(options);
   }
 
 
   template <int dim>
   SolidModel<dim>::SolidModel(const Options &options, const MPI_Comm communicator)
-    : solid_numerics(options.section("Solid numerics"))
+    : solid_numerics(options)
     , all_bodies(read_bodies<dim>(options.section("Bodies")))
     , straight(1)
     , mesh(communicator,

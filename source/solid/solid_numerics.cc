@@ -3,15 +3,15 @@
 
 namespace undine
 {
-  SolidNumerics::SolidNumerics(const Options &options)
+  SolidNumerics::SolidNumerics(const Options &scene)
+    : integrator(choose_time_integrator(scene))
   {
+    const auto options = scene.section("Solid numerics");
     options.add("Element degree",
                 degree,
                 "1",
                 Allowed::between(1, 2),
                 "Of the polynomials that interpolate displacements; 2 does not lock when bent.");
-    integrator =
-      options.choose<TimeIntegrator>("Time integrator", "theta", "How the bodies advance in time.");
     options.add("Newton tolerance",
                 newton.relative_tolerance,
                 "1",

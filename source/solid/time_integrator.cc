@@ -13,6 +13,13 @@ namespace undine
   }
 
 
+  Stages
+  TimeIntegrator::stages(const double dt, const bool) const
+  {
+    return {single_stage(dt)};
+  }
+
+
   bool
   TimeIntegrator::uses_acceleration() const
   {
@@ -24,5 +31,13 @@ namespace undine
   TimeIntegrator::acceleration_shift() const
   {
     return 0;
+  }
+
+
+  std::unique_ptr<TimeIntegrator>
+  choose_time_integrator(const Options &scene)
+  {
+    return scene.section("Time").choose<TimeIntegrator>(
+      "Integrator", "theta", "How bodies and fluid advance in time.");
   }
 } // namespace undine

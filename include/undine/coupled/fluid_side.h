@@ -29,14 +29,15 @@ namespace undine
     initialize(State<dim> &state, Projection<dim> &projection, double dt, Report &report);
 
     /// Cut the grid by what stands in the fluid, then transport, forces and implicit terms of every
-    /// effect that is on: v^n in `state` becomes v*. Collective. Throws SolveError.
+    /// effect that is on: v^n in `state` becomes v*. The bodies in `state` are those at the stage's
+    /// start. Collective. Throws SolveError.
     std::unique_ptr<FluidStep<dim>>
-    predict(State<dim> &state, double dt);
+    predict(State<dim> &state, const Stage &stage);
 
-    /// The end of the step that predict() began, after the velocity has been made divergence-free
+    /// The end of the stage that predict() began, after the velocity has been made divergence-free
     /// up to `divergence` [1]. Collective.
     void
-    finish(const FluidStep<dim> &fluid, State<dim> &state, Report &report, double divergence);
+    finish(FluidStep<dim> &fluid, State<dim> &state, Report &report, double divergence);
 
     /// Where surfaces cut the grid; nullptr if nothing stands in the fluid.
     const FluidGeometry<dim> *
@@ -53,7 +54,7 @@ namespace undine
 
   private:
     void
-    place_surfaces(const State<dim> &state, double dt);
+    place_surfaces(const State<dim> &state, const Stage &stage);
     typename Flow<dim>::Bodies
     bodies() const;
     void

@@ -3,6 +3,7 @@
 #define undine_coupled_physics_h
 
 #include <undine/base/core/newton.h>
+#include <undine/base/core/stage.h>
 #include <undine/coupled/report.h>
 #include <undine/coupled/state.h>
 
@@ -20,10 +21,11 @@ namespace undine
     virtual void
     initialize(State<dim> &state, double dt, Report &report) = 0;
 
-    /// A step of report.dt [s] from the time of the state's clock, which stays; add to the report.
-    /// Collective. Throws SolveError; the state may then be half advanced.
+    /// The stage of a step from the time of the state's clock, which stays; add to the report, its
+    /// columns at the end of the step. Collective. Throws SolveError; the state may then be half
+    /// advanced.
     virtual void
-    step(State<dim> &state, Report &report) = 0;
+    step(State<dim> &state, const Stage &stage, Report &report) = 0;
   };
 
 

@@ -22,7 +22,7 @@ namespace undine
     initialize(State<dim> &state, double dt, Report &report) override;
 
     void
-    step(State<dim> &state, Report &report) override;
+    step(State<dim> &state, const Stage &stage, Report &report) override;
 
   private:
     const SolidModel<dim> &model;
@@ -44,7 +44,7 @@ namespace undine
     initialize(State<dim> &state, double dt, Report &report) override;
 
     void
-    step(State<dim> &state, Report &report) override;
+    step(State<dim> &state, const Stage &stage, Report &report) override;
 
   private:
     void

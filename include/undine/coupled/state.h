@@ -24,6 +24,11 @@ namespace undine
 
     particles::ParticleState<dim> particles;
 
+    /// Where the next stage of a step begins (Stage); only within a step. @{
+    SolidState    next_solid;
+    Velocity<dim> next_velocity;
+    /// @}
+
     /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].
     std::vector<dealii::Point<dim>> surface_positions;
   };

@@ -6,6 +6,7 @@
 #include <undine/coupled/ledger.h>
 #include <undine/coupled/physics.h>
 #include <undine/coupled/scheme.h>
+#include <undine/solid/time_integrator.h>
 
 #include <limits>
 #include <memory>
@@ -48,6 +49,10 @@ namespace undine
     std::string
     complaint(double asked, const Report &last, const SolveError &error) const;
 
+    void
+    advance(State<dim> &state, Report &report);
+
+    std::unique_ptr<TimeIntegrator> integrator;
     double                        asked_step   = 0.01; // [s]
     unsigned int                  maximum_cuts = 6;
     double                        allowed_step = std::numeric_limits<double>::infinity(); // [s]

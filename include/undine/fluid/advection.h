@@ -43,10 +43,12 @@ namespace undine
     /// `source` is what completed() returned. The references must outlive it. Collective.
     NearBodies(const Flow<dim> &flow, const Field<dim> &source);
 
-    /// The value that the path from `foot` brings to a point or part; NaN if nothing could be seen
-    /// there, of scalars only.
+    /// The value that the path from `foot` brings to the point `index` or a part of it, which is at
+    /// `place`; NaN if nothing could be seen there, of scalars only.
     double
-    value_at(const dealii::Point<dim> &foot) const;
+    value_at(const GridIndex<dim>     &index,
+             const dealii::Point<dim> &place,
+             const dealii::Point<dim> &foot) const;
 
     /// Cells and components to which nothing was brought are filled, see fill_unknown(); divided
     /// points take the mean of their parts. Collective.
@@ -55,9 +57,17 @@ namespace undine
 
   private:
     const Flow<dim>                           &flow;
+    const Lattice<dim>                        &lattice;
     unsigned int                               axis; ///< of a velocity; no_axis: scalar
     std::unique_ptr<const VisibleSamples<dim>> samples;
   };
+
+  /// The same field on what bodies leave of the grid now. Collective.
+  template <int dim>
+  Field<dim>
+  kept_in_place(const Flow<dim>              &flow,
+                const Field<dim>             &field,
+                const BoundaryCondition<dim> &condition);
 
   /// The field at t + h on what bodies leave of the grid now: `far(trace, index)` of paths that
   /// keep away from bodies; near them all methods are alike, see NearBodies. `source` is what
@@ -77,7 +87,7 @@ namespace undine
       const auto trace = flow.trace(place, -flow.dt());
       const bool is_part =
         divided != nullptr && divided->kind(index) != LatticeParts<dim>::Kind::whole;
-      value = is_part || flow.vicinity().is_near(place, trace.foot) ? near.value_at(trace.foot)
+      value = is_part || flow.vicinity().is_near(place, trace.foot) ? near.value_at(index, place, trace.foot)
                                                                     : far(trace, index);
     });
     near.finish(carried, condition);

@@ -2,6 +2,7 @@
 #ifndef undine_fluid_fluid_step_h
 #define undine_fluid_fluid_step_h
 
+#include <undine/base/core/stage.h>
 #include <undine/base/core/timing.h>
 #include <undine/fluid/flow.h>
 #include <undine/fluid/fluid_model.h>
@@ -10,67 +11,90 @@
 #include <deal.II/base/tensor.h>
 
 #include <optional>
+#include <vector>
 
 namespace undine
 {
-  /// What the effects work on while the fluid goes from t^n to t^{n+1}: they turn state.velocity
-  /// from v^n into v*, which the projection then makes divergence-free:
+  /// What the effects work on while the fluid goes through a stage (Stage) of a step: they turn
+  /// state.velocity from v^0 into v*, which the projection then makes divergence-free:
   ///
-  ///  1. transport:  v' = A(v^n + c h a^n) - c h a^n,  A: carried along v^n         (Advection)
-  ///  2. accelerate: v'' = v' + h f
-  ///  3. diffuse:    (1 - h nu Laplace) w = v'' - h grad q^n / rho,  v* = w + h grad q^n / rho
-  ///  4. project:    v^{n+1} = v* - h grad p^{n+1} / rho,  div v^{n+1} = 0         (Projection)
-  ///  5. finish:     a^{n+1} = (v^{n+1} - v') / h,  q^{n+1} = p^{n+1} - mu div w
+  ///  1. transport:  v' = A(v^0), A: carried along the flow                        (Advection)
+  ///  2. accelerate: v'' = v' + g f
+  ///  3. diffuse:    (1 - g nu Laplace) w = v'' - g grad q / rho,  v* = w + g grad q / rho
+  ///  4. project:    v = v* - g grad p / rho,  div v = 0                          (Projection)
+  ///  5. finish:     a = (v - v') / g,  q = p - mu div w
   ///
-  /// First order in time: forces act at t^{n+1} as a whole, which damps, and pressure is one
-  /// impulse h p. Steady flows, however, hardly depend on h, by two corrections of higher order:
+  /// with pressures q of the last stage. Friction sees the flow that will be left after 4, not one
+  /// that still slips along walls: step 3 borrows the old pressure gradient and gives it back, the
+  /// incremental pressure correction in its rotational form (Guermond, Minev & Shen 2006).
   ///
-  /// Friction sees the flow that will be left after 4, not one that still slips along walls: step 3
-  /// borrows the old pressure gradient and gives it back, the incremental pressure correction in
-  /// its rotational form (Guermond, Minev & Shen 2006). q is the state's pressure.
+  /// Stages that keep rates start from v^0 = v^n + w a^n and so on, a being the acceleration of the
+  /// fluid's parcels; the flow that carries is that in the middle of the way, v + way dv/dt / 2.
   ///
-  /// The share c of the parcels' acceleration a is carried along in 1. In a steady flow c = 1/2
-  /// would be the trapezoidal rule along their paths: v + h a / 2 at the foot is v - h a / 2 at the
-  /// head. A force -lambda v then multiplies v by (A - (A - 1) c z) / (1 + z) in a step, z = h
-  /// lambda: up to 2 c for stiff friction and A = -1. c = 0.45 keeps that below one and takes away
-  /// nine tenths of the error of first order in h.
+  /// A step of a single stage that keeps none is first order in time: forces act at t^{n+1} as a
+  /// whole, which damps. Steady flows, however, hardly depend on h: v' = A(v^n + c h a^n) - c h a^n
+  /// carries the share c of the parcels' acceleration along. In a steady flow c = 1/2 would be the
+  /// trapezoidal rule along their paths: v + h a / 2 at the foot is v - h a / 2 at the head. A force
+  /// -lambda v then multiplies v by (A - (A - 1) c z) / (1 + z) in a step, z = h lambda: up to 2 c
+  /// for stiff friction and A = -1. c = 0.45 keeps that below one and takes away nine tenths of the
+  /// error of first order in h.
   template <int dim>
   struct FluidStep
   {
     static constexpr double carried_share = 0.45; ///< c
 
-    /// Freezes v^n. What bodies leave of the grid may have changed since then: velocity and scalars
-    /// follow when they are carried, pressure and acceleration here. Collective.
+    /// A stage of the step that begins at `time` = t^n. `next` is what the stage that follows
+    /// starts from. Freezes the flow. What bodies leave of the grid may have changed since then:
+    /// velocity and scalars follow when they are carried, pressure here. Collective.
     FluidStep(const FluidModel<dim>            &model,
               FluidState<dim>                  &state,
+              Velocity<dim>                    &next,
               const dealii::Tensor<1, dim>     &gravity,
-              const double                      time,
-              const double                      dt,
+              double                            time,
+              const Stage                      &stage,
               TimingTree                       &timing,
               const typename Flow<dim>::Bodies &bodies = {});
 
+    /// The velocities that convection carries.
+    std::vector<Velocity<dim> *>
+    to_carry();
+
     /// Bring what no effect has carried to what bodies leave of the grid now: it stays where it
-    /// was.
+    /// was. Collective.
     void
     settle();
 
-    /// Ends the step, after the projection: acceleration and pressure for the next one.
+    /// Ends the stage, after the projection: acceleration and pressure for the next one.
     void
-    finish() const;
+    finish();
 
     const FluidModel<dim>       &model;
     FluidState<dim>             &state;
+    Velocity<dim>               &next;    ///< of the stage that follows [m/s]
     const dealii::Tensor<1, dim> gravity; ///< uniform acceleration, in the reduced pressure [m/s^2]
-    const double                 time;    ///< t^n [s]
-    const double                 dt;      ///< h [s]
+    const Stage                  stage;
+    const double                 time;  ///< where the way of parcels begins [s]
+    const double                 start; ///< where the implicit step begins [s]
+    const double                 end;   ///< of both [s]
+    const double                 dt;    ///< g, the length of the implicit step [s]
     TimingTree                  &timing;
-    const Flow<dim>              flow;                  ///< v^n, which carries everything
+    const Flow<dim>              flow;                  ///< carries everything
     unsigned int                 linear_iterations = 0; ///< summed over implicit solves
 
     /// What effects leave for finish(). @{
     std::optional<Velocity<dim>> carried;             ///< v' [m/s], by convection
     std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
     /// @}
+
+  private:
+    void
+    start_from_rates();
+    void
+    move_pressure_and_acceleration();
+    Velocity<dim>
+    settled(const Velocity<dim> &velocity) const;
+
+    Velocity<dim> before; ///< where the way begins, if rates are kept [m/s]
   };
 } // namespace undine
 

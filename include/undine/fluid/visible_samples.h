@@ -14,7 +14,7 @@ namespace undine
 {
   /// Interpolation of a field near bodies, from samples that can be seen from the place: no surface
   /// lies between, and none has passed over the sample since it was taken. Of the parts of a
-  /// divided point the visible ones count, each at its centroid.
+  /// divided point the visible ones count, each at the point.
   template <int dim>
   class VisibleSamples
   {
@@ -31,6 +31,15 @@ namespace undine
     std::optional<double>
     at(const dealii::Point<dim> &place) const;
 
+    /// What a path from `foot` brings to `place`, the point `index` of the lattice or the centroid of
+    /// one of its parts, as far as it can be seen from the foot. The path is followed from the point
+    /// itself, where the samples count: what does not move is kept as it is, step after step, and
+    /// never smoothed.
+    std::optional<double>
+    along(const GridIndex<dim>     &index,
+          const dealii::Point<dim> &place,
+          const dealii::Point<dim> &foot) const;
+
   private:
     struct Sample
     {
@@ -44,11 +53,26 @@ namespace undine
     bool
     is_visible(const dealii::Point<dim> &sample, const dealii::Point<dim> &place) const;
 
+    /// Who looks.
+    struct Eye
+    {
+      dealii::Point<dim>    place;
+      const GridIndex<dim> *own; ///< sees only the nearest part of this point; nullptr: no such
+    };
+
+    /// Multilinear weights at `place` of what `eye` sees.
+    std::optional<double>
+    interpolated(const dealii::Point<dim> &place, const Eye &eye) const;
+
     /// Mean of what can be seen of one point of the lattice; `all_visible`: nothing can hide it.
     std::optional<double>
-    value_of(const GridIndex<dim>     &index,
-             const dealii::Point<dim> &place,
-             const bool                all_visible) const;
+    value_of(const GridIndex<dim> &index, const Eye &eye, const bool all_visible) const;
+
+    std::optional<double>
+    value_of_parts(const std::vector<Sample>    &samples,
+                   const dealii::Tensor<1, dim> &image,
+                   const Eye                    &eye,
+                   const bool                    only_nearest) const;
 
     const Field<dim>                          &field;
     const Obstruction<dim>                    &obstruction;

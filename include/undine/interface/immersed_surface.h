@@ -64,16 +64,22 @@ namespace undine
       return body_surface ? body_surface->n_nodes() : 0;
     }
 
-    /// Where the nodes are, given the bodies' displacement and the time for the obstacles [m].
+    /// Where the nodes are, given the bodies' displacement and the time for the obstacles [m];
+    /// bodies are taken on from there with their velocity for `ahead` [s].
     /// Throws SolveError as check() does; InputError if it is an obstacle, since no smaller step
     /// keeps it from going where its motion is prescribed to go. Collective.
     std::vector<dealii::Point<dim>>
-    positions(const SolidState &state, const double time) const;
+    positions(const SolidState &state, const double time, const double ahead = 0) const;
 
     /// How they move, bodies by their velocity, obstacles in a step of `dt` from `time` on [m/s].
     /// Throws as positions() does, also if obstacles cannot be at its end. Collective.
     std::vector<dealii::Tensor<1, dim>>
     velocities(const SolidState &state, const double time, const double dt) const;
+
+    /// The same with what obstacles do just at `time`, `dt` being a time in which that changes
+    /// little.
+    std::vector<dealii::Tensor<1, dim>>
+    velocities_at(const SolidState &state, const double time, const double dt) const;
 
     /// `values` in all nodes, but in those of bodies what a vector over their owned degrees of
     /// freedom says. Collective.

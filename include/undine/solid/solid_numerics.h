@@ -11,14 +11,15 @@
 
 namespace undine
 {
-  /// How the bodies' equations are discretised and solved: the section `Solid numerics`.
+  /// How the bodies' equations are discretised and solved: the section `Solid numerics`, and the
+  /// integrator of section `Time`.
   struct SolidNumerics
   {
-    /// Read the keys of the section.
-    explicit SolidNumerics(const Options &options);
+    /// Read the keys.
+    explicit SolidNumerics(const Options &scene);
 
-    unsigned int                    degree = 2; ///< of the finite elements: 1 or 2
     std::unique_ptr<TimeIntegrator> integrator;
+    unsigned int                    degree = 2; ///< of the finite elements: 1 or 2
     NewtonOptions                   newton;
     std::string                     linear_solver    = "auto"; ///< auto | direct | multigrid
     double                          linear_tolerance = 1e-10;  ///< of the first residual [1]

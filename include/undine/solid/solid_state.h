@@ -11,7 +11,7 @@ namespace undine
   {
     dealii::TrilinosWrappers::MPI::Vector displacement; ///< d [m]
     dealii::TrilinosWrappers::MPI::Vector velocity;     ///< u [m/s]
-    dealii::TrilinosWrappers::MPI::Vector acceleration; ///< a [m/s^2]; used by generalised-alpha
+    dealii::TrilinosWrappers::MPI::Vector acceleration; ///< a [m/s^2]; not used by all integrators
   };
 } // namespace undine
 

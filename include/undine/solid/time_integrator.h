@@ -2,8 +2,10 @@
 #ifndef undine_solid_time_integrator_h
 #define undine_solid_time_integrator_h
 
+#include <undine/base/core/stage.h>
 #include <undine/base/options/options.h>
 
+#include <memory>
 #include <vector>
 
 namespace undine
@@ -56,7 +58,11 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
-    /// The numbers of a step of `dt` [s].
+    /// The parts of a step of `dt` [s]; `knows_rates`: those at its begin are known.
+    virtual Stages
+    stages(double dt, bool knows_rates) const;
+
+    /// The numbers of a stage of length `dt` [s].
     virtual StepCoefficients
     coefficients(double dt) const = 0;
 
@@ -69,6 +75,10 @@ namespace undine
     virtual double
     acceleration_shift() const;
   };
+
+  /// The one that section `Time` of the scene chooses.
+  std::unique_ptr<TimeIntegrator>
+  choose_time_integrator(const Options &scene);
 } // namespace undine
 
 #endif

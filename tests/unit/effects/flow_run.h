@@ -66,7 +66,9 @@ namespace undine_tests
     void
     step(const double dt)
     {
-      FluidStep<dim> fluid(model, state, environment.gravity, time, dt, timing);
+      Velocity<dim>  unused;
+      FluidStep<dim> fluid(
+        model, state, unused, environment.gravity, time, single_stage(dt), timing);
       for (const auto &effect : effects)
         effect->transport(fluid);
       for (const auto &effect : effects)

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_base_core_stage_h
+#define undine_base_core_stage_h
+
+#include <vector>
+
+namespace undine
+{
+  /// A part of a time step of h [s] from t^n (T7). Everything y that changes with the rate f (the
+  /// displacement of bodies with their velocity, velocities with the acceleration by all forces)
+  /// starts from y^0 and takes one implicit Euler step of length g:
+  ///
+  ///     y = y^0 + g f,   f = (y - y^0) / g,
+  ///
+  /// where y^0 = y^n + w f^n in the first stage, and y^n + w' f^n + w'' f_1 in the second. What the
+  /// fluid carries goes along with the flow from the stage's begin to its end.
+  struct Stage
+  {
+    double begin  = 0; ///< from t^n [s]
+    double end    = 0; ///< from t^n [s]
+    double length = 0; ///< g [s]
+
+    double rate     = 0; ///< w of the first stage [s]
+    double next_old = 0; ///< w' of the stage that follows [s]
+    double next_new = 0; ///< w'' of the stage that follows [s]
+
+    bool is_first = true;
+    bool is_last  = true;
+
+    /// False: a step of one stage that starts from y^n; surfaces push where they are at its begin.
+    /// True: rates are kept from step to step, and surfaces push where they are at its end.
+    bool keeps_rates = false;
+
+    /// Where the implicit Euler step begins, from t^n [s].
+    double
+    start() const
+    {
+      return end - length;
+    }
+
+    /// The way of what the flow carries [s].
+    double
+    way() const
+    {
+      return end - begin;
+    }
+
+    /// From its start to where surfaces push [s].
+    double
+    ahead() const
+    {
+      return keeps_rates ? length : 0;
+    }
+  };
+
+  using Stages = std::vector<Stage>;
+
+  /// The whole step of `dt` [s].
+  inline Stage
+  single_stage(const double dt)
+  {
+    Stage stage;
+    stage.end    = dt;
+    stage.length = dt;
+    return stage;
+  }
+} // namespace undine
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_solid_stage_h
+#define undine_coupled_solid_stage_h
+
+#include <undine/base/core/stage.h>
+#include <undine/coupled/state.h>
+
+namespace undine
+{
+  /// The bodies of `state` become those from which the stage starts, and what its step needs of them
+  /// for the stage that follows is put aside. Nothing if the stage keeps no rates.
+  template <int dim>
+  void
+  start_stage(State<dim> &state, const Stage &stage);
+
+  /// The bodies of `state` are those at the end of the stage: add their rates to the start of the
+  /// one that follows.
+  template <int dim>
+  void
+  end_stage(State<dim> &state, const Stage &stage);
+} // namespace undine
+
+#endif
