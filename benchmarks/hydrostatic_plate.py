@@ -46,8 +46,8 @@ subsection Bodies
     end
   end
 end
-subsection Solid numerics
-  set Time integrator = static
+subsection Time
+  set Integrator = static
 end
 subsection Effects
   subsection gravity

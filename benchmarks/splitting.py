@@ -48,7 +48,7 @@ def stiff_sheets(density, modulus, damping, theta, newton, speed):
         f"Bodies/{sheet}/{corner} corner={x}, {y}" for sheet, at in (("first", 0.713), ("second", 1.213))
         for corner, x, y in (("Lower", at, -0.05), ("Upper", round(at + 0.02, 3), 0.6))] + [
             f"Probes/{sheet}_tip/Point={at}, 0.6" for sheet, at in (("first", 0.723), ("second", 1.223))
-        ] + [f"Effects/damping/Stiffness coefficient={damping}", f"Solid numerics/Theta={theta}",
+        ] + [f"Effects/damping/Stiffness coefficient={damping}", f"Time/Theta={theta}",
              f"Solid numerics/Newton iterations={newton}", "Effects/convection/Method=semi-Lagrangian"]
 
 
@@ -232,7 +232,7 @@ def search(program):
              "|---" * (4 + 2 * len(QUICK)) + "|"]
     for theta in THETAS:
         for density, modulus in SEARCH:
-            assignments = air_and_sheets(density, modulus) + [f"Solid numerics/Theta={theta}"]
+            assignments = air_and_sheets(density, modulus) + [f"Time/Theta={theta}"]
             runs = runs_of(program, 2.5, assignments, ["simultaneous"], STEPS[:1])
             reference = next(iter(runs.values()))
             if not reference.complaint:

@@ -14,13 +14,15 @@ namespace undine
                                           SurfaceFlux<dim>             &surface,
                                           const PressureEquations<dim> &fluid,
                                           BlockSolver<dim>             &solver,
-                                          TimingTree                   &timing)
+                                          TimingTree                   &timing,
+                                          const double                  flux_rounding)
     : model(model)
     , solid(solid)
     , surface(surface)
     , fluid(fluid)
     , solver(solver)
     , timing(timing)
+    , flux_rounding(flux_rounding)
   {
     residual = vector();
   }
@@ -51,10 +53,13 @@ namespace undine
     residual.block(1).add(1., pushed, 1., fluid.predicted_flux());
     fluid.closed_regions().balance(residual.block(1));
 
-    // What rounding leaves of the forces counts as converged.
+    // What rounding leaves counts as converged.
     const double tolerance = model.numerics().newton.relative_tolerance;
     measure({std::max({solid.scale(), pushing.l2_norm(), solid.rounding() / tolerance}),
-             std::max({by_pressure, pushed.l2_norm(), fluid.predicted_flux().l2_norm()})});
+             std::max({by_pressure,
+                       pushed.l2_norm(),
+                       fluid.predicted_flux().l2_norm(),
+                       flux_rounding / tolerance})});
     last_norm = std::hypot(relative(residual.block(0).l2_norm(), here.force),
                            relative(residual.block(1).l2_norm(), here.flux));
     return last_norm;

@@ -14,6 +14,18 @@ namespace undine
       surface->move(velocity);
       return surface;
     }
+
+
+    /// What is left of B u if places of the size of the domain are only known to rounding.
+    template <int dim>
+    double
+    flux_rounding(const MacGrid<dim> &grid, const SurfaceFlux<dim> &surface, const double dt)
+    {
+      double size = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        size = std::max({size, std::abs(grid.lower()[d]), std::abs(grid.upper()[d])});
+      return std::numeric_limits<double>::epsilon() * size / dt * surface.matrix().frobenius_norm();
+    }
   } // namespace
 
 
@@ -38,10 +50,17 @@ namespace undine
                 loads_at_rest())
     , numbers(parts.models.fluid->grid(), parts.geometry.bodies().open_parts)
     , surface(moved(make_surface_flux(
-                      boundary_flux, parts.models, parts.geometry, numbers, equations, fluid.dt),
+                      boundary_flux,
+                      parts.models,
+                      parts.geometry,
+                      numbers,
+                      equations,
+                      BodiesInStage<dim>(
+                        parts.models, state, fluid.stage, fluid.end - fluid.stage.end)),
                     equations.guess()))
     , pressures(*parts.models.fluid, numbers, filled_rows(surface->matrix()), fluid.dt)
-    , problem(*parts.models.solid, equations, *surface, pressures, parts.solver, parts.timing)
+    , problem(*parts.models.solid, equations, *surface, pressures, parts.solver, parts.timing,
+              flux_rounding(parts.models.fluid->grid(), *surface, fluid.dt))
     , x(problem.vector())
   {
     pressures.start(state.fluid.velocity,

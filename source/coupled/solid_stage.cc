@@ -5,14 +5,16 @@ namespace undine
 {
   namespace
   {
-    /// Displacement and velocity go on for `length` [s] with the rates of `of`.
+    /// The bodies go on for `length` [s] with the rates of `now`.
+    template <int dim>
     void
-    add_rates(SolidState &solid, const double length, const SolidState &of)
+    go_on(typename State<dim>::StageStart &start, const double length, const SolidState &now)
     {
       if (length == 0)
         return;
-      solid.displacement.add(length, of.velocity);
-      solid.velocity.add(length, of.acceleration);
+      start.solid.displacement.add(length, now.velocity);
+      start.solid.velocity.add(length, now.acceleration);
+      start.way.add(length, now.velocity);
     }
   } // namespace
 
@@ -23,13 +25,20 @@ namespace undine
   {
     if (!stage.keeps_rates)
       return;
-    const SolidState now = state.solid;
+    using Start = typename State<dim>::StageStart;
+    const auto  now = state.solid;
+    const Start still{now, dealii::TrilinosWrappers::MPI::Vector(now.velocity.locally_owned_elements(), now.velocity.get_mpi_communicator())};
+    Start       start = still;
     if (stage.is_first)
-      add_rates(state.solid, stage.rate, now);
+      go_on<dim>(start, stage.rate(), now);
     else
-      state.solid = state.next_solid;
-    state.next_solid = stage.is_last ? SolidState() : now;
-    add_rates(state.next_solid, stage.next_old, now);
+      start = state.next;
+    state.solid = start.solid;
+    state.way   = start.way;
+    if (stage.is_last)
+      return;
+    state.next = still;
+    go_on<dim>(state.next, stage.next_old.length, now);
   }
 
 
@@ -37,8 +46,12 @@ namespace undine
   void
   end_stage(State<dim> &state, const Stage &stage)
   {
-    if (stage.keeps_rates && !stage.is_last)
-      add_rates(state.next_solid, stage.next_new, state.solid);
+    if (!stage.keeps_rates)
+      return;
+    if (stage.is_last)
+      state.next = {};
+    else
+      go_on<dim>(state.next, stage.next_new.length, state.solid);
   }
 
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/chamber_volumes.h>
 #include <undine/coupled/surface_flux.h>
 #include <undine/interface/flux_matrix.h>
 
@@ -32,6 +33,62 @@ namespace undine
       {
         return 1;
       }
+    };
+
+
+    /// B u with B of the end of the stage, and chambers that keep their volumes.
+    template <int dim>
+    class FluxAtEnd : public SurfaceFlux<dim>
+    {
+    public:
+      using Vector = typename SurfaceFlux<dim>::Vector;
+
+      FluxAtEnd(const Models<dim>             &models,
+                const FluidGeometry<dim>      &geometry,
+                const PressureNumbers<dim>    &numbers,
+                const SolidEquations<dim>     &solid,
+                const BodiesInStage<dim>      &bodies)
+        : SurfaceFlux<dim>(models, geometry, numbers)
+        , solid(solid)
+        , way(bodies.way)
+        , chambers(*models.fluid,
+                   models.surface->surface(),
+                   geometry,
+                   numbers,
+                   bodies.stage,
+                   bodies.time,
+                   models.surface->n_body_nodes(),
+                   bodies.before)
+      {
+        this->use(geometry.boundary_flux());
+      }
+
+      void
+      move(const Vector &velocity) override
+      {
+        const auto &surface = *this->models.surface;
+        this->velocities    = surface.with_bodies(velocity, this->velocities);
+        if (chambers.empty())
+          return;
+        auto       whole_way = way;
+        const auto further   = surface.with_bodies(
+          solid.increment(velocity), typename FluidGeometry<dim>::Velocities(way.size()));
+        for (std::size_t node = 0; node < way.size(); ++node)
+          whole_way[node] += further[node];
+        this->further.clear();
+        this->further = chambers.missing_fluxes(this->fluxes(), whole_way);
+      }
+
+      double
+      factor() const override
+      {
+        return 1;
+      }
+
+    private:
+      const SolidEquations<dim>                    &solid;
+      const typename FluidGeometry<dim>::Velocities way; ///< to the start of the stage [m]
+      const ChamberVolumes<dim>                     chambers;
     };
 
 
@@ -109,7 +166,10 @@ namespace undine
   std::vector<double>
   SurfaceFlux<dim>::fluxes() const
   {
-    return geometry.cut_parts().of_open_parts(flux_operator->flux(velocities));
+    auto result = geometry.cut_parts().of_open_parts(flux_operator->flux(velocities));
+    for (std::size_t c = 0; c < further.size(); ++c)
+      result[c] += further[c];
+    return result;
   }
 
 
@@ -134,34 +194,58 @@ namespace undine
 
 
   template <int dim>
+  BodiesInStage<dim>::BodiesInStage(const Models<dim> &models,
+                                    const State<dim>  &state,
+                                    const Stage       &stage,
+                                    const double       time)
+    : stage(stage)
+    , time(time)
+  {
+    if (!stage.keeps_rates)
+      return;
+    const auto &surface  = *models.surface;
+    const auto  at_start = surface.positions(state.solid, time);
+    before               = at_start;
+    const auto arrived   = surface.positions(state.solid, time + stage.end);
+    way.resize(before.size());
+    for (std::size_t node = surface.n_body_nodes(); node < way.size(); ++node)
+      way[node] = arrived[node] - before[node];
+    way = surface.with_bodies(state.way, way);
+    for (std::size_t node = 0; node < surface.n_body_nodes(); ++node)
+      before[node] -= way[node];
+  }
+
+
+  template <int dim>
   std::unique_ptr<SurfaceFlux<dim>>
   make_surface_flux(const std::string          &kind,
                     const Models<dim>          &models,
                     const FluidGeometry<dim>   &geometry,
                     const PressureNumbers<dim> &numbers,
                     const SolidEquations<dim>  &solid,
-                    const double                dt)
+                    const BodiesInStage<dim>   &bodies)
   {
+    if (bodies.stage.keeps_rates)
+      return std::make_unique<FluxAtEnd<dim>>(models, geometry, numbers, solid, bodies);
     if (kind == "swept")
-      return std::make_unique<SweptFlux<dim>>(models, geometry, numbers, solid, dt);
+      return std::make_unique<SweptFlux<dim>>(
+        models, geometry, numbers, solid, bodies.stage.length);
     return std::make_unique<InitialFlux<dim>>(models, geometry, numbers);
   }
 
 
-  template class SurfaceFlux<2>;
-  template class SurfaceFlux<3>;
-  template std::unique_ptr<SurfaceFlux<2>>
-  make_surface_flux(const std::string &,
-                    const Models<2> &,
-                    const FluidGeometry<2> &,
-                    const PressureNumbers<2> &,
-                    const SolidEquations<2> &,
-                    const double);
-  template std::unique_ptr<SurfaceFlux<3>>
-  make_surface_flux(const std::string &,
-                    const Models<3> &,
-                    const FluidGeometry<3> &,
-                    const PressureNumbers<3> &,
-                    const SolidEquations<3> &,
-                    const double);
+#define UNDINE_INSTANTIATE(dim)                                          \
+  template class SurfaceFlux<dim>;                                       \
+  template struct BodiesInStage<dim>;                                    \
+  template std::unique_ptr<SurfaceFlux<dim>> make_surface_flux(          \
+    const std::string &,                                                 \
+    const Models<dim> &,                                                 \
+    const FluidGeometry<dim> &,                                          \
+    const PressureNumbers<dim> &,                                        \
+    const SolidEquations<dim> &,                                         \
+    const BodiesInStage<dim> &);
+
+  UNDINE_INSTANTIATE(2)
+  UNDINE_INSTANTIATE(3)
+#undef UNDINE_INSTANTIATE
 } // namespace undine

@@ -217,14 +217,31 @@ namespace undine
   /// region; only what is held counts.
   template <int dim>
   Field<dim>
-  ClosedRegions<dim>::held_fluxes(const Velocity<dim> &velocity, const double time) const
+  ClosedRegions<dim>::held_fluxes(const double time) const
   {
     Velocity<dim> held;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      held[axis] = Field<dim>(velocity[axis].shared_lattice(), velocity[axis].open_parts());
+      held[axis] = Field<dim>(model.grid().faces(axis), numbers.open_parts());
     set_boundary_velocity(held, model, time);
     exchange(held);
     return divergence(model, held);
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  ClosedRegions<dim>::held_outflow(const double time) const
+  {
+    return sums_of(held_fluxes(time), [](const double flux) { return flux; });
+  }
+
+
+  template <int dim>
+  std::vector<int>
+  ClosedRegions<dim>::of_components() const
+  {
+    const auto which = regions_of_pressures();
+    return {which.parts().begin(), which.parts().end()};
   }
 
 
@@ -246,7 +263,7 @@ namespace undine
                                        complaint));
         return pushed.fluxes;
       }
-    const auto fluxes      = held_fluxes(velocity, time);
+    const auto fluxes      = held_fluxes(time);
     const auto boundaries  = sums_of(fluxes, [](const double flux) { return flux; });
     const auto sizes       = sums_of(fluxes, [](const double flux) { return std::abs(flux); });
     const auto bodies      = sums_on_components(pushed.fluxes);

@@ -83,14 +83,14 @@ namespace undine
   {
     before = state.velocity;
     if (stage.is_first)
-      add(state.velocity, stage.rate, state.acceleration);
+      add(state.velocity, stage.rate(), state.acceleration);
     else
       state.velocity = next;
     next = Velocity<dim>();
     if (!stage.is_last)
       {
         next = before;
-        add(next, stage.next_old, state.acceleration);
+        add(next, stage.next_old.length, state.acceleration);
       }
   }
 
@@ -162,7 +162,7 @@ namespace undine
         state.acceleration = difference(state.velocity, *carried, stage.length);
         state.change       = difference(state.velocity, before, stage.way());
         if (!stage.is_last)
-          add(next, stage.next_new, state.acceleration);
+          add(next, stage.next_new.length, state.acceleration);
       }
     else if (carried)
       for (unsigned int axis = 0; axis < dim; ++axis)

@@ -47,7 +47,7 @@ namespace undine
     const IndexBox<dim> whole{{}, lattice.shape()};
     const auto         *divided = field.divided();
     const unsigned int  n_ranks = lattice.blocks().n_ranks();
-    using Named                 = std::array<double, dim + 2>; // position, place, value
+    using Named                 = std::array<double, dim + 3>; // position, place, value, measure
     std::map<unsigned int, std::vector<Named>> outgoing;
     for (unsigned int rank = 0; divided && rank < n_ranks; ++rank)
       {
@@ -73,6 +73,7 @@ namespace undine
               for (unsigned int d = 0; d < dim; ++d)
                 named[1 + d] = part.place[d];
               named[dim + 1] = field.parts()[k];
+              named[dim + 2] = part.measure;
               outgoing[rank].push_back(named);
             }
       }
@@ -84,7 +85,8 @@ namespace undine
           Sample sample;
           for (unsigned int d = 0; d < dim; ++d)
             sample.place[d] = named[1 + d];
-          sample.value = named[dim + 1];
+          sample.value   = named[dim + 1];
+          sample.measure = named[dim + 2];
           if (!obstruction.swept(sample.place))
             parts[static_cast<std::size_t>(named[0])].push_back(sample);
         }
@@ -142,18 +144,20 @@ namespace undine
                                       const Eye                    &eye,
                                       const bool                    only_nearest) const
   {
-    double sum = 0, n_visible = 0, nearest = std::numeric_limits<double>::infinity();
+    double sum = 0, total = 0, nearest = std::numeric_limits<double>::infinity();
     for (const auto &sample : samples)
       if (is_visible(sample.place + image, eye.place))
         {
           const double distance = (sample.place + image - eye.place).norm();
           if (only_nearest && distance >= nearest)
             continue;
-          nearest   = distance;
-          sum       = only_nearest ? sample.value : sum + sample.value;
-          n_visible = only_nearest ? 1 : n_visible + 1;
+          if (only_nearest)
+            sum = total = 0;
+          nearest = distance;
+          sum += sample.measure * sample.value;
+          total += sample.measure;
         }
-    return n_visible > 0 ? std::optional<double>(sum / n_visible) : std::nullopt;
+    return total > 0 ? std::optional<double>(sum / total) : std::nullopt;
   }
 
 
@@ -173,7 +177,7 @@ namespace undine
   {
     const auto point = field.lattice().point(index);
     // A trace of the way to the centroid says on which side of the point the fluid is.
-    return interpolated(point + (foot - place) + side_share * (place - point), {foot, &index});
+    return interpolated(point + (foot - place) + side_share * (place - point), {foot, place == point ? nullptr : &index});
   }
 
 

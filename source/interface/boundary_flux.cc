@@ -23,6 +23,19 @@ namespace undine
     }
 
 
+    /// The part of its facet that a fragment is, and stays wherever that moves [1].
+    template <int dim, class Fragment>
+    double
+    share_of_facet(const Fragment                        &fragment,
+                   const Surface<dim>                    &surface,
+                   const std::vector<dealii::Point<dim>> &place)
+    {
+      const auto   whole = area_vector(surface, fragment.facet, place);
+      const double size  = whole.norm_square();
+      return size > 0 ? fragment.area_vector * whole / size : 0.;
+    }
+
+
     template <int dim>
     std::vector<dealii::Tensor<1, dim>>
     summed_over_ranks(const std::vector<dealii::Tensor<1, dim>> &values,
@@ -64,10 +77,7 @@ namespace undine
     , n_nodes(surface.n_nodes())
   {
     for_each_wet_fragment(cut, [&](const auto &fragment) {
-      const auto   at_first = area_vector(surface, fragment.facet, before);
-      const double size     = at_first.norm_square();
-      // A part of a facet stays the same part of it.
-      const double share = size > 0 ? fragment.area_vector * at_first / size : 0.;
+      const double share = share_of_facet(fragment, surface, before);
       const auto   mean  = mean_area_vector(surface, fragment.facet, before, after);
       for (unsigned int k = 0; k < dim; ++k)
         all_entries.push_back({fragment.component,
@@ -118,6 +128,29 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>> result(n_nodes);
     for (const auto &entry : all_entries)
       result[entry.node] += pressures[entry.component] * entry.value;
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  swept_volumes(const CutCells<dim>                       &cut,
+                const Surface<dim>                        &surface,
+                const std::vector<dealii::Point<dim>>     &place,
+                const std::vector<dealii::Point<dim>>     &before,
+                const std::vector<dealii::Tensor<1, dim>> &way)
+  {
+    std::vector<double> result(cut.components.size(), 0.);
+    auto                after = before;
+    for (std::size_t node = 0; node < after.size(); ++node)
+      after[node] += way[node];
+    for_each_wet_fragment(cut, [&](const auto &fragment) {
+      dealii::Tensor<1, dim> mean_way;
+      for (unsigned int k = 0; k < dim; ++k)
+        mean_way += fragment.mean[k] * way[surface.facets()[fragment.facet][k]];
+      result[fragment.component] += share_of_facet(fragment, surface, place) * mean_way *
+                                    mean_area_vector(surface, fragment.facet, before, after);
+    });
     return result;
   }
 
@@ -218,6 +251,9 @@ namespace undine
                                       const CutParts<dim> &, const Surface<dim> &,                 \
                                       const std::vector<dealii::Tensor<1, dim>> &,                 \
                                       const StepAccuracy &);                                       \
+  template std::vector<double> swept_volumes(const CutCells<dim> &, const Surface<dim> &,          \
+    const std::vector<dealii::Point<dim>> &, const std::vector<dealii::Point<dim>> &,              \
+    const std::vector<dealii::Tensor<1, dim>> &);                                                  \
   template std::vector<double> wetted_areas(const CutCells<dim> &, const Surface<dim> &,           \
                                             const std::size_t);                                    \
   template std::vector<dealii::Tensor<1, dim>> nodal_forces(const BoundaryFlux<dim> &,             \

@@ -25,13 +25,15 @@ namespace undine
     using Unknown = BlockSystem::BlockVector;
     using Vector  = BlockSystem::Vector;
 
-    /// The references must outlive it.
+    /// The references must outlive it. `flux_rounding` [m^dim/s]: what rounding of the bodies' places
+    /// makes of B u.
     CoupledEquations(const SolidModel<dim>        &model,
                      SolidEquations<dim>          &solid,
                      SurfaceFlux<dim>             &surface,
                      const PressureEquations<dim> &fluid,
                      BlockSolver<dim>             &solver,
-                     TimingTree                   &timing);
+                     TimingTree                   &timing,
+                     double                        flux_rounding);
 
     /// Newton's method begins anew: forget sizes.
     void
@@ -63,6 +65,7 @@ namespace undine
     const PressureEquations<dim> &fluid;
     BlockSolver<dim>             &solver;
     TimingTree                   &timing;
+    const double                  flux_rounding;
     Unknown                       residual;
 
     /// Of the terms of both rows.

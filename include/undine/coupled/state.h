@@ -24,9 +24,17 @@ namespace undine
 
     particles::ParticleState<dim> particles;
 
-    /// Where the next stage of a step begins (Stage); only within a step. @{
-    SolidState    next_solid;
-    Velocity<dim> next_velocity;
+    /// What a stage of a step starts from (Stage).
+    struct StageStart
+    {
+      SolidState                            solid;
+      dealii::TrilinosWrappers::MPI::Vector way; ///< of the bodies since t^n [m]
+    };
+
+    /// Only within a step. @{
+    StageStart                            next;          ///< of the stage that follows
+    Velocity<dim>                         next_velocity; ///< the same for the fluid [m/s]
+    dealii::TrilinosWrappers::MPI::Vector way;           ///< of the bodies, t^n to this start [m]
     /// @}
 
     /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].

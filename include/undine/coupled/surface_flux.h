@@ -73,6 +73,7 @@ namespace undine
     const FluidGeometry<dim>   &geometry;
     const PressureNumbers<dim> &numbers;
     Velocities                  velocities; ///< of all nodes, as the fluid meets them [m/s]
+    std::vector<double>         further;    ///< added to B times these [m^dim/s]; empty: nothing
 
   private:
     const BoundaryFlux<dim> *flux_operator = nullptr;
@@ -80,9 +81,32 @@ namespace undine
   };
 
 
-  /// Those that there are: `initial`, B u with B at d^n, which the volume of a closed chamber obeys
-  /// to first order in h; `swept`, the mean of B on the way times (d^{n+1} - d^n) / h, which it
-  /// obeys exactly (BoundaryFlux). The references must outlive the result; `dt` [s].
+  /// Where the bodies are when a stage starts, and how they came there.
+  template <int dim>
+  struct BodiesInStage
+  {
+    /// Of a stage of the step that begins at `time` = t^n; the bodies in `state` are those at its
+    /// start. Collective.
+    BodiesInStage(const Models<dim> &models,
+                  const State<dim>  &state,
+                  const Stage       &stage,
+                  double             time);
+
+    const Stage  stage;
+    const double time; ///< t^n [s]
+
+    /// Of all nodes, if the stage keeps rates. @{
+    typename FluidGeometry<dim>::Positions  before; ///< where they were at t^n [m]
+    typename FluidGeometry<dim>::Velocities way; ///< of bodies to the start, of others to the end [m]
+    /// @}
+  };
+
+
+  /// Those that there are. For steps of one stage: `initial`, B u with B at d^n, which the volume of
+  /// a closed chamber obeys to first order in h; `swept`, the mean of B on the way times (d^{n+1} -
+  /// d^n) / h, which it obeys exactly (BoundaryFlux). For stages that keep rates, whatever `kind`: B
+  /// u at the end of the stage, where chambers obey exactly (ChamberVolumes). The references must
+  /// outlive the result.
   template <int dim>
   std::unique_ptr<SurfaceFlux<dim>>
   make_surface_flux(const std::string          &kind,
@@ -90,7 +114,7 @@ namespace undine
                     const FluidGeometry<dim>   &geometry,
                     const PressureNumbers<dim> &numbers,
                     const SolidEquations<dim>  &solid,
-                    const double                dt);
+                    const BodiesInStage<dim>   &bodies);
 } // namespace undine
 
 #endif

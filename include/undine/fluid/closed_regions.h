@@ -67,9 +67,28 @@ namespace undine
     void
     remove_means(Field<dim> &pressure) const;
 
+    /// How many there are.
+    std::size_t
+    size() const
+    {
+      return region_volumes.size();
+    }
+
+    /// What leaves each of them through walls and inflows at `time` [m^dim/s]. Collective.
+    std::vector<double>
+    held_outflow(const double time) const;
+
+    /// Sums over each of them of values in OpenParts::cells. Collective.
+    std::vector<double>
+    sums_on_components(const std::vector<double> &values) const;
+
+    /// The closed region of each of OpenParts::cells; negative: none.
+    std::vector<int>
+    of_components() const;
+
   private:
     Field<dim>
-    held_fluxes(const Velocity<dim> &velocity, const double time) const;
+    held_fluxes(const double time) const;
 
     static constexpr int open_region = -1;
 
@@ -87,10 +106,6 @@ namespace undine
     template <class Function>
     std::vector<double>
     sums_of(const Field<dim> &field, const Function &function) const;
-
-    /// The same of values in OpenParts::cells.
-    std::vector<double>
-    sums_on_components(const std::vector<double> &values) const;
 
     /// What flows out of a region through the surface of each body, and through boundaries, and
     /// where it lies. Collective.

@@ -45,6 +45,7 @@ namespace undine
     {
       dealii::Point<dim> place;
       double             value;
+      double             measure;
     };
 
     void
@@ -64,7 +65,7 @@ namespace undine
     std::optional<double>
     interpolated(const dealii::Point<dim> &place, const Eye &eye) const;
 
-    /// Mean of what can be seen of one point of the lattice; `all_visible`: nothing can hide it.
+    /// Mean, by measure, of what can be seen of one point of the lattice; `all_visible`: nothing can hide it.
     std::optional<double>
     value_of(const GridIndex<dim> &index, const Eye &eye, const bool all_visible) const;
 

@@ -72,6 +72,17 @@ namespace undine
   };
 
 
+  /// The volume that the surface, cut where its nodes are at `place`, sweeps out of each component
+  /// while they go straight on along `way` from where they were at `before`, each fragment with its
+  /// facet, exactly [m^dim], [CutCells::components].
+  template <int dim>
+  std::vector<double>
+  swept_volumes(const CutCells<dim>                       &cut,
+                const Surface<dim>                        &surface,
+                const std::vector<dealii::Point<dim>>     &place,
+                const std::vector<dealii::Point<dim>>     &before,
+                const std::vector<dealii::Tensor<1, dim>> &way);
+
   /// What limits the accuracy of velocities in the nodes of a surface.
   struct StepAccuracy
   {

@@ -34,9 +34,10 @@ namespace undine
       Stage        first, second;
       first.length   = second.length = g;
       first.end      = second.begin = knows_rates ? 2 * g : g;
-      first.rate     = knows_rates ? g : 0;
-      first.next_old = knows_rates ? w : 0;
-      first.next_new = knows_rates ? w : dt - g;
+      first.earlier  = {{0, knows_rates ? g : 0}};
+      first.next_old = {0, knows_rates ? w : 0};
+      first.next_new = {first.end, knows_rates ? w : dt - g};
+      second.earlier = {first.next_old, first.next_new};
       second.end     = dt;
 
       first.is_last      = false;

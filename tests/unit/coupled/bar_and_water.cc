@@ -50,7 +50,7 @@ namespace
                                       plane_or_space<dim>(";0", ";0;0")),
                         clamp("wall", "1", "set Sides = left") + slides("y") +
                           plane_or_space<dim>("", slides("z")))) +
-           section("Solid numerics", integrator);
+           section("Solid numerics", "set Element degree = 1") + section("Time", integrator);
   }
 
 
@@ -96,7 +96,7 @@ namespace
   {
     const double      exact = exact_frequency(density);
     const std::string trapezoid =
-      "set Time integrator = newmark\nset Gamma = 0.5\nset Element degree = 1";
+      "set Integrator = newmark\nset Gamma = 0.5";
     const double fine_steps = 2 * M_PI / exact / 80, coarse_steps = 2 * fine_steps;
     const double coarse = measured_frequency<dim>(density, coarse_steps, trapezoid) / exact - 1;
     const double fine   = measured_frequency<dim>(density, fine_steps, trapezoid) / exact - 1;

@@ -30,7 +30,7 @@ namespace
                    convection() +
                      section("gravity", fmt::format("set Acceleration = 0, -{}", gravity))) +
            section("Coupling", "set Boundary flux = swept") +
-           section("Solid numerics", "set Time integrator = " + integrator);
+           section("Time", "set Integrator = " + integrator);
   }
 
 

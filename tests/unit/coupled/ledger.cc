@@ -108,7 +108,7 @@ TEST_CASE("Energy and momentum are accounted for with every integrator", "[coupl
     if (name != "static")
       {
         INFO(name);
-        check_closures<2>("", section("Solid numerics", "set Time integrator = " + name));
+        check_closures<2>("", section("Time", "set Integrator = " + name));
       }
 }
 

@@ -117,7 +117,8 @@ TEST_CASE("Newton's method converges quadratically on bodies", "[solid]")
                                 "set Material = " +
                                 material,
                               boundary("root", "set Sides = left"),
-                              "set Time integrator = static"),
+                              "",
+"set Integrator = static"),
                      gravity);
       const auto residuals = solid.advance(1).newton.residuals;
       CHECK(residuals.size() <= 9);

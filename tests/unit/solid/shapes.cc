@@ -211,7 +211,7 @@ TEST_CASE("supports that make no sense are refused", "[solid]")
 {
   const auto supports = [](const std::string &parts, const std::string &integrator = "theta") {
     return refusal(
-      one_body("set Cells = 2, 2" + elastic, parts, "set Time integrator = " + integrator));
+      one_body("set Cells = 2, 2" + elastic, parts, "", "set Integrator = " + integrator));
   };
   const auto all = boundary("a", "");
   CHECK_THAT(supports(all + boundary("b", "set Sides = left")),
@@ -227,7 +227,8 @@ TEST_CASE("supports that make no sense are refused", "[solid]")
                Catch::Contains("0 m") && Catch::Contains("body 'body'"));
   SolidModel<2>(read_scene_text(one_body("set Cells = 2, 2" + elastic,
                                          moved("0; 0.1*cos(t)"),
-                                         "set Time integrator = static")),
+                                         "",
+"set Integrator = static")),
                 MPI_COMM_WORLD);
   SolidModel<2>(
     read_scene_text(one_body("set Cells = 2, 2\n set Initial displacement = 0; 0.1" + elastic,

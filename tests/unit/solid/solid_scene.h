@@ -32,14 +32,17 @@ namespace undine_tests
   }
 
 
-  /// A scene with one body 'body', whose section holds `body`, and boundaries `boundaries`.
+  /// A scene with one body 'body', whose section holds `body`, and boundaries `boundaries`; the
+  /// others are sections 'Solid numerics' and 'Time'.
   inline std::string
   one_body(const std::string &body,
            const std::string &boundaries = "",
-           const std::string &numerics   = "")
+           const std::string &numerics   = "",
+           const std::string &time       = "")
   {
     return "subsection Bodies\n subsection body\n" + body + "\n subsection Boundaries\n" +
-           boundaries + "\n end\n end\nend\nsubsection Solid numerics\n" + numerics + "\nend\n";
+           boundaries + "\n end\n end\nend\nsubsection Solid numerics\n" + numerics +
+           "\nend\nsubsection Time\n" + time + "\nend\n";
   }
 
 

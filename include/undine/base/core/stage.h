@@ -20,9 +20,16 @@ namespace undine
     double end    = 0; ///< from t^n [s]
     double length = 0; ///< g [s]
 
-    double rate     = 0; ///< w of the first stage [s]
-    double next_old = 0; ///< w' of the stage that follows [s]
-    double next_new = 0; ///< w'' of the stage that follows [s]
+    /// For how long the rate of an earlier time counts.
+    struct Earlier
+    {
+      double at     = 0; ///< from t^n [s]
+      double length = 0; ///< w, w' or w'' [s]
+    };
+
+    std::vector<Earlier> earlier; ///< of which y^0 is made, t^n first
+    Earlier              next_old; ///< the share of t^n in the stage that follows
+    Earlier              next_new; ///< the share of this stage in it
 
     bool is_first = true;
     bool is_last  = true;
@@ -36,6 +43,13 @@ namespace undine
     start() const
     {
       return end - length;
+    }
+
+    /// The share of t^n in y^0 [s].
+    double
+    rate() const
+    {
+      return earlier.empty() ? 0 : earlier.front().length;
     }
 
     /// The way of what the flow carries [s].

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_chamber_volumes_h
+#define undine_coupled_chamber_volumes_h
+
+#include <undine/base/core/stage.h>
+#include <undine/coupled/fluid_geometry.h>
+#include <undine/fluid/closed_regions.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// The volumes of the chambers that bodies close off: regions of fluid without an opening that a
+  /// body touches. B u at the end of a stage is what the surfaces push out per time, so that volumes
+  /// drift, in second order of h. They are kept to rounding if the chamber c pushes besides
+  ///
+  ///     ( S_c + sum_j w_j q_c(t_j) ) / g - (B u)_c    [m^dim/s],                             (C3)
+  ///
+  /// spread over the bodies' surface there. S: swept from t^n to the end of the stage, by the
+  /// displacement; q: what leaves through sides with a given velocity, at the earlier times t_j of
+  /// which the stage is made, which count for w_j; g: length of the stage.
+  template <int dim>
+  class ChamberVolumes
+  {
+  public:
+    using Positions = typename FluidGeometry<dim>::Positions;
+    using Vectors   = typename FluidGeometry<dim>::Velocities;
+
+    /// For a stage of the step from `time` = t^n, at which the nodes of all surfaces were at
+    /// `before`. The references must outlive it. Collective.
+    ChamberVolumes(const FluidModel<dim>      &model,
+                   const Surface<dim>         &surface,
+                   const FluidGeometry<dim>   &geometry,
+                   const PressureNumbers<dim> &numbers,
+                   const Stage                &stage,
+                   double                      time,
+                   std::size_t                 n_body_nodes,
+                   Positions                   before);
+
+    /// Are there chambers?
+    bool
+    empty() const
+    {
+      return chambers.size() == 0;
+    }
+
+    /// (C3) for surfaces that have come along `way` [m] since t^n, given `fluxes` B u of all
+    /// components [OpenParts::cells]. Collective.
+    std::vector<double>
+    missing_fluxes(const std::vector<double> &fluxes, const Vectors &way) const;
+
+  private:
+    const Surface<dim>       &surface;
+    const FluidGeometry<dim> &geometry;
+    const ClosedRegions<dim>  chambers;
+    const double              length; ///< g [s]
+    const Positions           before;
+    std::vector<double>       areas;        ///< of bodies, around each component [m^(dim-1)]
+    std::vector<double>       region_areas; ///< of each chamber
+    std::vector<double>       earlier;      ///< sum_j w_j q(t_j) of each chamber [m^dim]
+  };
+} // namespace undine
+
+#endif
