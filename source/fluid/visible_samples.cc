@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/visible_samples.h>
+#include <undine/fluid/visible_stencil.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -165,7 +166,7 @@ namespace undine
   std::optional<double>
   VisibleSamples<dim>::at(const dealii::Point<dim> &place) const
   {
-    return interpolated(place, {place, nullptr});
+    return multilinear(place, {place, nullptr});
   }
 
 
@@ -175,15 +176,37 @@ namespace undine
                              const dealii::Point<dim> &place,
                              const dealii::Point<dim> &foot) const
   {
-    const auto point = field.lattice().point(index);
+    const auto &lattice = field.lattice();
+    const auto  point   = lattice.point(index);
+    const Eye   eye{foot, place == point ? nullptr : &index};
+    if (foot == place)
+      if (const auto own = value_of(index, eye, false))
+        return own;
     // A trace of the way to the centroid says on which side of the point the fluid is.
-    return interpolated(point + (foot - place) + side_share * (place - point), {foot, place == point ? nullptr : &index});
+    VisibleStencil<dim> stencil(lattice, point + (foot - place) + side_share * (place - point));
+    const bool all_visible = is_visible_box(stencil.lower(), stencil.upper(), foot);
+    stencil.look([&](const GridIndex<dim> &sample) { return value_of(sample, eye, all_visible); });
+    return stencil.value();
+  }
+
+
+  template <int dim>
+  bool
+  VisibleSamples<dim>::is_visible_box(const GridIndex<dim>     &lower,
+                                      const GridIndex<dim>     &upper,
+                                      const dealii::Point<dim> &eye) const
+  {
+    const auto below = field.lattice().point(lower), above = field.lattice().point(upper);
+    bool       result = vicinity.is_clear(below, above);
+    for (unsigned int d = 0; d < dim; ++d)
+      result = result && eye[d] >= below[d] && eye[d] <= above[d];
+    return result;
   }
 
 
   template <int dim>
   std::optional<double>
-  VisibleSamples<dim>::interpolated(const dealii::Point<dim> &place, const Eye &eye) const
+  VisibleSamples<dim>::multilinear(const dealii::Point<dim> &place, const Eye &eye) const
   {
     GridIndex<dim>          lower;
     std::array<double, dim> weights;
@@ -196,11 +219,8 @@ namespace undine
     auto upper = lower;
     for (unsigned int d = 0; d < dim; ++d)
       ++upper[d];
-    const auto below = field.lattice().point(lower), above = field.lattice().point(upper);
-    bool       all_visible = vicinity.is_clear(below, above);
-    for (unsigned int d = 0; d < dim; ++d)
-      all_visible = all_visible && eye.place[d] >= below[d] && eye.place[d] <= above[d];
-    double sum = 0, total = 0, raised_sum = 0, raised_total = 0;
+    const bool all_visible = is_visible_box(lower, upper, eye.place);
+    double     sum = 0, total = 0, raised_sum = 0, raised_total = 0;
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {
         auto   index  = lower;

@@ -34,7 +34,7 @@ namespace undine
     /// What a path from `foot` brings to `place`, the point `index` of the lattice or the centroid of
     /// one of its parts, as far as it can be seen from the foot. The path is followed from the point
     /// itself, where the samples count: what does not move is kept as it is, step after step, and
-    /// never smoothed.
+    /// never smoothed. Cubic, see VisibleStencil.
     std::optional<double>
     along(const GridIndex<dim>     &index,
           const dealii::Point<dim> &place,
@@ -54,6 +54,12 @@ namespace undine
     bool
     is_visible(const dealii::Point<dim> &sample, const dealii::Point<dim> &place) const;
 
+    /// Can nothing hide the points in a box of the lattice from an eye in it?
+    bool
+    is_visible_box(const GridIndex<dim>     &lower,
+                   const GridIndex<dim>     &upper,
+                   const dealii::Point<dim> &eye) const;
+
     /// Who looks.
     struct Eye
     {
@@ -63,7 +69,7 @@ namespace undine
 
     /// Multilinear weights at `place` of what `eye` sees.
     std::optional<double>
-    interpolated(const dealii::Point<dim> &place, const Eye &eye) const;
+    multilinear(const dealii::Point<dim> &place, const Eye &eye) const;
 
     /// Mean, by measure, of what can be seen of one point of the lattice; `all_visible`: nothing can hide it.
     std::optional<double>
