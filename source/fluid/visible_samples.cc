@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/interpolation.h>
 #include <undine/fluid/visible_samples.h>
-#include <undine/fluid/visible_stencil.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -183,10 +183,28 @@ namespace undine
       if (const auto own = value_of(index, eye, false))
         return own;
     // A trace of the way to the centroid says on which side of the point the fluid is.
-    VisibleStencil<dim> stencil(lattice, point + (foot - place) + side_share * (place - point));
-    const bool all_visible = is_visible_box(stencil.lower(), stencil.upper(), foot);
-    stencil.look([&](const GridIndex<dim> &sample) { return value_of(sample, eye, all_visible); });
-    return stencil.value();
+    const dealii::Point<dim> start = point + (foot - place) + side_share * (place - point);
+    if (!is_clear_for_cubics(start, foot))
+      return multilinear(start, eye);
+    const auto found     = interpolate_cubic(field, start);
+    const bool is_scalar = lattice.normal_axis() >= dim;
+    return is_scalar ? std::clamp(found.value, found.smallest, found.largest) : found.value;
+  }
+
+
+  template <int dim>
+  bool
+  VisibleSamples<dim>::is_clear_for_cubics(const dealii::Point<dim> &place,
+                                           const dealii::Point<dim> &eye) const
+  {
+    GridIndex<dim> lower, upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const auto stencil = field.lattice().row(d).stencil(place[d]);
+        lower[d]           = stencil.first;
+        upper[d]           = stencil.first + static_cast<int>(stencil.n_points) - 1;
+      }
+    return is_visible_box(lower, upper, eye);
   }
 
 

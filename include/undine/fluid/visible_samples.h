@@ -34,7 +34,7 @@ namespace undine
     /// What a path from `foot` brings to `place`, the point `index` of the lattice or the centroid of
     /// one of its parts, as far as it can be seen from the foot. The path is followed from the point
     /// itself, where the samples count: what does not move is kept as it is, step after step, and
-    /// never smoothed. Cubic, see VisibleStencil.
+    /// never smoothed. By cubics where nothing is in their way.
     std::optional<double>
     along(const GridIndex<dim>     &index,
           const dealii::Point<dim> &place,
@@ -59,6 +59,10 @@ namespace undine
     is_visible_box(const GridIndex<dim>     &lower,
                    const GridIndex<dim>     &upper,
                    const dealii::Point<dim> &eye) const;
+
+    /// The same for the points that a cubic at `place` takes.
+    bool
+    is_clear_for_cubics(const dealii::Point<dim> &place, const dealii::Point<dim> &eye) const;
 
     /// Who looks.
     struct Eye
