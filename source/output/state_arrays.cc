@@ -161,17 +161,33 @@ namespace undine
     }
 
 
-    /// Call `action(name, vector)` for the nodal vectors that are in use.
-    template <class Solid, class Action>
+    /// Call `action(name, sample)` for what the choice of steps remembers.
+    template <class History, class Action>
     void
-    for_each_vector(Solid &solid, const Action &action)
+    for_each_sample(History &history, const Action &action)
     {
+      for (std::size_t i = 0; i < history.samples.size(); ++i)
+        action("history/" + std::to_string(i), history.samples[i]);
+      if (history.in_use())
+        action("history/before", history.before);
+    }
+
+
+    /// Call `action(name, vector)` for the nodal vectors that are in use.
+    template <class State, class Action>
+    void
+    for_each_vector(State &state, const Action &action)
+    {
+      auto &solid = state.solid;
       if (solid.displacement.size() > 0)
         action("solid/displacement", solid.displacement);
       if (solid.velocity.size() > 0)
         action("solid/velocity", solid.velocity);
       if (solid.acceleration.size() > 0)
         action("solid/acceleration", solid.acceleration);
+      for_each_sample(state.history, [&](const std::string &name, auto &sample) {
+        action(name + "/bodies", sample.bodies);
+      });
     }
 
 
@@ -187,6 +203,63 @@ namespace undine
       action("fluid/pressure", fluid.pressure);
       for (auto &scalar : fluid.scalars)
         action("fluid/scalars/" + scalar.first, scalar.second);
+    }
+
+
+    template <int dim, class History, class Action>
+    void
+    for_each_field_of_samples(History &history, const Action &action)
+    {
+      const auto all_axes = [&](const std::string &name, auto &velocity) {
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          action(name + '_' + char('x' + axis), velocity[axis]);
+      };
+      for_each_sample(history, [&](const std::string &name, auto &sample) {
+        all_axes(name + "/fluid", sample.fluid);
+      });
+      if (history.in_use())
+        all_axes("history/uncut", history.uncut);
+    }
+
+
+    /// Call `action(number)` for all numbers of a history.
+    template <class History, class Action>
+    void
+    for_each_number(History &history, const Action &action)
+    {
+      for (auto *number : {&history.largest,
+                           &history.derivative,
+                           &history.error,
+                           &history.best_step,
+                           &history.next_step,
+                           &history.step})
+        action(*number);
+      for_each_sample(history, [&](const std::string &, auto &sample) { action(sample.time); });
+    }
+
+
+    /// The first rank's go to the file.
+    template <int dim>
+    StateArray
+    pack_numbers(const StepHistory<dim> &history, const MPI_Comm communicator)
+    {
+      std::vector<double> numbers{double(history.n_samples)};
+      for_each_number(history, [&](const double number) { numbers.push_back(number); });
+      const hsize_t size = numbers.size();
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        return {"history/numbers", {{size}, {0}, {size}}, numbers};
+      return {"history/numbers", {{size}, {0}, {0}}, {}};
+    }
+
+
+    template <int dim>
+    void
+    unpack_numbers(StepHistory<dim> &history, const StateArray &array, const MPI_Comm communicator)
+    {
+      const auto values = dealii::Utilities::MPI::broadcast(communicator, array.values);
+      auto       value  = values.begin();
+      history.n_samples = *value++;
+      for_each_number(history, [&](double &number) { number = *value++; });
     }
 
 
@@ -256,23 +329,28 @@ namespace undine
     if (models.particles)
       return pack_particles(state.particles, models.particles->setup().spacing);
     std::vector<StateArray> arrays;
+    if (state.history.in_use())
+      arrays.push_back(pack_numbers(state.history, models.communicator()));
     if (models.solid)
       {
         auto canonical = canonical_nodes(*models.solid);
-        for_each_vector(state.solid, [&](const std::string &name, const NodalVector &vector) {
+        for_each_vector(state, [&](const std::string &name, const NodalVector &vector) {
           std::vector<double> values;
           for (const Index dof : models.solid->locally_owned())
             values.push_back(vector(dof));
           arrays.push_back(canonical.pack(name, values));
         });
       }
+    if (!models.fluid)
+      return arrays;
     CanonicalParts<dim> parts;
-    if (models.fluid)
-      for_each_field<dim>(state.fluid, [&](const std::string &name, const Field<dim> &field) {
-        arrays.push_back({name, selection_of<dim>(field), field.owned_values()});
-        if (field.divided() && !parts.of(field).empty())
-          arrays.push_back(parts.of(field).pack("parts/" + name, owned_parts(field)));
-      });
+    const auto          add = [&](const std::string &name, const Field<dim> &field) {
+      arrays.push_back({name, selection_of<dim>(field), field.owned_values()});
+      if (field.divided() && !parts.of(field).empty())
+        arrays.push_back(parts.of(field).pack("parts/" + name, owned_parts(field)));
+    };
+    for_each_field<dim>(state.fluid, add);
+    for_each_field_of_samples<dim>(state.history, add);
     return arrays;
   }
 
@@ -284,10 +362,12 @@ namespace undine
     if (models.particles)
       return unpack_particles(state.particles, arrays);
     auto array = arrays.begin();
+    if (state.history.in_use())
+      unpack_numbers(state.history, *array++, models.communicator());
     if (models.solid)
       {
         auto canonical = canonical_nodes(*models.solid);
-        for_each_vector(state.solid, [&](const std::string &, NodalVector &vector) {
+        for_each_vector(state, [&](const std::string &, NodalVector &vector) {
           const auto values = canonical.unpack(*array++);
           auto       value  = values.begin();
           for (const Index dof : models.solid->locally_owned())
@@ -295,14 +375,17 @@ namespace undine
           vector.compress(dealii::VectorOperation::insert);
         });
       }
+    if (!models.fluid)
+      return;
     CanonicalParts<dim> parts;
-    if (models.fluid)
-      for_each_field<dim>(state.fluid, [&](const std::string &, Field<dim> &field) {
-        field.set_owned_values((array++)->values);
-        if (field.divided() && !parts.of(field).empty())
-          set_owned_parts(field, parts.of(field).unpack(*array++));
-        field.exchange();
-      });
+    const auto          fill = [&](const std::string &, Field<dim> &field) {
+      field.set_owned_values((array++)->values);
+      if (field.divided() && !parts.of(field).empty())
+        set_owned_parts(field, parts.of(field).unpack(*array++));
+      field.exchange();
+    };
+    for_each_field<dim>(state.fluid, fill);
+    for_each_field_of_samples<dim>(state.history, fill);
   }
 
 
