@@ -12,7 +12,10 @@ namespace undine
     constexpr unsigned int n_samples = 4; // as many as the third derivative of a velocity takes
 
     // Share of the bodies' extent that they are taken to move at least.
-    constexpr double least_share = 0.02;
+    constexpr double least_share = 1e-3;
+
+    // Of the tolerance, for displacements that grow.
+    constexpr double growing_share = 0.25;
 
     // Share of the tolerance that one step may use up.
     constexpr double step_share = 0.25;
@@ -44,9 +47,9 @@ namespace undine
     , norms(models)
     , settings(settings)
     , accuracy(accuracy_of(models))
-    , least_size(!models.solid              ? 0 :
-                 settings.displacement > 0 ? settings.displacement :
-                                              least_share * norms.extent_of_bodies())
+    , least_size(!models.solid               ? 0
+                 : settings.displacement > 0 ? settings.displacement
+                                             : least_share * norms.extent_of_bodies())
   {
   }
 
@@ -55,8 +58,8 @@ namespace undine
   double
   StepError<dim>::size(const State<dim> &state) const
   {
-    return models.solid ? norms.of_bodies(state.solid.displacement) :
-                          norms.of_fluid(state.fluid.velocity);
+    return models.solid ? norms.of_bodies(state.solid.displacement)
+                        : norms.of_fluid(state.fluid.velocity);
   }
 
 
@@ -69,7 +72,7 @@ namespace undine
     history.samples.assign(n_samples, norms.sample(state, state.clock.time));
     history.before  = history.samples.front();
     history.uncut   = norms.zero_velocity();
-    history.largest = std::max(least_size, size(state));
+    history.largest = size(state);
     history.step    = settings.shortest_step;
     take_sample(state, state.clock.time);
   }
@@ -97,13 +100,35 @@ namespace undine
     const auto  order   = accuracy.order;
     if (!models.solid || state.clock.step + 1 < order)
       return false;
-    const auto now = norms.sample(state, state.clock.time + dt);
-    const auto old = norms.sample(old_state, state.clock.time);
+    const auto                                    now = norms.sample(state, state.clock.time + dt);
+    const auto                                    old = norms.sample(old_state, state.clock.time);
     std::vector<const typename History::Sample *> samples{&now, &old};
     if (order > 1)
       samples.push_back(&history.before);
     const double error = error_of_step(accuracy, dt, norms.bodies_derivative(samples));
-    return error > step_share * settings.tolerance * std::max(history.largest, size(state));
+    return error > step_share * settings.tolerance * std::max(scale(history), size(state));
+  }
+
+
+  template <int dim>
+  double
+  StepError<dim>::scale(const History &history) const
+  {
+    return std::max(history.largest, least_size);
+  }
+
+
+  template <int dim>
+  double
+  StepError<dim>::allowed_rate(const State<dim> &state, const double time) const
+  {
+    const auto  &history = state.history;
+    const double run     = std::max(state.clock.end_time, time);
+    const double even    = settings.tolerance * scale(history) / run;
+    const bool   grows   = models.solid && size(state) >= history.largest;
+    return even + (grows
+                     ? growing_share * settings.tolerance * norms.of_bodies(state.solid.velocity)
+                     : 0.);
   }
 
 
@@ -121,19 +146,29 @@ namespace undine
     history.error += error_of_step(accuracy, dt, history.derivative);
     history.before = norms.sample(old_state, state.clock.time);
 
-    const double wanted = std::pow(4 * accuracy.constant * std::pow(dt, accuracy.order) * run,
-                                   1. / (accuracy.order + 1)); // (T8)
-    if (history.n_samples < n_samples || time - history.samples.front().time > wanted - dt / 2)
+    if (history.n_samples < n_samples ||
+        time - history.samples.front().time > interval(history, dt, run) - dt / 2)
       {
         take_sample(state, time);
         if (history.n_samples == n_samples)
-          estimate(history, run);
+          estimate(history, allowed_rate(state, time));
       }
     if (was_cut)
       history.step = dt;
     else if (history.best_step > 0)
       history.step = std::min(2 * history.step, history.next_step);
     history.step = std::min(settings.longest_step, std::max(settings.shortest_step, history.step));
+  }
+
+
+  template <int dim>
+  double
+  StepError<dim>::interval(const History &history, const double dt, const double run) const
+  {
+    const unsigned int p = accuracy.order;
+    const double wanted  = std::pow(4 * accuracy.constant * std::pow(dt, p) * run, 1. / (p + 1));
+    // In the beginning intervals grow with the time that is known.
+    return std::min(wanted, (history.samples.front().time - history.samples.back().time) / 2);
   }
 
 
@@ -152,31 +187,36 @@ namespace undine
 
   template <int dim>
   void
-  StepError<dim>::estimate(History &history, const double run) const
+  StepError<dim>::estimate(History &history, const double allowed) const
   {
     const auto   p      = accuracy.order;
     const double middle = derivative(history, p + 1);
-    history.derivative  = models.solid ?
-                            std::hypot(middle,
-                                      std::sqrt(derivative(history, p) * derivative(history, p + 2))) :
-                            middle;
-    const double rate   = accuracy.constant * history.derivative * run;
-    const double allowed = settings.tolerance * history.largest;
-    const double best    = rate * std::pow(settings.longest_step, p) > allowed ?
-                             std::pow(allowed / rate, 1. / p) :
-                             settings.longest_step;
+    history.derivative =
+      models.solid
+        ? std::hypot(middle, std::sqrt(derivative(history, p) * derivative(history, p + 2)))
+        : middle;
+    const double rate = accuracy.constant * history.derivative;
+    const double best = rate * std::pow(settings.longest_step, p) > allowed
+                          ? std::pow(allowed / rate, 1. / p)
+                          : settings.longest_step;
     history.next_step = history.best_step > 0 ? std::sqrt(best * history.best_step) : best;
     history.best_step = best;
   }
 
 
   template <int dim>
-  Columns
-  StepError<dim>::columns(const State<dim> &state, const Report &report) const
+  double
+  StepError<dim>::error(const History &history) const
   {
-    const auto &history = state.history;
-    return {{"Error in time", "1", history.largest > 0 ? history.error / history.largest : 0},
-            {"Rejected steps", "1", double(report.rejections)}};
+    return scale(history) > 0 ? history.error / scale(history) : 0;
+  }
+
+
+  template <int dim>
+  bool
+  StepError<dim>::is_missed(const History &history) const
+  {
+    return history.next_step < settings.shortest_step && error(history) > settings.tolerance;
   }
 
 

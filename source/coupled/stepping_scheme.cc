@@ -13,14 +13,19 @@ namespace undine
   SteppingScheme<dim>::add_options(const Options &options)
   {
     const auto time = options.section("Time");
-    time.require("Step", asked_step, "s", Allowed::positive(), "Length of a time step; with a Tolerance that of the longest.");
-    time.add("Tolerance",
-             tolerance,
-             "1",
-             Allowed::below(0, 1),
-             "Steps are chosen so that their errors in time add up to this by the end of the run, "
-             "relative to the largest displacement of the bodies so far, or to the largest velocity "
-             "of a fluid without bodies (root mean squares). 0: all steps are of length Step.");
+    time.require("Step",
+                 asked_step,
+                 "s",
+                 Allowed::positive(),
+                 "Length of a time step; with a Tolerance that of the longest.");
+    time.add(
+      "Tolerance",
+      tolerance,
+      "1",
+      Allowed::below(0, 1),
+      "Steps are chosen so that their errors in time add up to this by the end of the run, "
+      "relative to the largest displacement of the bodies so far, or to the largest velocity "
+      "of a fluid without bodies (root mean squares). 0: all steps are of length Step.");
     time.add("Least displacement",
              displacement,
              "m",
@@ -57,13 +62,14 @@ namespace undine
     Report report;
     if (tolerance > 0)
       step_error = std::make_unique<const StepError<dim>>(
-        models, typename StepError<dim>::Settings{tolerance, displacement, asked_step, shortest_step()});
+        models,
+        typename StepError<dim>::Settings{tolerance, displacement, asked_step, shortest_step()});
     physics->initialize(state, choose_dt(state), report);
     append(report.columns, ledger->columns());
     if (step_error)
       {
         step_error->start(state);
-        append(report.columns, step_error->columns(state, report));
+        add_error(report, state);
       }
     return report;
   }
@@ -127,7 +133,25 @@ namespace undine
         throw SolveError("its error in time is too large");
       }
     step_error->accept(state, saved, report.dt, report.cuts > 0);
-    append(report.columns, step_error->columns(state, report));
+    add_error(report, state);
+  }
+
+
+  template <int dim>
+  void
+  SteppingScheme<dim>::add_error(Report &report, const State<dim> &state)
+  {
+    report.error_in_time = step_error->error(state.history);
+    append(report.columns,
+           {{"Error in time", "1", *report.error_in_time},
+            {"Rejected steps", "1", double(report.rejections)}});
+    if (told_of_error || !step_error->is_missed(state.history))
+      return;
+    told_of_error = true;
+    report.note += fmt::format("errors in time add up to more than Time/Tolerance = {:.4g}. It "
+                               "takes shorter steps than {:.4g} s: try more Time/Maximum cuts.",
+                               tolerance,
+                               shortest_step());
   }
 
 

@@ -54,9 +54,9 @@ namespace undine
     count_uncut(Velocity<dim> &uncut, const Velocity<dim> &velocity) const;
 
   private:
-    const Models<dim>                 &models;
-    typename SolidModel<dim>::Matrix   mass;
-    double                             total_mass = 0; ///< [kg]
+    const Models<dim>               &models;
+    typename SolidModel<dim>::Matrix mass;
+    double                           total_mass = 0; ///< [kg]
   };
 } // namespace undine
 

@@ -2,11 +2,7 @@
 #ifndef undine_coupled_step_error_h
 #define undine_coupled_step_error_h
 
-#include <undine/base/core/column.h>
-#include <undine/coupled/report.h>
 #include <undine/coupled/sample_norms.h>
-
-#include <memory>
 
 namespace undine
 {
@@ -59,9 +55,13 @@ namespace undine
     void
     accept(State<dim> &state, const State<dim> &old_state, double dt, bool was_cut) const;
 
-    /// The sum of the errors of all steps so far over D, and how often the last was rejected.
-    Columns
-    columns(const State<dim> &state, const Report &report) const;
+    /// The sum of the errors of all steps so far over D [1].
+    double
+    error(const StepHistory<dim> &history) const;
+
+    /// True if the tolerance is used up, and would take steps that are shorter than the shortest.
+    bool
+    is_missed(const StepHistory<dim> &history) const;
 
   private:
     using History = StepHistory<dim>;
@@ -73,7 +73,13 @@ namespace undine
     double
     derivative(const History &history, unsigned int order) const;
     void
-    estimate(History &history, double run) const;
+    estimate(History &history, double allowed) const;
+    double
+    interval(const History &history, double dt, double run) const;
+    double
+    scale(const History &history) const;
+    double
+    allowed_rate(const State<dim> &state, double time) const;
 
     const Models<dim>     &models;
     const SampleNorms<dim> norms;

@@ -32,16 +32,16 @@ namespace undine
       return !samples.empty();
     }
 
-    std::vector<Sample> samples;       ///< the newest first, those that are not taken yet at the end
+    std::vector<Sample> samples; ///< the newest first, those that are not taken yet at the end
     unsigned int        n_samples = 0; ///< taken
     Sample              before;        ///< bodies only: at the start of the last step
     Velocity<dim>       uncut;         ///< of how many samples in a row no body has cut a face
-    double              largest    = 0; ///< y so far: displacement [m], else the fluid's velocity [m/s]
-    double              derivative = 0; ///< d^(p+1) y / dt^(p+1) by the last estimate
-    double              error      = 0; ///< sum of the errors of all steps so far, as y
-    double              best_step  = 0; ///< by the last estimate [s]; 0: none yet
-    double              next_step  = 0; ///< by the last estimates [s]
-    double              step       = 0; ///< to try next [s]
+    double largest    = 0; ///< y so far: displacement [m], else the fluid's velocity [m/s]
+    double derivative = 0; ///< d^(p+1) y / dt^(p+1) by the last estimate
+    double error      = 0; ///< sum of the errors of all steps so far, as y
+    double best_step  = 0; ///< by the last estimate [s]; 0: none yet
+    double next_step  = 0; ///< by the last estimates [s]
+    double step       = 0; ///< to try next [s]
   };
 } // namespace undine
 

@@ -50,6 +50,8 @@ namespace undine
   private:
     void
     attempt(State<dim> &state, const State<dim> &saved, Report &report);
+    void
+    add_error(Report &report, const State<dim> &state);
     double
     shortest_step() const;
     std::string
@@ -64,6 +66,7 @@ namespace undine
     std::unique_ptr<Ledger<dim>>  ledger;
     std::unique_ptr<Physics<dim>> physics;
 
+    bool                                  told_of_error = false;
     std::unique_ptr<const StepError<dim>> step_error; // nullptr: constant steps
   };
 } // namespace undine
