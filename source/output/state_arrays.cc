@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/fluid_geometry.h>
+#include <undine/output/history_arrays.h>
 #include <undine/output/particle_arrays.h>
 #include <undine/output/state_arrays.h>
 
@@ -161,18 +162,6 @@ namespace undine
     }
 
 
-    /// Call `action(name, sample)` for what the choice of steps remembers.
-    template <class History, class Action>
-    void
-    for_each_sample(History &history, const Action &action)
-    {
-      for (std::size_t i = 0; i < history.samples.size(); ++i)
-        action("history/" + std::to_string(i), history.samples[i]);
-      if (history.in_use())
-        action("history/before", history.before);
-    }
-
-
     /// Call `action(name, vector)` for the nodal vectors that are in use.
     template <class State, class Action>
     void
@@ -203,63 +192,6 @@ namespace undine
       action("fluid/pressure", fluid.pressure);
       for (auto &scalar : fluid.scalars)
         action("fluid/scalars/" + scalar.first, scalar.second);
-    }
-
-
-    template <int dim, class History, class Action>
-    void
-    for_each_field_of_samples(History &history, const Action &action)
-    {
-      const auto all_axes = [&](const std::string &name, auto &velocity) {
-        for (unsigned int axis = 0; axis < dim; ++axis)
-          action(name + '_' + char('x' + axis), velocity[axis]);
-      };
-      for_each_sample(history, [&](const std::string &name, auto &sample) {
-        all_axes(name + "/fluid", sample.fluid);
-      });
-      if (history.in_use())
-        all_axes("history/uncut", history.uncut);
-    }
-
-
-    /// Call `action(number)` for all numbers of a history.
-    template <class History, class Action>
-    void
-    for_each_number(History &history, const Action &action)
-    {
-      for (auto *number : {&history.largest,
-                           &history.derivative,
-                           &history.error,
-                           &history.best_step,
-                           &history.next_step,
-                           &history.step})
-        action(*number);
-      for_each_sample(history, [&](const std::string &, auto &sample) { action(sample.time); });
-    }
-
-
-    /// The first rank's go to the file.
-    template <int dim>
-    StateArray
-    pack_numbers(const StepHistory<dim> &history, const MPI_Comm communicator)
-    {
-      std::vector<double> numbers{double(history.n_samples)};
-      for_each_number(history, [&](const double number) { numbers.push_back(number); });
-      const hsize_t size = numbers.size();
-      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-        return {"history/numbers", {{size}, {0}, {size}}, numbers};
-      return {"history/numbers", {{size}, {0}, {0}}, {}};
-    }
-
-
-    template <int dim>
-    void
-    unpack_numbers(StepHistory<dim> &history, const StateArray &array, const MPI_Comm communicator)
-    {
-      const auto values = dealii::Utilities::MPI::broadcast(communicator, array.values);
-      auto       value  = values.begin();
-      history.n_samples = *value++;
-      for_each_number(history, [&](double &number) { number = *value++; });
     }
 
 

@@ -13,7 +13,7 @@ namespace undine
   /// Errors of all steps are to add up, over the run of length T, to the tolerance times the
   /// largest size of y so far, D:
   ///
-  ///     C h^p |y^(p+1)| T = tolerance D                                                      (T7)
+  ///     C h^p |y^(p+1)| = tolerance (D / T + dD/dt / 4)                                      (T7)
   ///
   /// |y^(p+1)| is (|y^(p+1)|^2 + |y^(p)| |y^(p+2)|)^(1/2), which does not vanish twice a period.
   /// Differences are taken over times H apart,
@@ -23,9 +23,8 @@ namespace undine
   /// at which a vibration that is too fast to be followed over the run counts with its amplitude:
   /// what its phase lags behind costs no more. The step is the geometric mean of the two last
   /// solutions of (T7), the filter H211b with b = 2 [Soderlind, ACM Trans. Math. Softw. 29 (2003)
-  /// 1, table III]; it is at most doubled by a step, and redone with half its length if
-  /// C h^(p+1) |y^(p+1)| by the newest steps alone is above a quarter of tolerance D, as after a
-  /// sudden load.
+  /// 1]; it is at most doubled by a step. A step with C h^(p+1) |y^(p+1)|, by the newest steps
+  /// alone, above a quarter of tolerance D is too long, as after a sudden load.
   template <int dim>
   class StepError
   {
