@@ -31,7 +31,7 @@ namespace undine
              "m",
              Allowed::not_negative(),
              "What the Tolerance is relative to as long as the bodies have moved less (root mean "
-             "square). 0: 2 % of their extent.");
+             "square). 0: a thousandth of their extent.");
     time.add("Maximum cuts",
              maximum_cuts,
              "",

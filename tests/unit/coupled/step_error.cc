@@ -125,7 +125,7 @@ TEST_CASE("without a tolerance steps are constant, to the bit", "[coupled]")
 }
 
 
-TEST_CASE("chosen steps land on the times of output", "[coupled]")
+TEST_CASE("chosen steps land on the times of output", "[coupled][mpi]")
 {
   Run run(swinging("newmark", 1e-2));
   run.state.clock.landing_interval = 0.3;
@@ -142,7 +142,7 @@ TEST_CASE("chosen steps land on the times of output", "[coupled]")
 }
 
 
-TEST_CASE("a sudden load is met with shorter steps", "[coupled]")
+TEST_CASE("a sudden load is met with shorter steps", "[coupled][mpi]")
 {
   const auto load = boundary("end", "right", "traction", "set Traction = if(t > 5.2, 0.2, 0); 0");
   auto       text = bar("newmark", "set Tolerance = 1e-2", "");
@@ -164,7 +164,7 @@ TEST_CASE("a sudden load is met with shorter steps", "[coupled]")
 }
 
 
-TEST_CASE("a copied state continues with the same steps", "[coupled]")
+TEST_CASE("a copied state continues with the same steps", "[coupled][mpi]")
 {
   Run first(swinging("newmark", 1e-2));
   for (unsigned int step = 0; step < 60; ++step)
