@@ -13,7 +13,25 @@ namespace undine
   SteppingScheme<dim>::add_options(const Options &options)
   {
     const auto time = options.section("Time");
-    time.require("Step", asked_step, "s", Allowed::positive(), "Length of a time step.");
+    time.require("Step",
+                 asked_step,
+                 "s",
+                 Allowed::positive(),
+                 "Length of a time step; with a Tolerance that of the longest.");
+    time.add(
+      "Tolerance",
+      tolerance,
+      "1",
+      Allowed::below(0, 1),
+      "Steps are chosen so that their errors in time add up to this by the end of the run, "
+      "relative to the largest displacement of the bodies so far, or to the largest velocity "
+      "of a fluid without bodies (root mean squares). 0: all steps are of length Step.");
+    time.add("Least displacement",
+             displacement,
+             "m",
+             Allowed::not_negative(),
+             "What the Tolerance is relative to as long as the bodies have moved less (root mean "
+             "square). 0: a thousandth of their extent.");
     time.add("Maximum cuts",
              maximum_cuts,
              "",
@@ -43,8 +61,18 @@ namespace undine
       physics = std::make_unique<FluidAlone<dim>>(models, *ledger, timing);
 
     Report report;
+    if (tolerance > 0)
+      step_error = std::make_unique<const StepError<dim>>(
+        models,
+        *integrator,
+        typename StepError<dim>::Settings{tolerance, displacement, asked_step, shortest_step()});
     physics->initialize(state, choose_dt(state), report);
     append(report.columns, ledger->columns());
+    if (step_error)
+      {
+        step_error->start(state);
+        add_error(report, state);
+      }
     return report;
   }
 
@@ -53,6 +81,8 @@ namespace undine
   double
   SteppingScheme<dim>::choose_dt(const State<dim> &state) const
   {
+    if (step_error)
+      return state.clock.land(state.history.in_use() ? state.history.step : shortest_step());
     return state.clock.land(std::min(asked_step, allowed_step));
   }
 
@@ -61,13 +91,14 @@ namespace undine
   Report
   SteppingScheme<dim>::step(State<dim> &state, const double asked)
   {
+    if (step_error && !state.history.in_use())
+      step_error->start(state); // resumed from a run of constant steps
     const State<dim> saved = state;
     for (Report report;; ++report.cuts)
       try
         {
           report.dt = asked / (1u << report.cuts);
-          advance(state, report);
-          assert_finite(report.columns);
+          attempt(state, saved, report);
           allowed_step = report.cuts > 0 ? report.dt : 2 * allowed_step;
           return report;
         }
@@ -97,6 +128,43 @@ namespace undine
     for (const auto &stage : integrator->stages(report.dt, state.clock.step > 0))
       physics->step(state, stage, report);
     append(report.columns, ledger->columns());
+  }
+
+
+  template <int dim>
+  void
+  SteppingScheme<dim>::attempt(State<dim> &state, const State<dim> &saved, Report &report)
+  {
+    advance(state, report);
+    assert_finite(report.columns);
+    if (!step_error)
+      return;
+    const bool can_be_cut = report.dt / 2 >= shortest_step() * (1 - 1e-9);
+    if (can_be_cut && step_error->is_too_large(saved, state, report.dt))
+      {
+        ++report.rejections;
+        throw SolveError("its error in time is too large");
+      }
+    step_error->accept(state, saved, report.dt, report.cuts > 0);
+    add_error(report, state);
+  }
+
+
+  template <int dim>
+  void
+  SteppingScheme<dim>::add_error(Report &report, const State<dim> &state)
+  {
+    report.error_in_time = step_error->error(state.history);
+    append(report.columns,
+           {{"Error in time", "1", *report.error_in_time},
+            {"Rejected steps", "1", double(report.rejections)}});
+    if (told_of_error || !step_error->is_missed(state.history))
+      return;
+    told_of_error = true;
+    report.note += fmt::format("errors in time add up to more than Time/Tolerance = {:.4g}. It "
+                               "takes shorter steps than {:.4g} s: try more Time/Maximum cuts.",
+                               tolerance,
+                               shortest_step());
   }
 
 

@@ -61,16 +61,20 @@ namespace undine
       return;
     last_line         = std::chrono::steady_clock::now();
     const double done = share_done(clock);
-    log.print("{:>8} {:>12.5g} {:>11.4g} {:>7} {:>9.1e} {:>7} {:>6.1f}%  {}{}",
-              clock.step,
-              clock.time,
-              report.dt,
-              report.newton_iterations,
-              report.newton_reduction,
-              report.linear_iterations,
-              100 * done,
-              readable(seconds_since(begin) * (1 - done) / std::max(done, 1e-12)),
-              report.cuts > 0 ? fmt::format("   step cut {} time(s)", report.cuts) : "");
+    log.print(
+      "{:>8} {:>12.5g} {:>11.4g} {:>7} {:>9.1e} {:>7} {:>6.1f}%  {}{}",
+      clock.step,
+      clock.time,
+      report.dt,
+      report.newton_iterations,
+      report.newton_reduction,
+      report.linear_iterations,
+      100 * done,
+      readable(seconds_since(begin) * (1 - done) / std::max(done, 1e-12)),
+      (report.cuts > 0 ? fmt::format("   step cut {} time(s)", report.cuts) : "") +
+        (report.rejections > 0 ? fmt::format(", {} for its error", report.rejections) : "") +
+        (report.error_in_time ? fmt::format("   error in time {:.2g}", *report.error_in_time)
+                              : ""));
     if (!report.note.empty())
       log.print("note: {}", report.note);
   }

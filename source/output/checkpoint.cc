@@ -167,6 +167,8 @@ namespace undine
       auto surface = pack_surface(models, state);
       read_arrays(surface, file, slot, communicator);
       unpack_surface(state, models, surface);
+      if (!file.contains("history/numbers"))
+        state.history = {}; // written by a run of constant steps: the scheme starts a new one
       auto arrays = pack(models, state);
       read_arrays(arrays, file, slot, communicator);
       unpack(state, models, arrays);

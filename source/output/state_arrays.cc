@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/fluid_geometry.h>
+#include <undine/output/history_arrays.h>
 #include <undine/output/particle_arrays.h>
 #include <undine/output/state_arrays.h>
 
@@ -162,16 +163,20 @@ namespace undine
 
 
     /// Call `action(name, vector)` for the nodal vectors that are in use.
-    template <class Solid, class Action>
+    template <class State, class Action>
     void
-    for_each_vector(Solid &solid, const Action &action)
+    for_each_vector(State &state, const Action &action)
     {
+      auto &solid = state.solid;
       if (solid.displacement.size() > 0)
         action("solid/displacement", solid.displacement);
       if (solid.velocity.size() > 0)
         action("solid/velocity", solid.velocity);
       if (solid.acceleration.size() > 0)
         action("solid/acceleration", solid.acceleration);
+      for_each_sample(state.history, [&](const std::string &name, auto &sample) {
+        action(name + "/bodies", sample.bodies);
+      });
     }
 
 
@@ -258,23 +263,28 @@ namespace undine
     if (models.particles)
       return pack_particles(state.particles, models.particles->setup().spacing);
     std::vector<StateArray> arrays;
+    if (state.history.in_use())
+      arrays.push_back(pack_numbers(state.history, models.communicator()));
     if (models.solid)
       {
         auto canonical = canonical_nodes(*models.solid);
-        for_each_vector(state.solid, [&](const std::string &name, const NodalVector &vector) {
+        for_each_vector(state, [&](const std::string &name, const NodalVector &vector) {
           std::vector<double> values;
           for (const Index dof : models.solid->locally_owned())
             values.push_back(vector(dof));
           arrays.push_back(canonical.pack(name, values));
         });
       }
+    if (!models.fluid)
+      return arrays;
     CanonicalParts<dim> parts;
-    if (models.fluid)
-      for_each_field<dim>(state.fluid, [&](const std::string &name, const Field<dim> &field) {
-        arrays.push_back({name, selection_of<dim>(field), field.owned_values()});
-        if (field.divided() && !parts.of(field).empty())
-          arrays.push_back(parts.of(field).pack("parts/" + name, owned_parts(field)));
-      });
+    const auto          add = [&](const std::string &name, const Field<dim> &field) {
+      arrays.push_back({name, selection_of<dim>(field), field.owned_values()});
+      if (field.divided() && !parts.of(field).empty())
+        arrays.push_back(parts.of(field).pack("parts/" + name, owned_parts(field)));
+    };
+    for_each_field<dim>(state.fluid, add);
+    for_each_field_of_samples<dim>(state.history, add);
     return arrays;
   }
 
@@ -286,10 +296,12 @@ namespace undine
     if (models.particles)
       return unpack_particles(state.particles, arrays);
     auto array = arrays.begin();
+    if (state.history.in_use())
+      unpack_numbers(state.history, *array++, models.communicator());
     if (models.solid)
       {
         auto canonical = canonical_nodes(*models.solid);
-        for_each_vector(state.solid, [&](const std::string &, NodalVector &vector) {
+        for_each_vector(state, [&](const std::string &, NodalVector &vector) {
           const auto values = canonical.unpack(*array++);
           auto       value  = values.begin();
           for (const Index dof : models.solid->locally_owned())
@@ -297,14 +309,17 @@ namespace undine
           vector.compress(dealii::VectorOperation::insert);
         });
       }
+    if (!models.fluid)
+      return;
     CanonicalParts<dim> parts;
-    if (models.fluid)
-      for_each_field<dim>(state.fluid, [&](const std::string &, Field<dim> &field) {
-        field.set_owned_values((array++)->values);
-        if (field.divided() && !parts.of(field).empty())
-          set_owned_parts(field, parts.of(field).unpack(*array++));
-        field.exchange();
-      });
+    const auto          fill = [&](const std::string &, Field<dim> &field) {
+      field.set_owned_values((array++)->values);
+      if (field.divided() && !parts.of(field).empty())
+        set_owned_parts(field, parts.of(field).unpack(*array++));
+      field.exchange();
+    };
+    for_each_field<dim>(state.fluid, fill);
+    for_each_field_of_samples<dim>(state.history, fill);
   }
 
 

@@ -115,7 +115,7 @@ namespace undine
       throw scene.options.error("Boundaries",
                                 what + ", but without inertia there is no balance of forces then",
                                 "Try: clamps that hold body '" + scene.name +
-                                  "', or another 'Solid numerics/Time integrator' than static.");
+                                  "', or another 'Time/Integrator' than static.");
     }
 
 

@@ -4,6 +4,7 @@
 
 #include <undine/base/core/column.h>
 
+#include <optional>
 #include <string>
 
 namespace undine
@@ -15,9 +16,14 @@ namespace undine
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0; ///< of all linear solves of the step
     unsigned int cuts              = 0; ///< how often the asked step was cut and redone
+    unsigned int rejections        = 0; ///< those of the cuts that the error in time asked for
     double       newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
     std::string  note;                 ///< what was unusual; empty if nothing was
-    Columns      columns;              ///< energies, forces, fluxes, ... of the new state
+
+    /// Where steps are chosen by their error in time: that of all steps so far [1].
+    std::optional<double> error_in_time;
+
+    Columns columns; ///< energies, forces, fluxes, ... of the new state
   };
 
   /// Throws SolveError naming the first quantity that is no finite number.

@@ -3,6 +3,7 @@
 #define undine_coupled_state_h
 
 #include <undine/base/core/clock.h>
+#include <undine/coupled/step_history.h>
 #include <undine/fluid/fluid_state.h>
 #include <undine/particles/particle_state.h>
 #include <undine/solid/solid_state.h>
@@ -39,6 +40,8 @@ namespace undine
 
     /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].
     std::vector<dealii::Point<dim>> surface_positions;
+
+    StepHistory<dim> history;
   };
 } // namespace undine
 

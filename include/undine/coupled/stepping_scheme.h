@@ -6,6 +6,7 @@
 #include <undine/coupled/ledger.h>
 #include <undine/coupled/physics.h>
 #include <undine/coupled/scheme.h>
+#include <undine/coupled/step_error.h>
 #include <undine/solid/time_integrator.h>
 
 #include <limits>
@@ -22,6 +23,10 @@ namespace undine
   /// with the latter. The limit is one of lengths, not of cuts of each step: short of a time that
   /// no step gets past, every accepted step would allow yet shorter ones. Wrong input fails at
   /// once.
+  ///
+  /// With a tolerance Time/Step is the longest step, and StepError chooses: a step with too large
+  /// an error is redone like one that fails, but the shortest one is accepted. What it needs is
+  /// part of the state: a resumed run takes the steps that it would have taken.
   template <int dim>
   class SteppingScheme : public Scheme<dim>
   {
@@ -44,6 +49,10 @@ namespace undine
     couple(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing) const = 0;
 
   private:
+    void
+    attempt(State<dim> &state, const State<dim> &saved, Report &report);
+    void
+    add_error(Report &report, const State<dim> &state);
     double
     shortest_step() const;
     std::string
@@ -54,11 +63,16 @@ namespace undine
 
     std::unique_ptr<TimeIntegrator> integrator;
     double                        asked_step   = 0.01; // [s]
+    double                        tolerance    = 0;    // [1]
+    double                        displacement = 0;    // [m]
     unsigned int                  maximum_cuts = 6;
     double                        allowed_step = std::numeric_limits<double>::infinity(); // [s]
     bool                          keeps_ledger = false;
     std::unique_ptr<Ledger<dim>>  ledger;
     std::unique_ptr<Physics<dim>> physics;
+
+    bool                                  told_of_error = false;
+    std::unique_ptr<const StepError<dim>> step_error; // nullptr: constant steps
   };
 } // namespace undine
 

@@ -49,6 +49,14 @@ namespace undine
     sum_of_weights() const;
   };
 
+  /// How exact a method is: of a free oscillation exp(i w t) it makes exp(i w (1 + e) t) with
+  /// |e| = C (w h)^p to the leading order. The error of one step is C h^(p+1) |y^(p+1)|.
+  struct TimeAccuracy
+  {
+    unsigned int order;    ///< p
+    double       constant; ///< C [1]
+  };
+
   /// A way to advance the bodies in time. One integrator is one .cc file that registers itself.
   class TimeIntegrator
   {
@@ -65,6 +73,9 @@ namespace undine
     /// The numbers of a stage of length `dt` [s].
     virtual StepCoefficients
     coefficients(double dt) const = 0;
+
+    virtual TimeAccuracy
+    accuracy() const = 0;
 
     /// True if a^0 has to be the acceleration that the loads at t = 0 give.
     virtual bool

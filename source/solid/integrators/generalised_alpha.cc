@@ -55,6 +55,13 @@ namespace undine
       return step;
     }
 
+    TimeAccuracy
+    accuracy() const override
+    {
+      const double sum = radius + 1;
+      return {2, (11 * radius * radius - 14 * radius + 11) / (24 * sum * sum)};
+    }
+
     bool
     uses_acceleration() const override
     {

@@ -44,6 +44,13 @@ namespace undine
       return step;
     }
 
+    TimeAccuracy
+    accuracy() const override
+    {
+      // The displacement is that of the trapezoid: only the velocity is of first order.
+      return gamma > 0.5 ? TimeAccuracy{1, (gamma - 0.5) / 2} : TimeAccuracy{2, 1. / 12};
+    }
+
   private:
     double gamma = 0.5;
   };

@@ -42,6 +42,12 @@ namespace undine
       return step;
     }
 
+    TimeAccuracy
+    accuracy() const override
+    {
+      return theta > 0.5 ? TimeAccuracy{1, theta - 0.5} : TimeAccuracy{2, 1. / 12};
+    }
+
   private:
     double theta = 0.6;
   };

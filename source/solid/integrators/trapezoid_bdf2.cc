@@ -10,7 +10,7 @@ namespace undine
   /// Hosea, Shampine, Appl. Numer. Math. 20 (1996) 21), for bodies and fluid together:
   ///
   ///     y_1     = y^n + g (f^n + f_1),              g = c h / 2
-  ///     y^{n+1} = y^n + w (f^n + f_1) + g f^{n+1},  w = sqrt(2) h / 4                        (T7)
+  ///     y^{n+1} = y^n + w (f^n + f_1) + g f^{n+1},  w = sqrt(2) h / 4                        (T9)
   ///
   /// Second order, L-stable: a mode of frequency omega loses the share .0037 (omega h)^4 of its
   /// amplitude per step, stiff ones vanish. Pressures belong to the ends of stages, t_1 and
@@ -24,6 +24,13 @@ namespace undine
     void
     add_options(const Options &) override
     {
+    }
+
+    TimeAccuracy
+    accuracy() const override
+    {
+      const double c = 2 - std::sqrt(2.);
+      return {2, (3 * c * c - 4 * c + 2) / (12 * (2 - c))};
     }
 
     Stages

@@ -6,7 +6,7 @@
 
 namespace undine
 {
-  /// A part of a time step of h [s] from t^n (T7). Everything y that changes with the rate f (the
+  /// A part of a time step of h [s] from t^n (T9). Everything y that changes with the rate f (the
   /// displacement of bodies with their velocity, velocities with the acceleration by all forces)
   /// starts from y^0 and takes one implicit Euler step of length g:
   ///
