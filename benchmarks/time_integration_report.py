@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tables and pictures of benchmarks/time_integration.py from its runs."""
+import csv
+import math
+import os
+import sys
+from dataclasses import dataclass
+
+import accuracy
+import time_integration as benchmark
+
+STYLES = dict(zip(benchmark.NEWTON, ("-", "--", ":")))
+
+
+@dataclass
+class Result:
+    """The runs of a case by (integrator, Newton, steps per second), the name of the reference's integrator and its
+    runs with the finest step and twice that."""
+    name: str
+    case: benchmark.Case
+    steps: tuple
+    runs: dict
+    reference: str
+    finest: list
+
+    def reference_series(self, quantity):
+        return self.finest[0].series(self.case, quantity, self.reference)
+
+    def uncertainty(self, quantity):
+        """Relative difference between the two runs of the reference."""
+        return accuracy.errors(self.finest[1].series(self.case, quantity, self.reference),
+                               self.reference_series(quantity))[0]
+
+    def errors(self, key, quantity):
+        """(over time, largest) of a run; (nan, nan) if it did not reach the end."""
+        run = self.runs[key]
+        if run.complaint:
+            return math.nan, math.nan
+        return accuracy.errors(run.series(self.case, quantity, key[0]), self.reference_series(quantity))
+
+    def own_order(self, integrator, newton, quantity):
+        """From the three shortest steps."""
+        runs = [self.runs[integrator, newton, per_second] for per_second in self.steps[-3:]]
+        if any(run.complaint for run in runs):
+            return math.nan
+        return accuracy.own_order([run.series(self.case, quantity, integrator) for run in runs])
+
+    def order(self, integrator, newton, quantity):
+        """Against the reference, from the two shortest steps."""
+        return accuracy.order(*(self.errors((integrator, newton, per_second), quantity)[0]
+                                for per_second in self.steps[-2:]))
+
+    def pressure_share(self, integrator, newton):
+        """At which share of the shortest step the pressure fits the reference best."""
+        run = self.runs[integrator, newton, self.steps[-1]]
+        if run.complaint:
+            return math.nan
+        return accuracy.fitted_share(run.columns["Time"], run.columns[self.case.quantities["pressure"]],
+                                     self.reference_series("pressure"))
+
+    def cheapest(self, integrator, newton, quantity):
+        """(core seconds, steps per second) of the cheapest run that is accurate enough, or None."""
+        good = [(run.seconds, key[2]) for key, run in self.runs.items() if key[:2] == (integrator, newton)
+                and self.errors(key, quantity)[0] <= benchmark.WANTED]
+        return min(good, default=None)
+
+    def methods(self):
+        return list(dict.fromkeys(key[:2] for key in self.runs))
+
+
+def need_matplotlib():
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        sys.exit("time_integration.py: this Debian package is needed: python3-matplotlib")
+
+
+def number(value, form):
+    return "" if math.isnan(value) else format(value, form)
+
+
+def row(cells):
+    return "| " + " | ".join(map(str, cells)) + " |"
+
+
+def heading(cells):
+    return [row(cells), "|---" * len(cells) + "|"]
+
+
+def cell(result, key, quantity):
+    """Both errors of a run, or where it stopped."""
+    if result.runs[key].complaint:
+        return f"stops at {result.runs[key].until():.3g} s"
+    return "{:.1e} ({:.1e})".format(*result.errors(key, quantity))
+
+
+def error_table(result, quantity):
+    """A row for each integrator and setting of Newton's method, a column for each step."""
+    pressure = quantity == "pressure"
+    lines = heading(["integrator", "Newton"] + [f"1/{step} s" for step in result.steps] +
+                    ["own order", "order"] + ["fits at"] * pressure)
+    for method in result.methods():
+        lines.append(row([*method] + [cell(result, (*method, step), quantity) for step in result.steps] +
+                         [number(result.own_order(*method, quantity), ".2f"),
+                          number(result.order(*method, quantity), ".2f")] +
+                         ([number(result.pressure_share(*method), ".2f")] if pressure else [])))
+    return lines
+
+
+def cheapest_table(result):
+    """Core seconds and step of the cheapest run within the wanted error; what the shortest step costs."""
+    quantities = list(result.case.quantities)
+    lines = heading(["integrator", "Newton", "s, shortest step"] + [f"s (step), {name}" for name in quantities])
+    for method in result.methods():
+        shortest = result.runs[(*method, result.steps[-1])]
+        cells = [*method, "" if shortest.complaint else f"{shortest.seconds:.2f}"]
+        for quantity in quantities:
+            found = result.cheapest(*method, quantity)
+            cells.append(f"{found[0]:.2f} (1/{found[1]})" if found else "–")
+        lines.append(row(cells))
+    return lines
+
+
+def section(result):
+    case = result.case
+    lines = [f"## {result.name}: {case.title}", "",
+             f"`{case.scene}`, {case.end} s" + "".join(f", `{setting}`" for setting in case.settings) +
+             f". Reference: {result.reference}, 1/{result.steps[-1] * benchmark.FINER} s; "
+             "with twice that step it differs by " +
+             ", ".join(f"{result.uncertainty(name):.1e} ({name})" for name in case.quantities) + ".", ""]
+    for quantity, column in case.quantities.items():
+        lines += [f"**{quantity.capitalize()}** (`{column}`)", ""] + error_table(result, quantity) + [""]
+    lines += [f"**Cheapest run with an error of at most {benchmark.WANTED:.0%}**", ""] + cheapest_table(result) + [""]
+    return lines + [f"- {why}" for why in stops(result)] + [""]
+
+
+def stops(result):
+    """Which integrators stopped, and what the program said."""
+    said = {}
+    for key, run in result.runs.items():
+        if run.complaint:
+            said.setdefault(run.complaint, {})[key[0]] = None
+    return [f"{', '.join(names)}: {why}" for why, names in said.items()]
+
+
+def write_csv(results, file):
+    """A line for every run and quantity."""
+    with open(file, "w", newline="") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(["case", "integrator", "newton", "step [s]", "core seconds", "until [s]", "quantity",
+                         "error over time", "largest error", "complaint"])
+        for result in results:
+            for key, run in result.runs.items():
+                for quantity in result.case.quantities:
+                    writer.writerow([result.name, *key[:2], 1 / key[2], f"{run.seconds:.4f}", run.until(), quantity,
+                                     *(number(error, ".4e") for error in result.errors(key, quantity)),
+                                     run.complaint])
+
+
+def plot_curves(axis, result, quantity, colours):
+    for integrator, newton in result.methods():
+        points = sorted((result.runs[integrator, newton, step].seconds,
+                         result.errors((integrator, newton, step), quantity)[0]) for step in result.steps)
+        axis.loglog(*zip(*points), STYLES[newton], color=colours[integrator], marker="o", ms=2.5, lw=0.9)
+
+
+def plot(result, file):
+    """Error over core seconds, one panel for each quantity."""
+    import matplotlib
+    matplotlib.use("Agg")
+    from PIL import Image
+    from matplotlib import pyplot
+    from matplotlib.lines import Line2D
+    names = list(dict.fromkeys(integrator for integrator, _ in result.methods()))
+    colours = {name: f"C{k}" for k, name in enumerate(names)}
+    figure, axes = pyplot.subplots(1, len(result.case.quantities), figsize=(11, 3.6), squeeze=False)
+    for axis, quantity in zip(axes[0], result.case.quantities):
+        plot_curves(axis, result, quantity, colours)
+        axis.axhline(benchmark.WANTED, color="grey", lw=0.6)
+        axis.axhline(result.uncertainty(quantity), color="grey", lw=0.6, ls="-.")
+        axis.set_title(quantity, fontsize=10)
+        axis.set_xlabel("core seconds")
+        axis.set_ylim(top=2)
+        axis.grid(alpha=0.3, which="both", lw=0.4)
+    axes[0][0].set_ylabel("relative error")
+    figure.legend(handles=[Line2D([], [], color=colour, label=name) for name, colour in colours.items()] +
+                  [Line2D([], [], color="k", ls=STYLES[newton], label=f"Newton {newton}")
+                   for newton in dict.fromkeys(newton for _, newton in result.methods())],
+                  loc="center left", bbox_to_anchor=(0.86, 0.5), fontsize=8)
+    figure.tight_layout(rect=(0, 0, 0.86, 1))
+    figure.savefig(file, dpi=75)
+    pyplot.close(figure)
+    Image.open(file).convert("RGB").quantize(64).save(file, optimize=True)
+
+
+def write(results, folder):
+    """All files; prints orders and the cheapest runs."""
+    lines = []
+    for result in results:
+        lines += section(result)
+        plot(result, os.path.join(folder, f"time_integration_{result.name}.png"))
+        print(f"\n{result.name}: own orders of " + ", ".join(result.case.quantities))
+        for method in result.methods():
+            print(f"  {', Newton '.join(method)}: " +
+                  ", ".join(number(result.own_order(*method, name), ".2f") or "none" for name in result.case.quantities))
+        print("\n".join(cheapest_table(result)))
+    write_csv(results, os.path.join(folder, "time_integration.csv"))
+    with open(os.path.join(folder, "time_integration.md"), "w") as file:
+        file.write("\n".join(lines).rstrip() + "\n")
