@@ -59,9 +59,9 @@ class Result:
                                      self.reference_series("pressure"))
 
     def cheapest(self, integrator, newton, quantity):
-        """(core seconds, steps per second) of the cheapest run that is accurate enough, or None."""
-        good = [(run.seconds, key[2]) for key, run in self.runs.items() if key[:2] == (integrator, newton)
-                and self.errors(key, quantity)[0] <= benchmark.WANTED]
+        """(core seconds, corrections, steps per second) of the cheapest run that is accurate enough, or None."""
+        good = [(run.seconds, run.corrections(), key[2]) for key, run in self.runs.items()
+                if key[:2] == (integrator, newton) and self.errors(key, quantity)[0] <= benchmark.WANTED]
         return min(good, default=None)
 
     def methods(self):
@@ -107,16 +107,21 @@ def error_table(result, quantity):
     return lines
 
 
+def cost(seconds, corrections, per_second):
+    return f"{seconds:.2f} s, {corrections} (1/{per_second})"
+
+
 def cheapest_table(result):
-    """Core seconds and step of the cheapest run within the wanted error; what the shortest step costs."""
+    """Core seconds, corrections and step of the shortest step, and of the cheapest run within the wanted error."""
     quantities = list(result.case.quantities)
-    lines = heading(["integrator", "Newton", "s, shortest step"] + [f"s (step), {name}" for name in quantities])
+    lines = heading(["integrator", "Newton", "shortest step"] + [name for name in quantities])
     for method in result.methods():
         shortest = result.runs[(*method, result.steps[-1])]
-        cells = [*method, "" if shortest.complaint else f"{shortest.seconds:.2f}"]
+        cells = [*method, "" if shortest.complaint else
+                 cost(shortest.seconds, shortest.corrections(), result.steps[-1])]
         for quantity in quantities:
             found = result.cheapest(*method, quantity)
-            cells.append(f"{found[0]:.2f} (1/{found[1]})" if found else "–")
+            cells.append(cost(*found) if found else "–")
         lines.append(row(cells))
     return lines
 
@@ -130,7 +135,8 @@ def section(result):
              ", ".join(f"{result.uncertainty(name):.1e} ({name})" for name in case.quantities) + ".", ""]
     for quantity, column in case.quantities.items():
         lines += [f"**{quantity.capitalize()}** (`{column}`)", ""] + error_table(result, quantity) + [""]
-    lines += [f"**Cheapest run with an error of at most {benchmark.WANTED:.0%}**", ""] + cheapest_table(result) + [""]
+    lines += [f"**Cheapest run with an error of at most {benchmark.WANTED:.0%}** "
+              "(core seconds, corrections by Newton's method, step in s)", ""] + cheapest_table(result) + [""]
     return lines + [f"- {why}" for why in stops(result)] + [""]
 
 
@@ -147,14 +153,14 @@ def write_csv(results, file):
     """A line for every run and quantity."""
     with open(file, "w", newline="") as stream:
         writer = csv.writer(stream)
-        writer.writerow(["case", "integrator", "newton", "step [s]", "core seconds", "until [s]", "quantity",
-                         "error over time", "largest error", "complaint"])
+        writer.writerow(["case", "integrator", "newton", "step [s]", "core seconds", "corrections", "until [s]",
+                         "quantity", "error over time", "largest error", "complaint"])
         for result in results:
             for key, run in result.runs.items():
                 for quantity in result.case.quantities:
-                    writer.writerow([result.name, *key[:2], 1 / key[2], f"{run.seconds:.4f}", run.until(), quantity,
-                                     *(number(error, ".4e") for error in result.errors(key, quantity)),
-                                     run.complaint])
+                    errors = (number(error, ".4e") for error in result.errors(key, quantity))
+                    writer.writerow([result.name, *key[:2], 1 / key[2], f"{run.seconds:.4f}", run.corrections(),
+                                     run.until(), quantity, *errors, run.complaint])
 
 
 def plot_curves(axis, result, quantity, colours):
@@ -193,17 +199,20 @@ def plot(result, file):
     Image.open(file).convert("RGB").quantize(64).save(file, optimize=True)
 
 
+def show(result):
+    """Prints orders and the cheapest runs."""
+    print(f"\n{result.name}: own orders of " + ", ".join(result.case.quantities))
+    for method in result.methods():
+        orders = [number(result.own_order(*method, quantity), ".2f") for quantity in result.case.quantities]
+        print(f"  {', Newton '.join(method)}: " + ", ".join(one or "none" for one in orders))
+    print("\n".join(cheapest_table(result)), flush=True)
+
+
 def write(results, folder):
-    """All files; prints orders and the cheapest runs."""
-    lines = []
-    for result in results:
-        lines += section(result)
-        plot(result, os.path.join(folder, f"time_integration_{result.name}.png"))
-        print(f"\n{result.name}: own orders of " + ", ".join(result.case.quantities))
-        for method in result.methods():
-            print(f"  {', Newton '.join(method)}: " +
-                  ", ".join(number(result.own_order(*method, name), ".2f") or "none" for name in result.case.quantities))
-        print("\n".join(cheapest_table(result)))
-    write_csv(results, os.path.join(folder, "time_integration.csv"))
+    """All files."""
+    lines = [line for result in results for line in section(result)]
     with open(os.path.join(folder, "time_integration.md"), "w") as file:
         file.write("\n".join(lines).rstrip() + "\n")
+    write_csv(results, os.path.join(folder, "time_integration.csv"))
+    for result in results:
+        plot(result, os.path.join(folder, f"time_integration_{result.name}.png"))
