@@ -43,12 +43,13 @@ def errors(series, reference):
 
 
 def order(coarse, fine, ratio=2):
-    """Of convergence, from the errors with a step and with that step over the ratio; nan if either is no number or zero."""
+    """Of convergence, from the errors with a step and with that step over the ratio; nan without both of them."""
     return math.log(coarse / fine, ratio) if coarse > 0 and fine > 0 else math.nan
 
 
 def own_order(series):
-    """Of three series, each with half the step of the one before, without a reference: of the difference between neighbours."""
+    """Of three series, each with half the step of the one before: of the difference between neighbours. The finest
+    one is no reference, so that it is not too good by what it lacks itself."""
     coarse, middle, fine = series
     return order(errors(coarse, middle)[0], errors(middle, fine)[0])
 

@@ -24,12 +24,12 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [os.path.join(ROOT, "tests"), os.path.join(ROOT, "benchmarks")]
 import accuracy  # noqa: E402
 import scene_tools  # noqa: E402
+import time_integration_report as report  # noqa: E402
 
 INTEGRATOR_KEY = "Solid numerics/Time integrator"
 NUMBERS_SECTION = "Solid numerics"  # of an integrator's own numbers
 NEWTON_SECTION = "Solid numerics"
 ENOUGH = 2  # seconds after which a run is not repeated
-WANTED = 0.01  # relative error
 
 
 @dataclass
@@ -46,7 +46,7 @@ class Integrator:
 
 
 INTEGRATORS = {
-    "trapezoid_bdf2": Integrator("trapezoid_bdf2", pressure_at=1),  # that of its second half, which ends with the step
+    "trapezoid_bdf2": Integrator("trapezoid_bdf2", pressure_at=1),  # of the stage that ends the step
     "theta 1/2": Integrator("theta", {"Theta": 0.5}),
     "theta 0.6": Integrator("theta", {"Theta": 0.6}),
     "theta 1": Integrator("theta", {"Theta": 1}),
@@ -220,7 +220,6 @@ def known_integrators(program):
 
 
 def main():
-    import time_integration_report as report
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", nargs="?", default=os.path.join(ROOT, "build", "undine"))
     parser.add_argument("--out", default=".")

@@ -7,9 +7,9 @@ import sys
 from dataclasses import dataclass
 
 import accuracy
-import time_integration as benchmark
 
-STYLES = dict(zip(benchmark.NEWTON, ("-", "--", ":")))
+WANTED = 0.01  # relative error
+STYLES = ("-", "--", ":", "-.")  # of lines, one for each setting of Newton's method
 
 
 @dataclass
@@ -17,11 +17,15 @@ class Result:
     """The runs of a case by (integrator, Newton, steps per second), the name of the reference's integrator and its
     runs with the finest step and twice that."""
     name: str
-    case: benchmark.Case
+    case: object
     steps: tuple
     runs: dict
     reference: str
     finest: list
+
+    def finest_step(self):
+        """Steps per second of the reference."""
+        return round((len(self.finest[0].columns["Time"]) - 1) / self.case.end)
 
     def reference_series(self, quantity):
         return self.finest[0].series(self.case, quantity, self.reference)
@@ -61,7 +65,7 @@ class Result:
     def cheapest(self, integrator, newton, quantity):
         """(core seconds, corrections, steps per second) of the cheapest run that is accurate enough, or None."""
         good = [(run.seconds, run.corrections(), key[2]) for key, run in self.runs.items()
-                if key[:2] == (integrator, newton) and self.errors(key, quantity)[0] <= benchmark.WANTED]
+                if key[:2] == (integrator, newton) and self.errors(key, quantity)[0] <= WANTED]
         return min(good, default=None)
 
     def methods(self):
@@ -130,12 +134,12 @@ def section(result):
     case = result.case
     lines = [f"## {result.name}: {case.title}", "",
              f"`{case.scene}`, {case.end} s" + "".join(f", `{setting}`" for setting in case.settings) +
-             f". Reference: {result.reference}, 1/{result.steps[-1] * benchmark.FINER} s; "
+             f". Reference: {result.reference}, 1/{result.finest_step()} s; "
              "with twice that step it differs by " +
              ", ".join(f"{result.uncertainty(name):.1e} ({name})" for name in case.quantities) + ".", ""]
     for quantity, column in case.quantities.items():
         lines += [f"**{quantity.capitalize()}** (`{column}`)", ""] + error_table(result, quantity) + [""]
-    lines += [f"**Cheapest run with an error of at most {benchmark.WANTED:.0%}** "
+    lines += [f"**Cheapest run with an error of at most {WANTED:.0%}** "
               "(core seconds, corrections by Newton's method, step in s)", ""] + cheapest_table(result) + [""]
     return lines + [f"- {why}" for why in stops(result)] + [""]
 
@@ -163,35 +167,40 @@ def write_csv(results, file):
                                      run.until(), quantity, *errors, run.complaint])
 
 
-def plot_curves(axis, result, quantity, colours):
+def looks(result):
+    """Colours of integrators and styles of Newton's settings, by name."""
+    integrators, newtons = (list(dict.fromkeys(names)) for names in zip(*result.methods()))
+    return {name: f"C{k}" for k, name in enumerate(integrators)}, dict(zip(newtons, STYLES))
+
+
+def plot_curves(axis, result, quantity):
+    colours, styles = looks(result)
     for integrator, newton in result.methods():
         points = sorted((result.runs[integrator, newton, step].seconds,
                          result.errors((integrator, newton, step), quantity)[0]) for step in result.steps)
-        axis.loglog(*zip(*points), STYLES[newton], color=colours[integrator], marker="o", ms=2.5, lw=0.9)
+        axis.loglog(*zip(*points), styles[newton], color=colours[integrator], marker="o", ms=2.5, lw=0.9)
+    axis.axhline(WANTED, color="grey", lw=0.6)
+    axis.axhline(result.uncertainty(quantity), color="grey", lw=0.6, ls="-.")
+    axis.set_title(quantity, fontsize=10)
+    axis.set_xlabel("core seconds")
+    axis.set_ylim(top=2)
+    axis.grid(alpha=0.3, which="both", lw=0.4)
 
 
 def plot(result, file):
-    """Error over core seconds, one panel for each quantity."""
+    """Error over core seconds, one panel for each quantity; grey: the wanted error, and how sure the reference is."""
     import matplotlib
     matplotlib.use("Agg")
     from PIL import Image
     from matplotlib import pyplot
     from matplotlib.lines import Line2D
-    names = list(dict.fromkeys(integrator for integrator, _ in result.methods()))
-    colours = {name: f"C{k}" for k, name in enumerate(names)}
     figure, axes = pyplot.subplots(1, len(result.case.quantities), figsize=(11, 3.6), squeeze=False)
     for axis, quantity in zip(axes[0], result.case.quantities):
-        plot_curves(axis, result, quantity, colours)
-        axis.axhline(benchmark.WANTED, color="grey", lw=0.6)
-        axis.axhline(result.uncertainty(quantity), color="grey", lw=0.6, ls="-.")
-        axis.set_title(quantity, fontsize=10)
-        axis.set_xlabel("core seconds")
-        axis.set_ylim(top=2)
-        axis.grid(alpha=0.3, which="both", lw=0.4)
+        plot_curves(axis, result, quantity)
     axes[0][0].set_ylabel("relative error")
+    colours, styles = looks(result)
     figure.legend(handles=[Line2D([], [], color=colour, label=name) for name, colour in colours.items()] +
-                  [Line2D([], [], color="k", ls=STYLES[newton], label=f"Newton {newton}")
-                   for newton in dict.fromkeys(newton for _, newton in result.methods())],
+                  [Line2D([], [], color="k", ls=style, label=f"Newton {name}") for name, style in styles.items()],
                   loc="center left", bbox_to_anchor=(0.86, 0.5), fontsize=8)
     figure.tight_layout(rect=(0, 0, 0.86, 1))
     figure.savefig(file, dpi=75)
