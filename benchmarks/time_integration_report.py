@@ -176,8 +176,8 @@ def looks(result):
 def plot_curves(axis, result, quantity):
     colours, styles = looks(result)
     for integrator, newton in result.methods():
-        points = sorted((result.runs[integrator, newton, step].seconds,
-                         result.errors((integrator, newton, step), quantity)[0]) for step in result.steps)
+        points = [(result.runs[integrator, newton, step].seconds,
+                   result.errors((integrator, newton, step), quantity)[0]) for step in result.steps]
         axis.loglog(*zip(*points), styles[newton], color=colours[integrator], marker="o", ms=2.5, lw=0.9)
     axis.axhline(WANTED, color="grey", lw=0.6)
     axis.axhline(result.uncertainty(quantity), color="grey", lw=0.6, ls="-.")
@@ -205,7 +205,7 @@ def plot(result, file):
     figure.tight_layout(rect=(0, 0, 0.86, 1))
     figure.savefig(file, dpi=75)
     pyplot.close(figure)
-    Image.open(file).convert("RGB").quantize(64).save(file, optimize=True)
+    Image.open(file).convert("RGB").quantize(256).save(file, optimize=True)
 
 
 def show(result):
