@@ -148,8 +148,8 @@ def core_seconds(folder, used):
 
 
 def complaint(text):
-    """The first sentence of the program's message, without which step failed: why a run stopped."""
-    error = re.search(r"Error: (?:[^\n]*?the last one of [^:]*: )?(.*)", text)
+    """The first sentence of the program's message, without which step failed and where in the body: why a run stopped."""
+    error = re.search(r"Error: (?:[^\n]*?the last one of [^:]*: )?(?:body .*?the point that rests at .*?: )?(.*)", text)
     return re.split(r"[:;] |\.(?: |$)", error[1])[0] if error else "no message"
 
 

@@ -174,6 +174,7 @@ def looks(result):
 
 
 def plot_curves(axis, result, quantity):
+    from matplotlib.ticker import LogLocator
     colours, styles = looks(result)
     for integrator, newton in result.methods():
         points = [(result.runs[integrator, newton, step].seconds,
@@ -183,6 +184,9 @@ def plot_curves(axis, result, quantity):
     axis.axhline(result.uncertainty(quantity), color="grey", lw=0.6, ls="-.")
     axis.set_title(quantity, fontsize=10)
     axis.set_xlabel("core seconds")
+    axis.xaxis.set_minor_locator(LogLocator(subs=(2, 5)))
+    axis.xaxis.set_major_formatter("{x:g}")
+    axis.xaxis.set_minor_formatter("{x:g}")
     axis.set_ylim(top=2)
     axis.grid(alpha=0.3, which="both", lw=0.4)
 
