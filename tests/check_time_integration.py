@@ -30,6 +30,16 @@ def expect(what, value, wanted, allowed=ALLOWED):
     return [] if abs(value - wanted) <= allowed else [f"{what}: {value:.3f} instead of {wanted}"]
 
 
+def cases():
+    """Each has a scene and enough steps, each half as long as the one before."""
+    for name, case in benchmark.CASES.items():
+        halved = all(b == 2 * a for a, b in zip(case.steps, case.steps[1:]))
+        if len(case.steps) < benchmark.QUICK_STEPS or not halved:
+            yield f"case {name}: steps {case.steps}"
+        if not os.path.exists(os.path.join(ROOT, case.scene)):
+            yield f"case {name}: there is no {case.scene}"
+
+
 def made_up(order, per_second, share=1):
     """cos(6 t) with an error of this order that grows with time, at a share of each step."""
     times = [n / per_second for n in range(per_second + 1)]
@@ -106,7 +116,7 @@ def failure(program):
 
 def main():
     program = sys.argv[1]
-    found = list(estimators()) + list(integrators(program)) + list(failure(program))
+    found = list(cases()) + list(estimators()) + list(integrators(program)) + list(failure(program))
     if found:
         sys.exit("\n".join(found))
 
