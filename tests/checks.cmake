@@ -22,6 +22,10 @@ add_test(NAME runs/splitting
                  ${PROJECT_SOURCE_DIR}/prm/jet_two_sheets_split_2d.prm)
 set_tests_properties(runs/splitting PROPERTIES TIMEOUT 300)
 
+add_test(NAME runs/time_integration
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_time_integration.py $<TARGET_FILE:undine>)
+set_tests_properties(runs/time_integration PROPERTIES TIMEOUT 300)
+
 # Pictures need packages that the program does not: without them the test is skipped.
 add_test(NAME contrib/render
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_render.py ${PROJECT_SOURCE_DIR}/contrib/render
