@@ -22,13 +22,15 @@ namespace undine
                                                    "supports",
                                                    "damping",
                                                    "inertia",
-                                                   "elasticity"};
+                                                   "elasticity",
+                                                   "earlier stages"};
 
 
   template <int dim>
-  Ledger<dim>::Ledger(const Models<dim> &models, const bool is_on)
+  Ledger<dim>::Ledger(const Models<dim> &models, const bool is_on, const bool has_stages)
     : models(models)
     , on(is_on)
+    , has_stages(has_stages)
   {
   }
 
@@ -53,6 +55,26 @@ namespace undine
     fluid = {kinetic_energy(*models.fluid, velocity), linear_momentum(*models.fluid, velocity)};
     gain.energy -= fluid.energy;
     gain.momentum -= fluid.momentum;
+  }
+
+
+  template <int dim>
+  void
+  Ledger<dim>::start(const SolidAmounts<dim> &amounts)
+  {
+    bodies = {amounts.energy, amounts.momentum};
+  }
+
+
+  template <int dim>
+  void
+  Ledger<dim>::add(const SolidAmounts<dim> &amounts)
+  {
+    auto &term = terms[by_stages];
+    term       = {amounts.energy - bodies.energy, amounts.momentum - bodies.momentum};
+    gain.energy += term.energy;
+    gain.momentum += term.momentum;
+    energy += std::abs(term.energy);
   }
 
 
@@ -135,7 +157,7 @@ namespace undine
       return models.surface && models.surface->surface().n_nodes() > models.surface->n_body_nodes();
     if (term < by_loads)
       return models.fluid && models.solid;
-    return models.solid != nullptr;
+    return models.solid && (has_stages || term != by_stages);
   }
 
 
@@ -174,7 +196,7 @@ namespace undine
       result.push_back(
         {std::string("momentum gain ") + char('x' + axis), "kg m/s", gain.momentum[axis]});
     for (unsigned int term = 0; term < n_terms; ++term)
-      if (concerns(term) && term != by_projection && term <= by_inertia)
+      if (concerns(term) && term != by_projection && term != by_elasticity)
         for (unsigned int axis = 0; axis < dim; ++axis)
           result.push_back({std::string("momentum by ") + names[term] + " " + char('x' + axis),
                             "kg m/s",

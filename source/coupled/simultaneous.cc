@@ -53,7 +53,7 @@ namespace undine
     void
     step(State<dim> &state, const Stage &stage, Report &report) override
     {
-      start_stage(state, stage);
+      start_stage(state, stage, solid_step, ledger);
       const auto       fluid = fluid_side.predict(state, stage);
       CoupledStep<dim> coupled({models,
                                 solid_step.mass(),
@@ -131,7 +131,8 @@ namespace undine
         "",
         Allowed::one_of({"initial", "swept"}),
         "How bodies push the fluid: by their velocity at the end of a step through their "
-        "boundary at its beginning, or by the volume that they sweep, exactly.");
+        "boundary at its beginning, or by the volume that they sweep, exactly. For integrators of "
+        "one stage; trapezoid_bdf2 has its own way, which keeps the volume of chambers.");
       settings.solver.add_options(coupling);
     }
 

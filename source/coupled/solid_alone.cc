@@ -35,7 +35,7 @@ namespace undine
   SolidAlone<dim>::step(State<dim> &state, const Stage &stage, Report &report)
   {
     const double time = state.clock.time;
-    start_stage(state, stage);
+    start_stage(state, stage, solid_step, ledger);
     const auto solid =
       solid_step.step(state.solid, environment, time + stage.start(), stage.length, timing);
     end_stage(state, stage);

@@ -21,10 +21,15 @@ namespace undine
 
   template <int dim>
   void
-  start_stage(State<dim> &state, const Stage &stage)
+  start_stage(State<dim>           &state,
+              const Stage          &stage,
+              const SolidStep<dim> &step,
+              Ledger<dim>          &ledger)
   {
     if (!stage.keeps_rates)
       return;
+    if (ledger.is_on() && stage.is_first)
+      ledger.start(step.amounts(state.solid));
     using Start = typename State<dim>::StageStart;
     const auto  now = state.solid;
     const Start still{now, dealii::TrilinosWrappers::MPI::Vector(now.velocity.locally_owned_elements(), now.velocity.get_mpi_communicator())};
@@ -35,6 +40,8 @@ namespace undine
       start = state.next;
     state.solid = start.solid;
     state.way   = start.way;
+    if (ledger.is_on() && stage.is_last)
+      ledger.add(step.amounts(state.solid));
     if (stage.is_last)
       return;
     state.next = still;
@@ -56,9 +63,9 @@ namespace undine
 
 
   template void
-  start_stage(State<2> &, const Stage &);
+  start_stage(State<2> &, const Stage &, const SolidStep<2> &, Ledger<2> &);
   template void
-  start_stage(State<3> &, const Stage &);
+  start_stage(State<3> &, const Stage &, const SolidStep<3> &, Ledger<3> &);
   template void
   end_stage(State<2> &, const Stage &);
   template void

@@ -52,7 +52,8 @@ namespace undine
   Report
   SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
   {
-    ledger = std::make_unique<Ledger<dim>>(models, keeps_ledger);
+    const bool has_stages = integrator->stages(1, true).front().keeps_rates;
+    ledger                = std::make_unique<Ledger<dim>>(models, keeps_ledger, has_stages);
     if (models.solid && models.fluid)
       physics = couple(models, *ledger, timing);
     else if (models.solid)

@@ -9,6 +9,7 @@
 #include <undine/solid/solid_columns.h>
 #include <undine/solid/solid_equations.h>
 #include <undine/solid/solid_step.h>
+#include <undine/solid/sums_by_body.h>
 #include <undine/solid/throw_together.h>
 
 #include <fmt/format.h>
@@ -214,6 +215,20 @@ namespace undine
     set_initial(start, model);
     for (const auto &body : measure_bodies(model, start.displacement))
       volumes.push_back(body.volume);
+  }
+
+
+  template <int dim>
+  SolidAmounts<dim>
+  SolidStep<dim>::amounts(const SolidState &state) const
+  {
+    auto momenta = model.vector();
+    mass_matrix.vmult(momenta, state.velocity);
+    SolidAmounts<dim> result;
+    result.energy = (momenta * state.velocity) / 2 + elastic_energy(model, state.displacement);
+    for (const auto &of_body : sums_by_body(model, momenta))
+      result.momentum += of_body;
+    return result;
   }
 
 

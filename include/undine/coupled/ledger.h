@@ -44,8 +44,8 @@ namespace undine
       boundary_values ///< of inflows and walls
     };
 
-    /// `models` must outlive it.
-    Ledger(const Models<dim> &models, bool is_on);
+    /// `models` must outlive it. `has_stages`: steps have stages that keep rates.
+    Ledger(const Models<dim> &models, bool is_on, bool has_stages = false);
 
     bool
     is_on() const
@@ -58,6 +58,15 @@ namespace undine
     start();
     void
     start(const Velocity<dim> &velocity);
+    /// @}
+
+    /// Stages that keep rates (Stage): the last one is booked like a step, from its start. What
+    /// leads there, by the rates of earlier stages, is a term of its own for bodies, and part of
+    /// `transport` for the fluid. Tell of the bodies at t^n, then at the last stage's start. @{
+    void
+    start(const SolidAmounts<dim> &bodies);
+    void
+    add(const SolidAmounts<dim> &bodies);
     /// @}
 
     /// A phase has led to `velocity`. Collective.
@@ -101,6 +110,7 @@ namespace undine
       by_damping,
       by_inertia,    ///< of the integrator
       by_elasticity, ///< of the integrator
+      by_stages,     ///< the earlier ones
       n_terms
     };
 
@@ -121,7 +131,9 @@ namespace undine
 
     const Models<dim>          &models;
     const bool                  on;
-    Amount                      fluid; ///< what it has, as far as the step has come
+    const bool                  has_stages;
+    Amount                      fluid;  ///< what it has, as far as the step has come
+    Amount                      bodies; ///< what they had at t^n
     Amount                      gain;
     std::array<Amount, n_terms> terms;
     double                      energy           = 0; ///< of fluid and bodies

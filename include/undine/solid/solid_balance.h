@@ -32,6 +32,14 @@ namespace undine
     dealii::Tensor<1, dim> supports_force; ///< [N]
     dealii::Tensor<1, dim> damping_force;  ///< [N]
   };
+
+  /// What bodies have.
+  template <int dim>
+  struct SolidAmounts
+  {
+    double                 energy = 0; ///< u.M u/2 + int W dX [J]
+    dealii::Tensor<1, dim> momentum;   ///< sum M u [kg m/s]
+  };
 } // namespace undine
 
 #endif

@@ -72,6 +72,10 @@ namespace undine
          TimingTree                  &timing,
          const Vector                &nodal_forces = {});
 
+    /// Of a state. Collective.
+    SolidAmounts<dim>
+    amounts(const SolidState &state) const;
+
     /// M [kg].
     const Matrix &
     mass() const;

@@ -12,8 +12,8 @@ namespace undine
   ///     y_1     = y^n + g (f^n + f_1),              g = c h / 2
   ///     y^{n+1} = y^n + w (f^n + f_1) + g f^{n+1},  w = sqrt(2) h / 4                        (T9)
   ///
-  /// Second order, L-stable: a mode of frequency omega loses the share .0037 (omega h)^4 of its
-  /// amplitude per step, stiff ones vanish. Pressures belong to the ends of stages, t_1 and
+  /// Second order, L-stable: a mode of frequency omega has the damping ratio .0037 (omega h)^3, stiff
+  /// ones vanish. Pressures belong to the ends of stages, t_1 and
   /// t^{n+1}, and enter f like all other forces.
   ///
   /// The first step, without f^n, is that of Alexander (SIAM J. Numer. Anal. 14 (1977) 1006,
