@@ -152,7 +152,7 @@ TEST_CASE("TR-BDF2 is of second order in displacement, velocity and pressure", "
                    {.5, .125, .125},
                    .4,
                    10,
-                   2,
+                   4,
                    1.8);
   }
   SECTION("a sheet in a smooth stream")
