@@ -21,8 +21,8 @@ namespace undine
   {
     if (empty())
       return;
-    areas = geometry.cut_parts().of_open_parts(
-      wetted_areas(geometry.cut_cells(), surface, n_body_nodes));
+    areas =
+      geometry.cut_parts().of_open_parts(wetted_areas(geometry.cut_cells(), surface, n_body_nodes));
     region_areas = chambers.sums_on_components(areas);
     earlier.resize(chambers.size(), 0.);
     for (const auto &part : stage.earlier)
@@ -39,14 +39,14 @@ namespace undine
   std::vector<double>
   ChamberVolumes<dim>::missing_fluxes(const std::vector<double> &fluxes, const Vectors &way) const
   {
-    const auto swept = chambers.sums_on_components(geometry.cut_parts().of_open_parts(
+    const auto          swept  = chambers.sums_on_components(geometry.cut_parts().of_open_parts(
       swept_volumes(geometry.cut_cells(), surface, geometry.surface_positions(), before, way)));
     const auto          pushed = chambers.sums_on_components(fluxes);
     std::vector<double> speeds(chambers.size(), 0.);
     for (std::size_t region = 0; region < speeds.size(); ++region)
       if (region_areas[region] > 0)
-        speeds[region] = ((swept[region] + earlier[region]) / length - pushed[region]) /
-                         region_areas[region];
+        speeds[region] =
+          ((swept[region] + earlier[region]) / length - pushed[region]) / region_areas[region];
     auto       result  = fluxes;
     const auto regions = chambers.of_components();
     for (std::size_t c = 0; c < result.size(); ++c)

@@ -49,17 +49,22 @@ namespace undine
                 parts.timing,
                 loads_at_rest())
     , numbers(parts.models.fluid->grid(), parts.geometry.bodies().open_parts)
-    , surface(moved(make_surface_flux(
-                      boundary_flux,
-                      parts.models,
-                      parts.geometry,
-                      numbers,
-                      equations,
-                      BodiesInStage<dim>(
-                        parts.models, state, fluid.stage, fluid.end - fluid.stage.end)),
-                    equations.guess()))
+    , surface(
+        moved(make_surface_flux(
+                boundary_flux,
+                parts.models,
+                parts.geometry,
+                numbers,
+                equations,
+                BodiesInStage<dim>(parts.models, state, fluid.stage, fluid.end - fluid.stage.end)),
+              equations.guess()))
     , pressures(*parts.models.fluid, numbers, filled_rows(surface->matrix()), fluid.dt)
-    , problem(*parts.models.solid, equations, *surface, pressures, parts.solver, parts.timing,
+    , problem(*parts.models.solid,
+              equations,
+              *surface,
+              pressures,
+              parts.solver,
+              parts.timing,
               flux_rounding(parts.models.fluid->grid(), *surface, fluid.dt))
     , x(problem.vector())
   {

@@ -37,8 +37,8 @@ namespace undine
     const auto   now   = models.surface->positions(state.solid, time, stage.ahead());
     cut->place(state.surface_positions.empty() ? now : state.surface_positions,
                now,
-               stage.keeps_rates ? models.surface->velocities_at(state.solid, time, stage.length) :
-                                   models.surface->velocities(state.solid, time, stage.length));
+               stage.keeps_rates ? models.surface->velocities_at(state.solid, time, stage.length)
+                                 : models.surface->velocities(state.solid, time, stage.length));
   }
 
 
@@ -74,9 +74,15 @@ namespace undine
     if (stage.is_first)
       ledger.start(state.fluid.velocity);
     place_surfaces(state, stage);
-    auto fluid = std::make_unique<FluidStep<dim>>(
-      model, state.fluid, state.next_velocity, uniform_gravity, state.clock.time, stage, timing, bodies());
-    const auto book = [&](const typename Ledger<dim>::Phase phase) {
+    auto       fluid = std::make_unique<FluidStep<dim>>(model,
+                                                  state.fluid,
+                                                  state.next_velocity,
+                                                  uniform_gravity,
+                                                  state.clock.time,
+                                                  stage,
+                                                  timing,
+                                                  bodies());
+    const auto book  = [&](const typename Ledger<dim>::Phase phase) {
       if (stage.is_last)
         ledger.add(phase, state.fluid.velocity);
     };
@@ -106,9 +112,9 @@ namespace undine
   template <int dim>
   void
   FluidSide<dim>::finish(FluidStep<dim> &fluid,
-                         State<dim>           &state,
-                         Report               &report,
-                         const double          divergence)
+                         State<dim>     &state,
+                         Report         &report,
+                         const double    divergence)
   {
     fluid.finish();
     if (cut)

@@ -30,9 +30,11 @@ namespace undine
       return;
     if (ledger.is_on() && stage.is_first)
       ledger.start(step.amounts(state.solid));
-    using Start = typename State<dim>::StageStart;
+    using Start     = typename State<dim>::StageStart;
     const auto  now = state.solid;
-    const Start still{now, dealii::TrilinosWrappers::MPI::Vector(now.velocity.locally_owned_elements(), now.velocity.get_mpi_communicator())};
+    const Start still{now,
+                      dealii::TrilinosWrappers::MPI::Vector(now.velocity.locally_owned_elements(),
+                                                            now.velocity.get_mpi_communicator())};
     Start       start = still;
     if (stage.is_first)
       go_on<dim>(start, stage.rate(), now);

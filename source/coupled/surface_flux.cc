@@ -43,11 +43,11 @@ namespace undine
     public:
       using Vector = typename SurfaceFlux<dim>::Vector;
 
-      FluxAtEnd(const Models<dim>             &models,
-                const FluidGeometry<dim>      &geometry,
-                const PressureNumbers<dim>    &numbers,
-                const SolidEquations<dim>     &solid,
-                const BodiesInStage<dim>      &bodies)
+      FluxAtEnd(const Models<dim>          &models,
+                const FluidGeometry<dim>   &geometry,
+                const PressureNumbers<dim> &numbers,
+                const SolidEquations<dim>  &solid,
+                const BodiesInStage<dim>   &bodies)
         : SurfaceFlux<dim>(models, geometry, numbers)
         , solid(solid)
         , way(bodies.way)
@@ -234,16 +234,15 @@ namespace undine
   }
 
 
-#define UNDINE_INSTANTIATE(dim)                                          \
-  template class SurfaceFlux<dim>;                                       \
-  template struct BodiesInStage<dim>;                                    \
-  template std::unique_ptr<SurfaceFlux<dim>> make_surface_flux(          \
-    const std::string &,                                                 \
-    const Models<dim> &,                                                 \
-    const FluidGeometry<dim> &,                                          \
-    const PressureNumbers<dim> &,                                        \
-    const SolidEquations<dim> &,                                         \
-    const BodiesInStage<dim> &);
+#define UNDINE_INSTANTIATE(dim)                                                              \
+  template class SurfaceFlux<dim>;                                                           \
+  template struct BodiesInStage<dim>;                                                        \
+  template std::unique_ptr<SurfaceFlux<dim>> make_surface_flux(const std::string &,          \
+                                                               const Models<dim> &,          \
+                                                               const FluidGeometry<dim> &,   \
+                                                               const PressureNumbers<dim> &, \
+                                                               const SolidEquations<dim> &,  \
+                                                               const BodiesInStage<dim> &);
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

@@ -49,7 +49,7 @@ namespace undine
     {
       SurfaceExchange<dim> exchange;
       // J p^n, where the grid was cut when p^n was computed.
-      exchange.on_bodies    = geometry_of(models, state)->pressure_forces(state.fluid.pressure);
+      exchange.on_bodies = geometry_of(models, state)->pressure_forces(state.fluid.pressure);
       start_stage(state, stage, solid_step, ledger);
       const auto   fluid    = fluid_side.predict(state, stage);
       const auto  &geometry = *fluid_side.geometry();

@@ -209,8 +209,8 @@ namespace undine
             if (!field->equation)
               field->equation = std::make_unique<ImplicitDiffusion<dim>>(
                 step.model, step.model.grid().cells(), *field, field->diffusivity);
-            step.linear_iterations += field->equation->step(
-              step.state.scalars.at(field->name), step.end, step.stage.way());
+            step.linear_iterations +=
+              field->equation->step(step.state.scalars.at(field->name), step.end, step.stage.way());
           }
     }
 

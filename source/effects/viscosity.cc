@@ -64,8 +64,7 @@ namespace undine
       add(velocity, step.dt, gradient);
       set_boundary_velocity(velocity, step.model, step.end);
       for (unsigned int axis = 0; axis < dim; ++axis)
-        step.linear_iterations +=
-          solver(step.model, axis).step(velocity[axis], step.end, step.dt);
+        step.linear_iterations += solver(step.model, axis).step(velocity[axis], step.end, step.dt);
       step.pressure_correction = pressure_correction(step.model, velocity);
       add(velocity, -step.dt, gradient);
     }

@@ -131,10 +131,8 @@ namespace undine
     if (found == parts.end())
       return {};
     const bool is_own = eye.own != nullptr && inside == *eye.own;
-    return value_of_parts(found->second,
-                          lattice.point(inside) - lattice.point(lattice.wrapped(inside)),
-                          eye,
-                          is_own);
+    return value_of_parts(
+      found->second, lattice.point(inside) - lattice.point(lattice.wrapped(inside)), eye, is_own);
   }
 
 

@@ -11,8 +11,8 @@
 namespace undine
 {
   /// The volumes of the chambers that bodies close off: regions of fluid without an opening that a
-  /// body touches. B u at the end of a stage is what the surfaces push out per time, so that volumes
-  /// drift, in second order of h. They are kept to rounding if the chamber c pushes besides
+  /// body touches. B u at the end of a stage is what the surfaces push out per time, so that
+  /// volumes drift, in second order of h. They are kept to rounding if the chamber c pushes besides
   ///
   ///     ( S_c + sum_j w_j q_c(t_j) ) / g - (B u)_c    [m^dim/s],                             (C3)
   ///

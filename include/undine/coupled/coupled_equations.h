@@ -25,8 +25,8 @@ namespace undine
     using Unknown = BlockSystem::BlockVector;
     using Vector  = BlockSystem::Vector;
 
-    /// The references must outlive it. `flux_rounding` [m^dim/s]: what rounding of the bodies' places
-    /// makes of B u.
+    /// The references must outlive it. `flux_rounding` [m^dim/s]: what rounding of the bodies'
+    /// places makes of B u.
     CoupledEquations(const SolidModel<dim>        &model,
                      SolidEquations<dim>          &solid,
                      SurfaceFlux<dim>             &surface,

@@ -62,14 +62,14 @@ namespace undine
     advance(State<dim> &state, Report &report);
 
     std::unique_ptr<TimeIntegrator> integrator;
-    double                        asked_step   = 0.01; // [s]
-    double                        tolerance    = 0;    // [1]
-    double                        displacement = 0;    // [m]
-    unsigned int                  maximum_cuts = 6;
-    double                        allowed_step = std::numeric_limits<double>::infinity(); // [s]
-    bool                          keeps_ledger = false;
-    std::unique_ptr<Ledger<dim>>  ledger;
-    std::unique_ptr<Physics<dim>> physics;
+    double                          asked_step   = 0.01; // [s]
+    double                          tolerance    = 0;    // [1]
+    double                          displacement = 0;    // [m]
+    unsigned int                    maximum_cuts = 6;
+    double                          allowed_step = std::numeric_limits<double>::infinity(); // [s]
+    bool                            keeps_ledger = false;
+    std::unique_ptr<Ledger<dim>>    ledger;
+    std::unique_ptr<Physics<dim>>   physics;
 
     bool                                  told_of_error = false;
     std::unique_ptr<const StepError<dim>> step_error; // nullptr: constant steps

@@ -96,17 +96,18 @@ namespace undine
     const double time; ///< t^n [s]
 
     /// Of all nodes, if the stage keeps rates. @{
-    typename FluidGeometry<dim>::Positions  before; ///< where they were at t^n [m]
-    typename FluidGeometry<dim>::Velocities way; ///< of bodies to the start, of others to the end [m]
+    typename FluidGeometry<dim>::Positions before; ///< where they were at t^n [m]
+    typename FluidGeometry<dim>::Velocities
+      way; ///< of bodies to the start, of others to the end [m]
     /// @}
   };
 
 
-  /// Those that there are. For steps of one stage: `initial`, B u with B at d^n, which the volume of
-  /// a closed chamber obeys to first order in h; `swept`, the mean of B on the way times (d^{n+1} -
-  /// d^n) / h, which it obeys exactly (BoundaryFlux). For stages that keep rates, whatever `kind`: B
-  /// u at the end of the stage, where chambers obey exactly (ChamberVolumes). The references must
-  /// outlive the result.
+  /// Those that there are. For steps of one stage: `initial`, B u with B at d^n, which the volume
+  /// of a closed chamber obeys to first order in h; `swept`, the mean of B on the way times
+  /// (d^{n+1} - d^n) / h, which it obeys exactly (BoundaryFlux). For stages that keep rates,
+  /// whatever `kind`: B u at the end of the stage, where chambers obey exactly (ChamberVolumes).
+  /// The references must outlive the result.
   template <int dim>
   std::unique_ptr<SurfaceFlux<dim>>
   make_surface_flux(const std::string          &kind,

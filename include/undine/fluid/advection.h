@@ -87,8 +87,9 @@ namespace undine
       const auto trace = flow.trace(place, -flow.dt());
       const bool is_part =
         divided != nullptr && divided->kind(index) != LatticeParts<dim>::Kind::whole;
-      value = is_part || flow.vicinity().is_near(place, trace.foot) ? near.value_at(index, place, trace.foot)
-                                                                    : far(trace, index);
+      value = is_part || flow.vicinity().is_near(place, trace.foot)
+                ? near.value_at(index, place, trace.foot)
+                : far(trace, index);
     });
     near.finish(carried, condition);
     return carried;

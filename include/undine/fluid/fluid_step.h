@@ -34,10 +34,10 @@ namespace undine
   /// A step of a single stage that keeps none is first order in time: forces act at t^{n+1} as a
   /// whole, which damps. Steady flows, however, hardly depend on h: v' = A(v^n + c h a^n) - c h a^n
   /// carries the share c of the parcels' acceleration along. In a steady flow c = 1/2 would be the
-  /// trapezoidal rule along their paths: v + h a / 2 at the foot is v - h a / 2 at the head. A force
-  /// -lambda v then multiplies v by (A - (A - 1) c z) / (1 + z) in a step, z = h lambda: up to 2 c
-  /// for stiff friction and A = -1. c = 0.45 keeps that below one and takes away nine tenths of the
-  /// error of first order in h.
+  /// trapezoidal rule along their paths: v + h a / 2 at the foot is v - h a / 2 at the head. A
+  /// force -lambda v then multiplies v by (A - (A - 1) c z) / (1 + z) in a step, z = h lambda: up
+  /// to 2 c for stiff friction and A = -1. c = 0.45 keeps that below one and takes away nine tenths
+  /// of the error of first order in h.
   template <int dim>
   struct FluidStep
   {

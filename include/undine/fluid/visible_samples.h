@@ -31,10 +31,10 @@ namespace undine
     std::optional<double>
     at(const dealii::Point<dim> &place) const;
 
-    /// What a path from `foot` brings to `place`, the point `index` of the lattice or the centroid of
-    /// one of its parts, as far as it can be seen from the foot. The path is followed from the point
-    /// itself, where the samples count: what does not move is kept as it is, step after step, and
-    /// never smoothed. By cubics where nothing is in their way.
+    /// What a path from `foot` brings to `place`, the point `index` of the lattice or the centroid
+    /// of one of its parts, as far as it can be seen from the foot. The path is followed from the
+    /// point itself, where the samples count: what does not move is kept as it is, step after step,
+    /// and never smoothed. By cubics where nothing is in their way.
     std::optional<double>
     along(const GridIndex<dim>     &index,
           const dealii::Point<dim> &place,
@@ -75,7 +75,8 @@ namespace undine
     std::optional<double>
     multilinear(const dealii::Point<dim> &place, const Eye &eye) const;
 
-    /// Mean, by measure, of what can be seen of one point of the lattice; `all_visible`: nothing can hide it.
+    /// Mean, by measure, of what can be seen of one point of the lattice; `all_visible`: nothing
+    /// can hide it.
     std::optional<double>
     value_of(const GridIndex<dim> &index, const Eye &eye, const bool all_visible) const;
 

@@ -12,9 +12,9 @@ namespace undine
   ///     y_1     = y^n + g (f^n + f_1),              g = c h / 2
   ///     y^{n+1} = y^n + w (f^n + f_1) + g f^{n+1},  w = sqrt(2) h / 4                        (T9)
   ///
-  /// Second order, L-stable: a mode of frequency omega has the damping ratio .0037 (omega h)^3, stiff
-  /// ones vanish. Pressures belong to the ends of stages, t_1 and
-  /// t^{n+1}, and enter f like all other forces.
+  /// Second order, L-stable: a mode of frequency omega has the damping ratio .0037 (omega h)^3,
+  /// stiff ones vanish. Pressures belong to the ends of stages, t_1 and t^{n+1}, and enter f like
+  /// all other forces.
   ///
   /// The first step, without f^n, is that of Alexander (SIAM J. Numer. Anal. 14 (1977) 1006,
   /// theorem 5): y_1 = y^n + g f_1, y^{n+1} = y^n + (h - g) f_1 + g f^{n+1}, with the same g.
@@ -39,13 +39,13 @@ namespace undine
       const double g = (1 - std::sqrt(0.5)) * dt;
       const double w = std::sqrt(2.) / 4 * dt;
       Stage        first, second;
-      first.length   = second.length = g;
-      first.end      = second.begin = knows_rates ? 2 * g : g;
-      first.earlier  = {{0, knows_rates ? g : 0}};
-      first.next_old = {0, knows_rates ? w : 0};
-      first.next_new = {first.end, knows_rates ? w : dt - g};
-      second.earlier = {first.next_old, first.next_new};
-      second.end     = dt;
+      first.length = second.length = g;
+      first.end = second.begin = knows_rates ? 2 * g : g;
+      first.earlier            = {{0, knows_rates ? g : 0}};
+      first.next_old           = {0, knows_rates ? w : 0};
+      first.next_new           = {first.end, knows_rates ? w : dt - g};
+      second.earlier           = {first.next_old, first.next_new};
+      second.end               = dt;
 
       first.is_last      = false;
       second.is_first    = false;

@@ -94,10 +94,9 @@ namespace
   void
   check_frequency(const double density)
   {
-    const double      exact = exact_frequency(density);
-    const std::string trapezoid =
-      "set Integrator = newmark\nset Gamma = 0.5";
-    const double fine_steps = 2 * M_PI / exact / 80, coarse_steps = 2 * fine_steps;
+    const double      exact      = exact_frequency(density);
+    const std::string trapezoid  = "set Integrator = newmark\nset Gamma = 0.5";
+    const double      fine_steps = 2 * M_PI / exact / 80, coarse_steps = 2 * fine_steps;
     const double coarse = measured_frequency<dim>(density, coarse_steps, trapezoid) / exact - 1;
     const double fine   = measured_frequency<dim>(density, fine_steps, trapezoid) / exact - 1;
     INFO(fmt::format("{}D, density {}: {:.2e} {:.2e}", dim, density, coarse, fine));

@@ -86,29 +86,30 @@ namespace
   driven_bar(const double dt, const double amplitude, const std::string &cells)
   {
     return steps_of(dt) + section("Time", "set Integrator = trapezoid_bdf2") +
-           section("Domain",
-                   plane_or_space<dim>("set Upper corner = 1, .25",
-                                       "set Upper corner = 1, .25, .25") +
-                     "\nset Cells = " + cells) +
+           section(
+             "Domain",
+             plane_or_space<dim>("set Upper corner = 1, .25", "set Upper corner = 1, .25, .25") +
+               "\nset Cells = " + cells) +
            section("Fluid",
                    "set Density = 1000\n" +
                      section("Boundaries", boundary("out", "right", "outflow"))) +
            section(
              "Bodies",
-             body("body",
-                  plane_or_space<dim>("set Lower corner = -.2, 0\nset Upper corner = .515, .25\nset "
-                                      "Cells = 8, 1",
-                                      "set Lower corner = -.2, 0, 0\nset Upper corner = .515, .25, "
-                                      ".25\nset Cells = 4, 1, 1") +
-                    "\nset Density = 100\nset Young's modulus = 2e4\nset Poisson's ratio = 0\n"
-                    "set Material = linear elastic",
-                  section("hand",
-                          "set Sides = left\nset Kind = prescribed motion\nset Displacement = " +
-                            fmt::format("{}*(1-cos(9*t))^2", amplitude / 4) +
-                            plane_or_space<dim>("; 0", "; 0; 0")) +
-                    clamp("guides",
-                          "1",
-                          plane_or_space<dim>("set Components = y", "set Components = y, z")))) +
+             body(
+               "body",
+               plane_or_space<dim>("set Lower corner = -.2, 0\nset Upper corner = .515, .25\nset "
+                                   "Cells = 8, 1",
+                                   "set Lower corner = -.2, 0, 0\nset Upper corner = .515, .25, "
+                                   ".25\nset Cells = 4, 1, 1") +
+                 "\nset Density = 100\nset Young's modulus = 2e4\nset Poisson's ratio = 0\n"
+                 "set Material = linear elastic",
+               section("hand",
+                       "set Sides = left\nset Kind = prescribed motion\nset Displacement = " +
+                         fmt::format("{}*(1-cos(9*t))^2", amplitude / 4) +
+                         plane_or_space<dim>("; 0", "; 0; 0")) +
+                 clamp("guides",
+                       "1",
+                       plane_or_space<dim>("set Components = y", "set Components = y, z")))) +
            section("Effects", convection()) +
            section("Solid numerics", "set Element degree = 1\nset Newton tolerance = 1e-12");
   }
@@ -120,19 +121,18 @@ namespace
   {
     return steps_of(dt) + section("Time", "set Integrator = trapezoid_bdf2") +
            section("Domain", "set Upper corner = 3, 1\nset Cells = 48, 16") +
-           section("Fluid",
-                   "set Density = 1000\n" +
-                     section("Boundaries",
-                             boundary("in",
-                                      "left",
-                                      "inflow",
-                                      "set Velocity = .15*sin(pi*t/2)^4; 0") +
-                               boundary("out", "right", "outflow"))) +
-           section("Bodies",
-                   body("body",
-                        "set Lower corner = 1.01, -.1\nset Upper corner = 1.11, .43\nset Cells = 2, "
-                        "8\nset Density = 1100\nset Young's modulus = 4e5\nset Poisson's ratio = .3",
-                        clamp("foot", "-y"))) +
+           section(
+             "Fluid",
+             "set Density = 1000\n" +
+               section("Boundaries",
+                       boundary("in", "left", "inflow", "set Velocity = .15*sin(pi*t/2)^4; 0") +
+                         boundary("out", "right", "outflow"))) +
+           section(
+             "Bodies",
+             body("body",
+                  "set Lower corner = 1.01, -.1\nset Upper corner = 1.11, .43\nset Cells = 2, "
+                  "8\nset Density = 1100\nset Young's modulus = 4e5\nset Poisson's ratio = .3",
+                  clamp("foot", "-y"))) +
            section("Effects", convection()) +
            section("Solid numerics", "set Newton tolerance = 1e-12");
   }

@@ -64,8 +64,7 @@ TEST_CASE("Supports hold what pressure does, with every integrator", "[coupled]"
                      "Density = 10\nset Young's modulus = 1e4\nset Poisson's ratio = .3",
                      clamp("all", "1", "set Sides = left, right, bottom, top"))) +
         section("Effects", convection()) +
-        section("Solid numerics",
-                "set Element degree = 1\nset Linear solver = direct") +
+        section("Solid numerics", "set Element degree = 1\nset Linear solver = direct") +
         section("Time", "set Integrator = " + name));
       run.step();
       run.step();

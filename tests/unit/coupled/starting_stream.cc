@@ -26,15 +26,16 @@ namespace
                      section("Boundaries",
                              boundary("in", "left", "inflow", "set Velocity = t; 0") +
                                boundary("out", "right", "outflow"))) +
-           section("Bodies",
-                   body("sheet",
-                        fmt::format("set Lower corner = {0}, -.05\nset Upper corner = {0} + {1}, {2}\n"
-                                    "set Cells = 1, 11\nset Density = 1000\n"
-                                    "set Young's modulus = 2e16\nset Poisson's ratio = 0",
-                                    .3 / cells_across,
-                                    thickness,
-                                    height),
-                        clamp("foot", "-y"))) +
+           section(
+             "Bodies",
+             body("sheet",
+                  fmt::format("set Lower corner = {0}, -.05\nset Upper corner = {0} + {1}, {2}\n"
+                              "set Cells = 1, 11\nset Density = 1000\n"
+                              "set Young's modulus = 2e16\nset Poisson's ratio = 0",
+                              .3 / cells_across,
+                              thickness,
+                              height),
+                  clamp("foot", "-y"))) +
            section("Time", "set Theta = 1");
   }
 

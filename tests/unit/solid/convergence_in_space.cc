@@ -131,7 +131,8 @@ namespace
                   plane_or_space<dim>("x+0.1*x*y; y-0.1*sin(x)", "x+0.1*x*y; y-0.1*sin(x); z"),
                   material),
       boundary("all", "set Kind = prescribed motion\n set Displacement = " + displacement),
-      fmt::format("set Element degree = {}", degree), "set Integrator = static"));
+      fmt::format("set Element degree = {}", degree),
+      "set Integrator = static"));
     const Expression<dim, dim> exact(displacement);
     const unsigned int         steps = 4;
     for (unsigned int step = 0; step < steps; ++step)
@@ -186,7 +187,8 @@ TEST_CASE("patch test: a uniform strain is exact on cells of any shape", "[solid
                             "set Material = " +
                      material,
                    boundary("all", "set Kind = prescribed motion\n set Displacement = " + uniform),
-                   fmt::format("set Element degree = {}", degree), "set Integrator = static"));
+                   fmt::format("set Element degree = {}", degree),
+                   "set Integrator = static"));
         solid.advance(1);
         CHECK(error_in_L2(solid.model, solid.state.displacement, Expression<2, 2>(uniform)) <
               1e-12);

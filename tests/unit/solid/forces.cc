@@ -206,7 +206,7 @@ TEST_CASE("follower pressure on a sheet in plane stress acts on its deformed edg
                boundary("floor", "set Sides = bottom\n set Components = y") +
                boundary("wet", "set Kind = pressure\n set Sides = right, top\n set Pressure = 3"),
              "",
-"set Integrator = static"));
+             "set Integrator = static"));
   const auto &report = squeezed.advance(1);
   CHECK(report.newton.iterations < 8);
   const double         stretch = 1 + squeezed.displacement({1, 1})[0];

@@ -27,7 +27,8 @@ namespace
                                       fmt::format("{}, {}, {}", 4 * cells, cells, cells)),
                   modulus),
       boundary("root", "set Sides = left"),
-      "set Linear solver = " + solver, "set Integrator = static");
+      "set Linear solver = " + solver,
+      "set Integrator = static");
   }
 
 
@@ -86,7 +87,8 @@ TEST_CASE("follower pressure: the unsymmetric tangent is solved iteratively too"
                "set Young's modulus = 1000\n set Poisson's ratio = 0.3",
                boundary("root", "set Sides = left") +
                  boundary("roof", "set Sides = top\n set Kind = pressure\n set Pressure = 4"),
-               "set Linear solver = " + solver, "set Integrator = static"));
+               "set Linear solver = " + solver,
+               "set Integrator = static"));
     const auto report = solid.advance(1);
     CHECK(report.note.empty());
     CHECK(report.newton.iterations < 8);

@@ -118,7 +118,7 @@ TEST_CASE("Newton's method converges quadratically on bodies", "[solid]")
                                 material,
                               boundary("root", "set Sides = left"),
                               "",
-"set Integrator = static"),
+                              "set Integrator = static"),
                      gravity);
       const auto residuals = solid.advance(1).newton.residuals;
       CHECK(residuals.size() <= 9);

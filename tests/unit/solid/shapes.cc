@@ -225,11 +225,10 @@ TEST_CASE("supports that make no sense are refused", "[solid]")
   CHECK_THAT(supports(moved("0; 0.1*cos(t)")),
              Catch::Contains("Boundaries/a") && Catch::Contains("0.1 m at t = 0 along y") &&
                Catch::Contains("0 m") && Catch::Contains("body 'body'"));
-  SolidModel<2>(read_scene_text(one_body("set Cells = 2, 2" + elastic,
-                                         moved("0; 0.1*cos(t)"),
-                                         "",
-"set Integrator = static")),
-                MPI_COMM_WORLD);
+  SolidModel<2>(
+    read_scene_text(one_body(
+      "set Cells = 2, 2" + elastic, moved("0; 0.1*cos(t)"), "", "set Integrator = static")),
+    MPI_COMM_WORLD);
   SolidModel<2>(
     read_scene_text(one_body("set Cells = 2, 2\n set Initial displacement = 0; 0.1" + elastic,
                              moved("0; 0.1*cos(t)"))),

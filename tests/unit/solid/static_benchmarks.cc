@@ -21,7 +21,7 @@ namespace
                   youngs_modulus),
       boundary("root", "set Sides = left"),
       "",
-"set Integrator = static");
+      "set Integrator = static");
   }
 
 
@@ -38,7 +38,8 @@ namespace
                       boundary("edge",
                                "set Sides = right\n set Kind = traction\n"
                                "set Traction = 0; t*100e3/0.016"),
-                    fmt::format("set Element degree = {}", degree), "set Integrator = static");
+                    fmt::format("set Element degree = {}", degree),
+                    "set Integrator = static");
   }
 
 
@@ -127,7 +128,7 @@ TEST_CASE("rollers hold one direction: a bar pulled contracts by Poisson's ratio
                                      "set Sides = right\n set Components = x\n"
                                      "set Kind = prescribed motion\n set Displacement = 0.02*t; 0"),
                           "",
-"set Integrator = static"));
+                          "set Integrator = static"));
   solid.advance(1);
   CHECK(solid.displacement({2, 1})[0] == Approx(0.02));
   CHECK(solid.displacement({2, 1})[1] == Approx(-0.3 * 0.01));

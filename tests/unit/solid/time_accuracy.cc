@@ -114,7 +114,8 @@ TEST_CASE("integrators state the error of a free oscillation", "[solid]")
                              "generalised_alpha\nset Spectral radius = 1",
                              "trapezoid_bdf2"})
     {
-      const auto   options = read_scene_text(std::string("subsection Time\nset Integrator = ") + choice + "\nend\n");
+      const auto options =
+        read_scene_text(std::string("subsection Time\nset Integrator = ") + choice + "\nend\n");
       const auto   integrator = choose_time_integrator(options);
       const auto   accuracy   = integrator->accuracy();
       const double h          = 0.01;

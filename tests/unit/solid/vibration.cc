@@ -25,7 +25,8 @@ namespace
                     "set Young's modulus = 100\n set Poisson's ratio = 0.3\n" +
                       keys,
                     ends.empty() ? boundary("root", "set Sides = left") : ends,
-                    "", "set Integrator = " + integrator);
+                    "",
+                    "set Integrator = " + integrator);
   }
 
 
@@ -140,7 +141,8 @@ TEST_CASE("a free body keeps its momentum, and with it its way", "[solid][mpi]")
       Solid<2>   solid(one_body("set Shape = ball\n set Density = 2\n set Young's modulus = 50\n"
                                 "set Poisson's ratio = 0.3\n set Initial velocity = 1+y; 2-3*x*y",
                               "",
-                              "", std::string("set Integrator = ") + integrator));
+                              "",
+                              std::string("set Integrator = ") + integrator));
       const auto before = linear_momentum(solid.model, solid.state.velocity);
       const auto start  = measure_bodies(solid.model, solid.state.displacement)[0];
       const auto turning =
@@ -179,7 +181,7 @@ TEST_CASE("a thin cantilever swings with its first frequency", "[solid]")
                                       mode),
                           boundary("root", "set Sides = left"),
                           "",
-"set Integrator = newmark"));
+                          "set Integrator = newmark"));
   // Time of the first return through zero: half a period.
   const double  dt = 1 / rate / 100;
   SolidPoint<2> tip(solid.model, "body", {L, H / 2});

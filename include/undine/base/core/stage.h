@@ -27,7 +27,7 @@ namespace undine
       double length = 0; ///< w, w' or w'' [s]
     };
 
-    std::vector<Earlier> earlier; ///< of which y^0 is made, t^n first
+    std::vector<Earlier> earlier;  ///< of which y^0 is made, t^n first
     Earlier              next_old; ///< the share of t^n in the stage that follows
     Earlier              next_new; ///< the share of this stage in it
 
