@@ -106,14 +106,6 @@ namespace undine
       "1",
       Allowed::between(1e-3, 10),
       "Sub-steps are at most this times l0 / sqrt(g H), H the fluid's depth at the start.");
-    add_choice<Places>(
-      options,
-      "Places",
-      numerics.places,
-      {{"end velocity", Places::end_velocity}, {"mean velocity", Places::mean_velocity}},
-      "With what velocity fluid goes through a sub-step. end velocity: that at its end, which "
-      "dampens swinging and impacts. mean velocity: the mean of those at its start and end, more "
-      "accurate where motion is smooth; first peaks of impacts are higher and scatter more.");
     options.add("Carry share",
                 numerics.carry_share,
                 "1",
@@ -135,6 +127,14 @@ namespace undine
       "step instead: faster for stiff bodies, and without their fast vibrations. 0: "
       "always explicit.");
     numerics.most_elastic_steps = most;
+    add_choice<Places>(
+      options,
+      "Places",
+      numerics.places,
+      {{"end velocity", Places::end_velocity}, {"mean velocity", Places::mean_velocity}},
+      "With what velocity fluid goes through a sub-step. end velocity: that at its end, which "
+      "dampens swinging and impacts. mean velocity: the mean of those at its start and end, more "
+      "accurate where motion is smooth; first peaks of impacts are higher and scatter more.");
   }
 
 
