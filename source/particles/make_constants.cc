@@ -90,12 +90,13 @@ namespace undine::particles
     constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);
     constants.surface_fade          = static_cast<Real>(numerics.surface_fade);
     constants.air                   = static_cast<Real>(numerics.air);
-    constants.collision_distance    = static_cast<Real>(numerics.collision_distance * l0);
-    constants.restitution           = static_cast<Real>(numerics.restitution);
-    constants.pair_force            = numerics.pair_force;
-    constants.coupling              = numerics.coupling;
-    constants.shifting              = static_cast<Real>(numerics.shifting);
-    constants.shifting_limit        = static_cast<Real>(numerics.shifting_limit * l0);
+    constants.way_share          = numerics.places == Places::mean_velocity ? Real(0.5) : Real(1);
+    constants.collision_distance = static_cast<Real>(numerics.collision_distance * l0);
+    constants.restitution        = static_cast<Real>(numerics.restitution);
+    constants.pair_force         = numerics.pair_force;
+    constants.coupling           = numerics.coupling;
+    constants.shifting           = static_cast<Real>(numerics.shifting);
+    constants.shifting_limit     = static_cast<Real>(numerics.shifting_limit * l0);
     return constants;
   }
 

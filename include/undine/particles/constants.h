@@ -33,6 +33,13 @@ namespace undine::particles
     surface_pressure ///< with the pressure of their elasticity, the source's equation 7
   };
 
+  /// The velocity with which fluid goes through a sub-step of length h.
+  enum class Places
+  {
+    end_velocity, ///< that at its end: dissipative, of first order in h
+    mean_velocity ///< the mean of those at its start and at its end
+  };
+
   /// The numbers of a scene that passes need, constant during a run; in the unit system of the
   /// scene.
   template <int dim, class Real>
@@ -70,6 +77,10 @@ namespace undine::particles
     Real surface_one_sidedness; ///< |sum w r/|r|| > this * n0: also at the free surface
     Real surface_fade;          ///< over twice of which both fade
     Real air;                   ///< how strongly missing neighbours pull pressures to zero [1]
+
+    /// beta of Places: an acceleration a takes a particle along by beta h^2 a in a sub-step; 1 with
+    /// the velocity at its end, 1/2 with the mean velocity [1].
+    Real way_share;
 
     Real collision_distance; ///< [m]
     Real restitution;        ///< [1]

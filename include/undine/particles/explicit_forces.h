@@ -14,7 +14,7 @@ namespace undine::particles
   /// collisions give to elastic bodies. Friction between two particles is the weighted difference
   /// of their velocities with the fluid's viscosity, collisions are inelastic impacts of particles
   /// that come closer than `collision_distance`: both are equal and opposite. Walls may have
-  /// friction by the law of the wall instead, see WallFriction.
+  /// friction by the law of the wall instead, see WallFriction. Places are (P2).
   template <int dim, class Real>
   struct ExplicitForces
   {
@@ -39,11 +39,12 @@ namespace undine::particles
           const Real dt = static_cast<Real>(control->dt);
           if (place.tag.kind() == Kind::fluid)
             {
-              motion.v += velocity_change(i, place.tag, motion.v, dt) +
-                          dt * constants.force.acceleration(place.x);
+              const auto force = constants.force.acceleration(place.x);
+              motion.v += velocity_change(i, place.tag, motion.v, dt) + dt * force;
               if (constants.wall_friction.acts())
                 motion.v += friction_of_walls(i, motion.v, dt);
-              place.x = constants.grid.wrapped(place.x + dt * motion.v);
+              const Real ahead = (1 - constants.way_share) * dt;
+              place.x          = constants.grid.wrapped(place.x + dt * (motion.v - ahead * force));
             }
           else if (place.tag.kind() == Kind::solid)
             solid_velocities[identities[i]] =

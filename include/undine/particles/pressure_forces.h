@@ -59,7 +59,7 @@ namespace undine::particles
   /// middle
   ///     P_ij = (rho_j P_i + rho_i P_j) / (rho_i + rho_j)
   /// that makes both particles of a pair accelerate alike, and virtual faces a_ij by PairForce;
-  /// then the correction of velocity and place (the source's equations 8 to 10), and a shift
+  /// then the correction of velocity and place (P7b), and a shift
   /// towards even spacing, next to the free surface along it: across, it would push the surface
   /// outwards. For bodies the acceleration is only kept.
   ///
@@ -281,7 +281,7 @@ namespace undine::particles
     {
       const Real dt = static_cast<Real>(control->dt);
       motion.v += dt * acceleration;
-      place.x += (dt * dt) * acceleration;
+      place.x += (constants.way_share * dt * dt) * acceleration;
       atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(motion.v))));
     }
 
