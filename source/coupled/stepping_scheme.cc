@@ -49,11 +49,18 @@ namespace undine
 
 
   template <int dim>
+  bool
+  SteppingScheme<dim>::has_stages() const
+  {
+    return integrator->stages(1, true).size() > 1;
+  }
+
+
+  template <int dim>
   Report
   SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
   {
-    const bool has_stages = integrator->stages(1, true).front().keeps_rates;
-    ledger                = std::make_unique<Ledger<dim>>(models, keeps_ledger, has_stages);
+    ledger = std::make_unique<Ledger<dim>>(models, keeps_ledger, has_stages());
     if (models.solid && models.fluid)
       physics = couple(models, *ledger, timing);
     else if (models.solid)

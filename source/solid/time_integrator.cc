@@ -38,6 +38,6 @@ namespace undine
   choose_time_integrator(const Options &scene)
   {
     return scene.section("Time").choose<TimeIntegrator>(
-      "Integrator", "theta", "How bodies and fluid advance in time.");
+      "Integrator", "trapezoid_bdf2", "How bodies and fluid advance in time.");
   }
 } // namespace undine

@@ -44,6 +44,10 @@ namespace undine
     step(State<dim> &state, double asked) override;
 
   protected:
+    /// Of the integrator that the scene chose.
+    bool
+    has_stages() const;
+
     /// Fluid and bodies together.
     virtual std::unique_ptr<Physics<dim>>
     couple(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing) const = 0;

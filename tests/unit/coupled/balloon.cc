@@ -37,8 +37,7 @@ namespace
                                     poissons_ratio),
                         clamp("rims", "1", "set Sides = left, right\nset Components = y"))) +
            section("Effects",
-                   convection() + section("damping", "set Stiffness coefficient = 5e-3")) +
-           section("Coupling", "set Boundary flux = swept");
+                   convection() + section("damping", "set Stiffness coefficient = 5e-3"));
   }
 
 

@@ -76,6 +76,10 @@ namespace
 } // namespace
 
 
+static const std::string swept_flux =
+  section("Time", "set Integrator = theta") + section("Coupling", "set Boundary flux = swept");
+
+
 TEST_CASE("Energy and momentum of a step are accounted for", "[coupled][mpi]")
 {
   const std::string splitting = "set Scheme = time_splitting\n";
@@ -89,7 +93,7 @@ TEST_CASE("Energy and momentum of a step are accounted for", "[coupled][mpi]")
   }
   SECTION("swept flux")
   {
-    check_closures<2>("", section("Coupling", "set Boundary flux = swept"));
+    check_closures<2>("", swept_flux);
   }
   SECTION("time splitting, 2D")
   {
@@ -126,7 +130,7 @@ TEST_CASE("Both sides of the surface get the same momentum, but not with time sp
   CHECK(interface("") < 1e-14);
   CHECK(interface("set Scheme = time_splitting\n") > 1e-3);
   // Forces on the way of the surface, not where it was.
-  const double swept = interface("", section("Coupling", "set Boundary flux = swept"));
+  const double swept = interface("", swept_flux);
   CHECK(swept > 1e-6);
   CHECK(swept < 1e-1);
 }

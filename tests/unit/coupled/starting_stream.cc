@@ -36,7 +36,7 @@ namespace
                               thickness,
                               height),
                   clamp("foot", "-y"))) +
-           section("Time", "set Theta = 1");
+           section("Time", "set Integrator = theta\nset Theta = 1");
   }
 
 
