@@ -103,6 +103,28 @@ namespace
     CHECK(std::abs(coarse) < .01);
     CHECK(std::abs(fine) < .005);
   }
+
+
+  /// Damping ratio of the first mode: the logarithm of how much an extreme is less than another,
+  /// per angle in between. The extremes are those of the parabola through three steps.
+  template <int dim>
+  double
+  damping_ratio(const double density, const double dt, const std::string &integrator)
+  {
+    CoupledRun<dim>       run(bar_and_water<dim>(density, dt, integrator));
+    std::vector<double>   extremes;
+    std::array<double, 3> last{};
+    for (unsigned int n = 0; n < 3000 && extremes.size() < 9; ++n)
+      {
+        run.step();
+        last               = {{last[1], last[2], run.column("centre of mass bar x") - length / 2}};
+        const double slope = (last[2] - last[0]) / 2, bend = last[2] - 2 * last[1] + last[0];
+        if (n > 2 && (last[1] - last[0]) * (last[2] - last[1]) <= 0)
+          extremes.push_back(std::abs(last[1] - slope * slope / (2 * bend)));
+      }
+    REQUIRE(extremes.size() == 9);
+    return std::log(extremes.front() / extremes.back()) / (8 * M_PI);
+  }
 } // namespace
 
 
@@ -111,4 +133,20 @@ TEST_CASE("A bar and a column of water swing with their exact frequency", "[coup
   for (const double density : {8000., 1000., 10.})
     check_frequency<2>(density);
   check_frequency<3>(1000.);
+}
+
+
+TEST_CASE("The steps of TR-BDF2 hardly damp what they resolve", "[coupled]")
+{
+  for (const double density : {8000., 1000., 10.})
+    {
+      const double dt      = .5 / exact_frequency(density);
+      const auto   damping = [&](const double step, const std::string &integrator) {
+        return damping_ratio<2>(density, step, "set Integrator = " + integrator);
+      };
+      const double fine = damping(dt / 16, "trapezoid_bdf2");
+      INFO(fmt::format("density {}: {:.2e}", density, fine));
+      CHECK(std::abs(damping(dt, "trapezoid_bdf2") - fine) <= std::max(.2 * std::abs(fine), .002));
+      CHECK(damping(dt, "theta") > .03);
+    }
 }
