@@ -7,10 +7,35 @@ namespace
 {
   constexpr double length = .5, column = .8, youngs_modulus = 2e5;
 
+  /// lambda of the first mode, by bisection.
+  double
+  exact_wave_number(const double density)
+  {
+    const double ratio = density * length / (1000 * column);
+    double       lower = 0, upper = M_PI / 2;
+    for (unsigned int n = 0; n < 60; ++n)
+      {
+        const double middle                                 = (lower + upper) / 2;
+        (middle * std::tan(middle) < ratio ? lower : upper) = middle;
+      }
+    return lower;
+  }
+
+
+  /// [1/s]
+  double
+  exact_frequency(const double density)
+  {
+    return exact_wave_number(density) * std::sqrt(youngs_modulus / density) / length;
+  }
+
+
   /// An elastic bar, held at its left end, closes a channel of water that is open on the right. Bar
   /// and water move along x only: without Poisson's effect the water is a mass at the bar's end,
   ///
   ///     lambda tan lambda = rho_s L / (rho_f L_f),    omega = lambda (E / rho_s)^1/2 / L.
+  ///
+  /// It starts in the shape of the first mode, sin(lambda x / L).
   ///
   /// Linear elements: facets are linear, which strains the end of one wide quadratic cell.
   template <int dim>
@@ -44,28 +69,14 @@ namespace
                                     height) +
                           fmt::format("\nset Density = {}\nset Young's modulus = {}\nset "
                                       "Poisson's ratio = 0\nset Material = linear elastic\nset "
-                                      "Initial displacement = 1e-4*x{}",
+                                      "Initial displacement = 1e-4*sin({}*x){}",
                                       density,
                                       youngs_modulus,
+                                      exact_wave_number(density) / length,
                                       plane_or_space<dim>(";0", ";0;0")),
                         clamp("wall", "1", "set Sides = left") + slides("y") +
                           plane_or_space<dim>("", slides("z")))) +
            section("Solid numerics", "set Element degree = 1") + section("Time", integrator);
-  }
-
-
-  /// Of the first mode [1/s], by bisection.
-  double
-  exact_frequency(const double density)
-  {
-    const double ratio = density * length / (1000 * column);
-    double       lower = 0, upper = M_PI / 2;
-    for (unsigned int n = 0; n < 60; ++n)
-      {
-        const double middle                                 = (lower + upper) / 2;
-        (middle * std::tan(middle) < ratio ? lower : upper) = middle;
-      }
-    return lower * std::sqrt(youngs_modulus / density) / length;
   }
 
 

@@ -87,11 +87,11 @@ TEST_CASE("A plate under water bends as under its pressure and stays at rest", "
 TEST_CASE("Steps much longer than a plate swings find its mean deflection", "[coupled]")
 {
   const double exact = -.0206931; // of the same elements at rest, see above
-  for (const double dt : {1. / 30, .2, 2.})
+  for (const double dt : {1. / 30, .1, .2})
     {
       CoupledRun<2> run(plate_under_water(dt, section("Time", "set Integrator = trapezoid_bdf2")));
       double        mean  = 0;
-      const int     steps = 40;
+      const int     steps = 100;
       for (int n = 0; n < 2 * steps; ++n)
         {
           run.step();
