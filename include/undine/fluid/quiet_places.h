@@ -8,8 +8,10 @@
 
 namespace undine
 {
-  /// Where nothing happens to a field that is carried: within reach of a point, all its values are
+  /// Where nothing happens to a field that is carried: within reach of a point all its values are
   /// the same but for a share of the field's range. What the flow brings there is what is there.
+  /// To be safe and fast, neighbours are compared: they differ by less than would add up to that
+  /// share on the longest way between two of these values.
   template <int dim>
   class QuietPlaces
   {
