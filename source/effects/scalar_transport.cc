@@ -176,11 +176,12 @@ namespace undine
     void
     transport(FluidStep<dim> &step) const override
     {
-      const auto timed = step.timing.section("scalar transport");
+      const auto timed = step.timing.section(this->name);
       for (const auto &field : fields)
         {
           auto &values = step.state.scalars.at(field->name);
-          values       = method->advect(step.flow, values, *field);
+          step.timing.memory.hold_briefly(this->name, values.memory_consumption());
+          values = method->advect(step.flow, values, *field);
         }
     }
 
@@ -190,6 +191,7 @@ namespace undine
       for (const auto &field : fields)
         if (!field->source.is_zero())
           {
+            const auto   timed  = step.timing.section(this->name);
             auto        &values = step.state.scalars.at(field->name);
             const double way    = step.stage.way();
             for_each_value(values, [&](double &value, const auto &place, const auto &) {
@@ -202,16 +204,31 @@ namespace undine
     void
     diffuse(FluidStep<dim> &step) const override
     {
-      const auto timed = step.timing.section("scalar diffusion");
       for (const auto &field : fields)
         if (field->diffusivity > 0)
           {
+            const auto timed = step.timing.section(this->name);
             if (!field->equation)
               field->equation = std::make_unique<ImplicitDiffusion<dim>>(
                 step.model, step.model.grid().cells(), *field, field->diffusivity);
             step.linear_iterations +=
               field->equation->step(step.state.scalars.at(field->name), step.end, step.stage.way());
           }
+    }
+
+    std::size_t
+    memory_consumption(const FluidState<dim> &state) const override
+    {
+      std::size_t sum = 0;
+      for (const auto &field : fields)
+        {
+          const auto values = state.scalars.find(field->name);
+          if (values != state.scalars.end())
+            sum += values->second.memory_consumption();
+          if (field->equation)
+            sum += field->equation->memory_consumption();
+        }
+      return sum;
     }
 
     Columns

@@ -34,9 +34,7 @@ namespace undine_tests
   {
     const auto options = read_scene_text(text);
     const auto effects = make_effects<dim>(options);
-    auto       names   = options.section("Effects").named_sections("effect");
-    std::sort(names.begin(), names.end());
-    ParticleModel<dim> model(options, NamedEffects<dim>{effects, names}, MPI_COMM_SELF);
+    ParticleModel<dim> model(options, effects, MPI_COMM_SELF);
     options.assert_all_used();
     return model;
   }
