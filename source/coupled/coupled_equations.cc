@@ -100,8 +100,7 @@ namespace undine
     const auto   result = solver.solve(system, residual, solid.displacement(x.block(0)), enough);
     timing.memory.hold_briefly("two-way coupling",
                                surface.matrix().memory_consumption() +
-                                 fluid.matrix().memory_consumption() +
-                                 solver.memory_consumption());
+                                 fluid.matrix().memory_consumption() + solver.memory_consumption());
     return result;
   }
 

@@ -114,24 +114,21 @@ namespace undine
                                                   bodies());
     {
       const auto phase = timing.section("transport");
-      run_phase(*fluid, Ledger<dim>::transport, [&](const auto &effect) {
-        effect.transport(*fluid);
-      });
+      run_phase(
+        *fluid, Ledger<dim>::transport, [&](const auto &effect) { effect.transport(*fluid); });
       fluid->settle();
       if (stage.is_last)
         ledger.add(Ledger<dim>::transport, state.fluid.velocity);
     }
     {
       const auto phase = timing.section("accelerate");
-      run_phase(*fluid, Ledger<dim>::forces, [&](const auto &effect) {
-        effect.accelerate(*fluid);
-      });
+      run_phase(
+        *fluid, Ledger<dim>::forces, [&](const auto &effect) { effect.accelerate(*fluid); });
     }
     {
       const auto phase = timing.section("diffuse");
-      run_phase(*fluid, Ledger<dim>::diffusion, [&](const auto &effect) {
-        effect.diffuse(*fluid);
-      });
+      run_phase(
+        *fluid, Ledger<dim>::diffusion, [&](const auto &effect) { effect.diffuse(*fluid); });
     }
     return fluid;
   }

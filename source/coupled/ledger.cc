@@ -32,6 +32,7 @@ namespace undine
     : models(models)
     , on(is_on)
     , has_stages(has_stages)
+    , by_effect(models.effects.size())
   {
   }
 
@@ -110,9 +111,9 @@ namespace undine
   {
     if (!on)
       return;
-    const Amount now  = amount(velocity);
-    const double done = work ? dealii::Utilities::MPI::sum(*work, models.communicator()) :
-                               now.energy - fluid.energy;
+    const Amount now = amount(velocity);
+    const double done =
+      work ? dealii::Utilities::MPI::sum(*work, models.communicator()) : now.energy - fluid.energy;
     by_effect[effect] += done;
     terms[phase].energy += done;
     terms[phase].momentum += now.momentum - fluid.momentum;

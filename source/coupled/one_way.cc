@@ -29,7 +29,7 @@ namespace undine
     at_start              = start;
     at_start.velocity     = 0;
     at_start.acceleration = 0;
-    state.solid = models.direction == Direction::fluid_to_body ? at_start : start;
+    state.solid           = models.direction == Direction::fluid_to_body ? at_start : start;
     fluid_side.initialize(state, projection, dt, report);
     state.solid = start;
     add_solid_columns(report, state, state.clock.time, SolidReport<dim>());
@@ -40,13 +40,12 @@ namespace undine
   void
   OneWay<dim>::step(State<dim> &state, const Stage &stage, Report &report)
   {
-    Half half = models.direction == Direction::fluid_to_body ? fluid_then_body(state, stage) :
-                                                               body_then_fluid(state, stage);
+    Half half = models.direction == Direction::fluid_to_body ? fluid_then_body(state, stage)
+                                                             : body_then_fluid(state, stage);
     if (ledger.is_on() && stage.is_last)
       book(half, state);
     report.newton_iterations += half.solid.newton.iterations;
-    report.linear_iterations +=
-      half.solid.newton.linear_iterations + half.projected.iterations;
+    report.linear_iterations += half.solid.newton.linear_iterations + half.projected.iterations;
     report.newton_reduction = reduction(half.solid.newton);
     report.note             = half.solid.note;
     fluid_side.finish(*half.fluid, state, report, half.projected.divergence);
@@ -88,10 +87,10 @@ namespace undine
     start_stage(state, stage, solid_step, ledger);
     half.fluid = fluid_side.predict(state, stage);
     advance_bodies(half, state, stage, {});
-    half.exchange.on_bodies = Vectors(models.surface->surface().n_nodes());
-    half.exchange.at_rest   = half.exchange.on_bodies;
-    half.exchange.velocities =
-      models.surface->with_bodies(state.solid.velocity, fluid_side.geometry()->surface_velocities());
+    half.exchange.on_bodies  = Vectors(models.surface->surface().n_nodes());
+    half.exchange.at_rest    = half.exchange.on_bodies;
+    half.exchange.velocities = models.surface->with_bodies(
+      state.solid.velocity, fluid_side.geometry()->surface_velocities());
     project(half, state, half.exchange.velocities);
     return half;
   }
@@ -105,9 +104,9 @@ namespace undine
                               const Stage                            &stage,
                               const typename SolidModel<dim>::Vector &forces)
   {
-    auto way   = state.solid.displacement;
-    half.solid = solid_step.step(
-      state.solid, environment, half.fluid->start, half.fluid->dt, timing, forces);
+    auto way = state.solid.displacement;
+    half.solid =
+      solid_step.step(state.solid, environment, half.fluid->start, half.fluid->dt, timing, forces);
     way.sadd(-1, 1, state.solid.displacement);
     end_stage(state, stage);
     half.exchange.way =

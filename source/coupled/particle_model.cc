@@ -82,9 +82,9 @@ namespace undine
 
 
   template <int dim>
-  ParticleModel<dim>::ParticleModel(const Options           &scene,
-                                    const Effects<dim>      &effects,
-                                    const MPI_Comm           communicator)
+  ParticleModel<dim>::ParticleModel(const Options      &scene,
+                                    const Effects<dim> &effects,
+                                    const MPI_Comm      communicator)
     : ranks(communicator)
     , particle_numerics(only_one_rank(scene, communicator))
     , box(scene, particle_numerics.spacing, particle_numerics.numerics.reach)
@@ -144,7 +144,7 @@ namespace undine
 
   template <int dim>
   void
-  ParticleModel<dim>::apply(const Effects<dim>      &effects, const Options &scene)
+  ParticleModel<dim>::apply(const Effects<dim> &effects, const Options &scene)
   {
     for (const auto &effect : effects)
       if (!effect->affect_particles(constants))

@@ -86,12 +86,11 @@ namespace undine
         const bool   carries = is_on("convection");
         if (largest.viscosity > 0)
           {
-            const double reynolds = add(
-              "Reynolds number", density * U * L / largest.viscosity, "rho U L / mu");
+            const double reynolds =
+              add("Reynolds number", density * U * L / largest.viscosity, "rho U L / mu");
             judge("convection",
                   carries,
-                  reynolds < 0.01,
-                  reynolds > 1,
+                  reynolds<0.01, reynolds> 1,
                   "friction outweighs inertia where Re < 0.01, inertia counts where Re > 1");
             add("friction layer over cell width",
                 L / std::sqrt(reynolds) / narrowest_cell(),
@@ -107,8 +106,7 @@ namespace undine
             add("way of the fluid over length", U * largest.time / L, "U T / L");
             judge("convection",
                   carries,
-                  result.numbers.back().value < 1e-3,
-                  result.numbers.back().value > 0.1,
+                  result.numbers.back().value<1e-3, result.numbers.back().value> 0.1,
                   "without friction a fluid that moves by a tenth of a length carries its "
                   "velocity along, by less than a thousandth not");
           }
@@ -143,8 +141,7 @@ namespace undine
         add("largest displacement gradient", largest.gradient, "|dd/dX|");
         judge("finite strain",
               is_finite,
-              largest.gradient < 1e-3,
-              largest.gradient > 0.05,
+              largest.gradient<1e-3, largest.gradient> 0.05,
               "strains and rotations below 0.001 are linear, above 0.05 not");
         if (is_on("damping") && largest.damped > 0 && largest.body_energy > 0)
           {
@@ -223,8 +220,7 @@ namespace undine
             "larger of displacement / L and speed / U");
         judge(name,
               models.direction == Direction::two_way,
-              U > 0 && result.numbers.back().value < 1e-4,
-              result.numbers.back().value > 0.01,
+              U > 0 && result.numbers.back().value<1e-4, result.numbers.back().value> 0.01,
               "the fluid does not notice bodies that move by less than 0.0001 of lengths and "
               "speeds ('Direction = fluid to body' would do), and does above 0.01");
       }

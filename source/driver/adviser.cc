@@ -42,9 +42,8 @@ namespace undine
     double
     column(const Columns &columns, const std::string &name)
     {
-      const auto found = std::find_if(columns.begin(), columns.end(), [&](const auto &column) {
-        return column.name == name;
-      });
+      const auto found = std::find_if(
+        columns.begin(), columns.end(), [&](const auto &column) { return column.name == name; });
       return found == columns.end() ? 0 : found->value;
     }
   } // namespace
@@ -85,8 +84,8 @@ namespace undine
             if (surface.body(facet) == body)
               for (const auto node : surface.facets()[facet])
                 {
-                  const double place = std::clamp(
-                    state.surface_positions[node][axis], lower[axis], upper[axis]);
+                  const double place =
+                    std::clamp(state.surface_positions[node][axis], lower[axis], upper[axis]);
                   first = std::min(first, place);
                   last  = std::max(last, place);
                 }
@@ -100,7 +99,7 @@ namespace undine
   Adviser<dim>::observe(const State<dim> &state, const Report &report)
   {
     largest.time += report.dt;
-    largest.speed  = std::max(largest.speed, column(report.columns, "Fluid largest speed"));
+    largest.speed = std::max(largest.speed, column(report.columns, "Fluid largest speed"));
     largest.damped += std::abs(column(report.columns, "energy by damping"));
     if (models.solid)
       {
@@ -110,7 +109,7 @@ namespace undine
         largest.body_energy = std::max(largest.body_energy,
                                        column(report.columns, "solid kinetic energy") +
                                          column(report.columns, "solid elastic energy"));
-        auto way = state.solid.displacement;
+        auto way            = state.solid.displacement;
         way -= first_displacement;
         largest.way = std::max(largest.way, way.linfty_norm());
         // Costs a loop over all cells: at steps 1, 2, 4, 8, ... and at the end.

@@ -54,9 +54,8 @@ namespace undine
   {
     add_effects(scene);
     add_implied_effects(scene);
-    std::stable_sort(rows.begin(), rows.end(), [](const Row &a, const Row &b) {
-      return a.is_on > b.is_on;
-    });
+    std::stable_sort(
+      rows.begin(), rows.end(), [](const Row &a, const Row &b) { return a.is_on > b.is_on; });
     for (auto &row : rows)
       row.start_bytes =
         dealii::Utilities::MPI::sum(double(timing.memory.of(row.name).now), communicator);
@@ -71,10 +70,8 @@ namespace undine
     const auto &effects  = scene.models.effects;
     for (const auto &name : registry.names())
       {
-        const auto found =
-          std::find_if(effects.begin(), effects.end(), [&](const auto &effect) {
-            return effect->name == name;
-          });
+        const auto found = std::find_if(
+          effects.begin(), effects.end(), [&](const auto &effect) { return effect->name == name; });
         if (found == effects.end())
           rows.push_back(
             {name, false, "no subsection 'Effects / " + name + "'", registry.help(name), {name}});
@@ -115,7 +112,7 @@ namespace undine
         result.seconds += work.seconds;
         result.calls += work.calls;
       }
-    result.seconds    = dealii::Utilities::MPI::max(result.seconds, communicator);
+    result.seconds = dealii::Utilities::MPI::max(result.seconds, communicator);
     result.peak_bytes =
       dealii::Utilities::MPI::sum(double(timing.memory.of(row.name).peak), communicator);
     return result;

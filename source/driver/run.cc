@@ -19,11 +19,8 @@ namespace undine
     /// The whole of a simulation. `state` is at its first time, initial or resumed.
     template <int dim>
     void
-    run_time_loop(State<dim>   &state,
-                  Scene<dim>   &scene,
-                  Adviser<dim> &adviser,
-                  Log          &log,
-                  TimingTree   &timing)
+    run_time_loop(
+      State<dim> &state, Scene<dim> &scene, Adviser<dim> &adviser, Log &log, TimingTree &timing)
     {
       Progress progress(log, state.clock);
       while (!state.clock.ended())
@@ -79,11 +76,8 @@ namespace undine
     /// settings.
     template <int dim>
     void
-    run_keeping_last_state(State<dim>   &state,
-                           Scene<dim>   &scene,
-                           Adviser<dim> &adviser,
-                           Log          &log,
-                           TimingTree   &timing)
+    run_keeping_last_state(
+      State<dim> &state, Scene<dim> &scene, Adviser<dim> &adviser, Log &log, TimingTree &timing)
     {
       try
         {

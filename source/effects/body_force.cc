@@ -142,16 +142,16 @@ namespace undine
           }
       throw options.error("",
                           "the scene has no body of this name",
-                          known.empty() ? "Remove it or add a section 'Bodies'." :
-                                          "Allowed: " + known);
+                          known.empty() ? "Remove it or add a section 'Bodies'."
+                                        : "Allowed: " + known);
     }
 
 
     static std::string
     describe(const VolumeForce<dim> &force)
     {
-      return force.per_volume.is_zero() ? "(" + force.acceleration.text() + ") m/s^2" :
-                                          "(" + force.per_volume.text() + ") N/m^3";
+      return force.per_volume.is_zero() ? "(" + force.acceleration.text() + ") m/s^2"
+                                        : "(" + force.per_volume.text() + ") N/m^3";
     }
 
     VolumeForce<dim>              on_fluid;

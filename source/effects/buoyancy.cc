@@ -95,11 +95,11 @@ namespace undine
     measure(typename Effect<dim>::Scales &scales, const FluidState<dim> &state) const override
     {
       for (const auto &lift : lifts)
-        for_each_value(state.scalars.at(lift.scalar),
-                       [&](const double value, const auto &, const auto &) {
-                         scales.lift = std::max(
-                           scales.lift, std::abs(lift.expansion * (value - lift.reference)));
-                       });
+        for_each_value(
+          state.scalars.at(lift.scalar), [&](const double value, const auto &, const auto &) {
+            scales.lift =
+              std::max(scales.lift, std::abs(lift.expansion * (value - lift.reference)));
+          });
     }
 
   private:
@@ -117,7 +117,7 @@ namespace undine
                      const unsigned int axis) const
     {
       const auto  &grid   = step.model.grid();
-      const auto  *open   = scalar.open_parts().get();
+      const auto  *open   = step.state.velocity.open_parts();
       const double factor = -lift.expansion * step.gravity[axis];
       accelerate_faces(
         step,

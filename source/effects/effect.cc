@@ -91,8 +91,7 @@ namespace undine
   read_effects(const Options &section)
   {
     const auto &registry = Registry<Effect<dim>>::instance();
-    auto        names =
-      section.is_reference() ? registry.names() : section.named_sections("effect");
+    auto names = section.is_reference() ? registry.names() : section.named_sections("effect");
     std::sort(names.begin(), names.end());
     Effects<dim> effects;
     for (const auto &name : names)

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace undine
@@ -160,8 +161,8 @@ namespace undine
             if (whole == 0)
               return;
             for (unsigned int b = 0; b < dim; ++b)
-              gradient[a][b] = (velocity[b](above) - velocity[b](below)) /
-                               distance(grid, a, below[a], above[a]);
+              gradient[a][b] =
+                (velocity[b](above) - velocity[b](below)) / distance(grid, a, below[a], above[a]);
           }
         result.known(cell) = 1;
         for (unsigned int a = 0; a < dim; ++a)

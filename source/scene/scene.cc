@@ -169,8 +169,8 @@ namespace undine
     make_particles(Scene<dim> &scene, const Options &options, const MPI_Comm communicator)
     {
       refuse_keys_of_other_schemes(options);
-      scene.models.particles = std::make_unique<const ParticleModel<dim>>(
-        options, scene.models.effects, communicator);
+      scene.models.particles =
+        std::make_unique<const ParticleModel<dim>>(options, scene.models.effects, communicator);
     }
 
 
@@ -187,8 +187,7 @@ namespace undine
         scene.models.solid = std::make_unique<const SolidModel<dim>>(options, communicator);
       if (options.section("Fluid").given())
         scene.models.fluid = std::make_unique<const FluidModel<dim>>(options, communicator);
-      scene.models.direction =
-        read_direction(options, scene.models.solid && scene.models.fluid);
+      scene.models.direction   = read_direction(options, scene.models.solid && scene.models.fluid);
       const bool has_obstacles = options.section("Obstacles").given();
       if (has_obstacles && !scene.models.fluid)
         throw options.error("Obstacles",

@@ -46,9 +46,7 @@ namespace undine
 
     template <int dim>
     void
-    add_weight(Vector                       &forces,
-               const SolidModel<dim>        &model,
-               const dealii::Tensor<1, dim> &gravity)
+    add_weight(Vector &forces, const SolidModel<dim> &model, const dealii::Tensor<1, dim> &gravity)
     {
       add_volume_load(
         forces,
@@ -97,8 +95,7 @@ namespace undine
                     const Action                &action)
     {
       if (environment.gravity.norm() > 0)
-        action("gravity",
-               [&](Vector &forces) { add_weight(forces, model, environment.gravity); });
+        action("gravity", [&](Vector &forces) { add_weight(forces, model, environment.gravity); });
       for (const auto &force : environment.forces)
         action(force.effect, [&](Vector &forces) { add_force(forces, model, force, time); });
     }
@@ -359,13 +356,13 @@ namespace undine
   }
 
 
-#define UNDINE_INSTANTIATE(dim)                                                               \
-  template Vector dead_loads(                                                                 \
-    const SolidModel<dim> &, const SolidEnvironment<dim> &, double, TimingTree *);            \
-  template std::map<std::string, Vector> effect_loads(                                        \
-    const SolidModel<dim> &, const SolidEnvironment<dim> &, double);                          \
-  template bool   has_pressure_loads(const SolidModel<dim> &);                                \
-  template Vector pressure_loads(const SolidModel<dim> &, const Vector &, double);            \
+#define UNDINE_INSTANTIATE(dim)                                                    \
+  template Vector dead_loads(                                                      \
+    const SolidModel<dim> &, const SolidEnvironment<dim> &, double, TimingTree *); \
+  template std::map<std::string, Vector> effect_loads(                             \
+    const SolidModel<dim> &, const SolidEnvironment<dim> &, double);               \
+  template bool   has_pressure_loads(const SolidModel<dim> &);                     \
+  template Vector pressure_loads(const SolidModel<dim> &, const Vector &, double); \
   template Matrix pressure_stiffness(const SolidModel<dim> &, const Vector &, double);
 
   UNDINE_INSTANTIATE(2)

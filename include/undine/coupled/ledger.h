@@ -150,7 +150,7 @@ namespace undine
     Amount                      bodies; ///< what they had at t^n
     Amount                      gain;
     std::array<Amount, n_terms> terms;
-    std::vector<double>         by_effect; ///< [J]
+    std::vector<double>         by_effect;            ///< [J]
     double                      energy           = 0; ///< of fluid and bodies
     double                      impulse_of_fluid = 0; ///< h sum_i |(B^T p)_i|
   };

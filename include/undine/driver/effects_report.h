@@ -40,7 +40,7 @@ namespace undine
       bool                     is_on;
       std::string              why;
       std::string              rule;
-      std::vector<std::string> phases;         ///< of the timing
+      std::vector<std::string> phases;          ///< of the timing
       double                   start_bytes = 0; ///< of all ranks
     };
 

@@ -15,10 +15,10 @@ namespace undine
   template <int dim>
   struct VolumeForce
   {
-    std::string          effect;                  ///< its name
-    std::string          body;                    ///< its name
-    Expression<dim, dim> acceleration;            ///< [m/s^2]
-    Expression<dim, dim> per_volume;              ///< at rest, besides [N/m^3]
+    std::string          effect;       ///< its name
+    std::string          body;         ///< its name
+    Expression<dim, dim> acceleration; ///< [m/s^2]
+    Expression<dim, dim> per_volume;   ///< at rest, besides [N/m^3]
   };
 
   /// What the effects that a scene calls for do to its bodies.

@@ -11,9 +11,10 @@ namespace undine
     typename ImpliedEffect<dim>::Call
     call(const Models<dim> &models) const override
     {
+      if (models.particles && models.particles->body_names().empty())
+        return {false, "no section 'Bodies'"};
       if (models.particles)
-        return {models.particles->has_fluid() && !models.particles->body_names().empty(),
-                "particles of fluid and bodies have one pressure"};
+        return {models.particles->has_fluid(), "section 'Bodies': one pressure for all particles"};
       if (!models.solid || !models.fluid)
         return {false, models.fluid ? "no section 'Bodies'" : "no section 'Fluid'"};
       if (models.direction == Direction::fluid_to_body)

@@ -32,8 +32,8 @@ namespace undine_tests
   ParticleModel<dim>
   read_particles(const std::string &text)
   {
-    const auto options = read_scene_text(text);
-    const auto effects = make_effects<dim>(options);
+    const auto         options = read_scene_text(text);
+    const auto         effects = make_effects<dim>(options);
     ParticleModel<dim> model(options, effects, MPI_COMM_SELF);
     options.assert_all_used();
     return model;

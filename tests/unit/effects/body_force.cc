@@ -128,21 +128,18 @@ TEST_CASE("body forces that contradict the scene are refused with a hint", "[bod
   CHECK_THAT(complaint(flying_block(), on_fluid("Acceleration", "1; 0")), Contains("has none"));
   CHECK_THAT(complaint(open_column(), on_block("Acceleration", "1; 0")),
              Contains("no body of this name"));
-  CHECK_THAT(
-    complaint(flying_block(),
-              body_force(section("Bodies", section("brick", "set Acceleration = 1; 0")))),
-    Contains("no body of this name") && Contains("'block'"));
+  CHECK_THAT(complaint(flying_block(),
+                       body_force(section("Bodies", section("brick", "set Acceleration = 1; 0")))),
+             Contains("no body of this name") && Contains("'block'"));
   CHECK_THAT(complaint(open_column(), on_fluid("Acceleration", "0; 0")), Contains("zero"));
   CHECK_THAT(
-    complaint(open_column(),
-              on_fluid("Acceleration", "1; 0\nset Force per volume = 1; 0")),
+    complaint(open_column(), on_fluid("Acceleration", "1; 0\nset Force per volume = 1; 0")),
     Contains("'Force per volume'") && Contains("Keep one"));
-  CHECK_THAT(
-    complaint(drop_of_particles(
-                section("Domain", "set Lower corner = 0, 0\nset Upper corner = 1, 1") +
-                section("Fluid", "set Density = 1")),
-              on_fluid("Acceleration", "1; 0")),
-    Contains("body force") && Contains("particles know"));
+  CHECK_THAT(complaint(drop_of_particles(
+                         section("Domain", "set Lower corner = 0, 0\nset Upper corner = 1, 1") +
+                         section("Fluid", "set Density = 1")),
+                       on_fluid("Acceleration", "1; 0")),
+             Contains("body force") && Contains("particles know"));
   CHECK_THAT(complaint(open_column(), section("vorticity confinement", "set Strength = 1")),
              Contains("convection") && Contains("Remove"));
 }

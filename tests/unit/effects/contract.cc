@@ -71,13 +71,11 @@ namespace
         const double value = run.column(column), expected = sample.energy(last, run);
         const double size = std::max(std::abs(value), std::abs(expected));
         if (std::abs(value - expected) > sample.tolerance * size)
-          complaints.push_back(
-            fmt::format("column '{}' is {:.12g}, its formula gives {:.12g}", column, value, expected));
+          complaints.push_back(fmt::format(
+            "column '{}' is {:.12g}, its formula gives {:.12g}", column, value, expected));
         if (size < 1e-6)
-          complaints.push_back(
-            fmt::format("column '{}' is {:.3g}: a sample in which it does something, please",
-                        column,
-                        value));
+          complaints.push_back(fmt::format(
+            "column '{}' is {:.3g}: a sample in which it does something, please", column, value));
       }
     return complaints;
   }
@@ -85,7 +83,7 @@ namespace
 
   /// Everything that the contract of effects asks for.
   std::vector<std::string>
-  complaints_about(const std::string &name, const std::map<std::string, EffectSample> &samples)
+  complaints_about(const std::string &name, const EffectSamples &samples)
   {
     const auto sample = samples.find(name);
     if (sample == samples.end())

@@ -39,11 +39,8 @@ namespace undine_tests
   open_column()
   {
     return sample_steps(0.02) +
-           std::string(FluidText{"4, 6",
-                                 boundary("open", "bottom, top", "pressure", "set Pressure = 0"),
-                                 "",
-                                 "",
-                                 2.});
+           std::string(FluidText{
+             "4, 6", boundary("open", "bottom, top", "pressure", "set Pressure = 0"), "", "", 2.});
   }
 
 
@@ -52,10 +49,9 @@ namespace undine_tests
   vortices(const double dt)
   {
     return sample_steps(dt) +
-           std::string(FluidText{
-             "16, 16",
-             boundary("around", "left, right, bottom, top", "periodic"),
-             "sin(2*pi*x)*cos(2*pi*y); -cos(2*pi*x)*sin(2*pi*y)"});
+           std::string(FluidText{"16, 16",
+                                 boundary("around", "left, right, bottom, top", "periodic"),
+                                 "sin(2*pi*x)*cos(2*pi*y); -cos(2*pi*x)*sin(2*pi*y)"});
   }
 
 
@@ -78,7 +74,8 @@ namespace undine_tests
   {
     return "set Scheme = particle\n" + section("Time", "set End = 1\nset Step = 0.01") +
            section("Output", "set Parts = ") +
-           section("Particles", "set Spacing = 0.1\nset Precision = double\nset Threads = 1") + more;
+           section("Particles", "set Spacing = 0.1\nset Precision = double\nset Threads = 1") +
+           more;
   }
 
 
@@ -139,24 +136,48 @@ namespace undine_tests
   }
 
 
-  /// Every registered effect has a sample here.
-  inline std::map<std::string, EffectSample>
-  effect_samples()
+  inline double
+  kinetic_energy_of_particles(const SampleRun &run)
+  {
+    double sum = 0; // of m |v|^2 / 2
+    for (std::size_t k = 0; k < run.state.particles.velocities.size(); ++k)
+      if (run.state.particles.tags[k].kind() == particles::Kind::fluid)
+        sum += norm_square(run.state.particles.velocities[k]);
+    return 0.1 * 0.1 * sum / 2;
+  }
+
+
+  using EffectSamples = std::map<std::string, EffectSample>;
+
+
+  inline void
+  add_samples_of_bodies(EffectSamples &samples)
+  {
+    samples["gravity"] = {flying_block(),
+                          "",
+                          "set Acceleration = 3, -10",
+                          "",
+                          [](const auto &before, const auto &after) {
+                            const auto way = way_of_block(before, after);
+                            return 0.5 * (3 * way[0] - 10 * way[1]);
+                          }};
+    samples["damping"] = {flying_block(),
+                          "",
+                          "set Mass coefficient = 2",
+                          "",
+                          [](const auto &before, const auto &after) {
+                            return -2 * 0.5 * way_of_block(before, after).norm_square() /
+                                   after.report.dt;
+                          }};
+  }
+
+
+  inline void
+  add_samples_of_columns(EffectSamples &samples)
   {
     const std::string gravity = section("gravity", "set Acceleration = 0, -10");
     const std::string heat =
       section("scalar transport", section("heat", "set Initial value = 2\nset Inflow value = 2"));
-    std::map<std::string, EffectSample> samples;
-
-    samples["gravity"] = {
-      flying_block(), "", "set Acceleration = 3, -10", "", [](const auto &before, const auto &after) {
-        const auto way = way_of_block(before, after);
-        return 0.5 * (3 * way[0] - 10 * way[1]);
-      }};
-    samples["damping"] = {
-      flying_block(), "", "set Mass coefficient = 2", "", [](const auto &before, const auto &after) {
-        return -2 * 0.5 * way_of_block(before, after).norm_square() / after.report.dt;
-      }};
     samples["body force"] = {open_column(),
                              "",
                              section("Fluid", "set Force per volume = 0; 6*t"),
@@ -164,13 +185,28 @@ namespace undine_tests
                              [](const auto &before, const auto &after) {
                                return work_on_column(before, after, 3 * after.state.clock.time);
                              }};
-    samples["buoyancy"] = {
+    samples["buoyancy"]   = {
+        open_column(),
+        gravity + heat,
+        section("heat", "set Expansion coefficient = 0.05\nset Reference value = 1"),
+        "",
+        [](const auto &before, const auto &after) { return work_on_column(before, after, 0.5); }};
+    samples["scalar transport"] = {
       open_column(),
-      gravity + heat,
-      section("heat", "set Expansion coefficient = 0.05\nset Reference value = 1"),
       "",
-      [](const auto &before, const auto &after) { return work_on_column(before, after, 0.5); }};
-    samples["viscosity"]  = {vortices(0.02), "", "set Dynamic viscosity = 0.05", "", loss_by_friction};
+      section("heat", "set Initial value = 1\nset Source = 3"),
+      "Integral of heat",
+      [](const auto &, const auto &after) { return 1 + 3 * after.state.clock.time; },
+      1e-9,
+      true};
+  }
+
+
+  inline void
+  add_samples_of_vortices(EffectSamples &samples)
+  {
+    samples["viscosity"] = {
+      vortices(0.02), "", "set Dynamic viscosity = 0.05", "", loss_by_friction};
     samples["convection"] = {vortices(0.05), "", "", "", [](const auto &, const auto &after) {
                                return rest_of_gain(after, {"projection"});
                              }};
@@ -178,39 +214,44 @@ namespace undine_tests
       vortices(0.05), convection(), "set Strength = 2", "", [](const auto &, const auto &after) {
         return rest_of_gain(after, {"projection", "convection"});
       }};
-    samples["scalar transport"] = {open_column(),
-                                   "",
-                                   section("heat", "set Initial value = 1\nset Source = 3"),
-                                   "Integral of heat",
-                                   [](const auto &, const auto &after) {
-                                     return 1 + 3 * after.state.clock.time;
-                                   },
-                                   1e-9,
-                                   true};
+  }
+
+
+  inline void
+  add_samples_of_particles(EffectSamples &samples)
+  {
+    const std::string all_sides   = "set Open sides = left, right, bottom, top";
     samples["central attraction"] = {
-      drop_of_particles(section("Domain", "set Lower corner = -2, -2\nset Upper corner = 2, 2\n"
-                                          "set Open sides = left, right, bottom, top") +
-                        section("Fluid", "set Density = 1\nset Region = 1 - x^2 - y^2")),
+      drop_of_particles(
+        section("Domain", "set Lower corner = -2, -2\nset Upper corner = 2, 2\n" + all_sides) +
+        section("Fluid", "set Density = 1\nset Region = 1 - x^2 - y^2")),
       "",
       "set Strength = 3",
       "Potential energy",
       potential_of_attraction};
     samples["wall friction"] = {
-      drop_of_particles(section("Domain", "set Lower corner = 0, 0\nset Upper corner = 2, 1\n"
-                                          "set Open sides = top") +
+      drop_of_particles(section("Domain",
+                                "set Lower corner = 0, 0\nset Upper corner = 2, 1\n"
+                                "set Open sides = top") +
                         section("Fluid",
                                 "set Density = 1\nset Region = 0.5 - y\n"
                                 "set Initial velocity = 1; 0")),
-      gravity,
+      section("gravity", "set Acceleration = 0, -10"),
       "set Dynamic viscosity = 1e-3",
       "Kinetic energy of fluid",
-      [](const auto &, const auto &after) {
-        double sum = 0;
-        for (std::size_t k = 0; k < after.state.particles.velocities.size(); ++k)
-          if (after.state.particles.tags[k].kind() == particles::Kind::fluid)
-            sum += norm_square(after.state.particles.velocities[k]);
-        return 0.1 * 0.1 * sum / 2;
-      }};
+      [](const auto &, const auto &after) { return kinetic_energy_of_particles(after); }};
+  }
+
+
+  /// Every registered effect has a sample here.
+  inline EffectSamples
+  effect_samples()
+  {
+    EffectSamples samples;
+    add_samples_of_bodies(samples);
+    add_samples_of_columns(samples);
+    add_samples_of_vortices(samples);
+    add_samples_of_particles(samples);
     return samples;
   }
 } // namespace undine_tests

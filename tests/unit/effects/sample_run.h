@@ -56,7 +56,7 @@ namespace undine_tests
   numbers_of(const State<2> &state)
   {
     std::vector<double> all;
-    const auto          add       = [&](const std::vector<double> &more) {
+    const auto          add = [&](const std::vector<double> &more) {
       all.insert(all.end(), more.begin(), more.end());
     };
     const auto add_field = [&](const Field<2> &field) {

@@ -12,9 +12,10 @@ namespace
   Velocity<dim>
   confining_acceleration(const std::string &fluid, const double strength)
   {
-    const auto options = read_scene_text(
-      fluid + section("Effects",
-                      section("vorticity confinement", fmt::format("set Strength = {}", strength))));
+    const auto options =
+      read_scene_text(fluid + section("Effects",
+                                      section("vorticity confinement",
+                                              fmt::format("set Strength = {}", strength))));
     const FluidModel<dim> model(options, MPI_COMM_WORLD);
     const auto            effects = make_effects<dim>(options);
     auto                  state   = model.initial_state();
@@ -50,7 +51,7 @@ TEST_CASE("confinement drives a parallel flow as its equation says", "[vorticity
 {
   // v_y = cos(kx)/k: omega = -sin(kx), N = grad|omega|/..., f_y = epsilon dx W_yx N_x, that is
   // epsilon dx sin(kx) sign(d|sin(kx)|/dx): away from zeros and peaks of omega it is smooth.
-  const double k = 2 * dealii::numbers::PI;
+  const double k        = 2 * dealii::numbers::PI;
   const auto   error_of = [&](const auto &velocity, const unsigned int n) {
     double largest = 0;
     for_each(velocity[1].owned(), [&](const auto &face) {
@@ -61,8 +62,8 @@ TEST_CASE("confinement drives a parallel flow as its equation says", "[vorticity
       // In 3D cells are wider along y and z than along x: their mean width counts.
       const double dim   = std::decay_t<decltype(velocity[0])>::dimension;
       const double width = std::pow(std::pow(0.25, dim - 1) / n, 1 / dim);
-      largest = std::max(largest,
-                         std::abs(velocity[1](face) / (3 * width) - s * (slope > 0 ? 1 : -1)));
+      largest =
+        std::max(largest, std::abs(velocity[1](face) / (3 * width) - s * (slope > 0 ? 1 : -1)));
     });
     return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
   };
@@ -81,13 +82,13 @@ TEST_CASE("confinement spins vortices of either sense faster, about their cores"
   for (const double sense : {1., -1.})
     {
       // A Gaussian vortex in a box with walls.
-      const auto push = confining_acceleration<2>(
-        FluidText{"40, 40",
-                  "",
-                  fmt::format("{0}*(0.5-y)*exp(-40*((x-.5)^2+(y-.5)^2)); "
-                              "{0}*(x-0.5)*exp(-40*((x-.5)^2+(y-.5)^2))",
-                              sense)},
-        2);
+      const auto push =
+        confining_acceleration<2>(FluidText{"40, 40",
+                                            "",
+                                            fmt::format("{0}*(0.5-y)*exp(-40*((x-.5)^2+(y-.5)^2)); "
+                                                        "{0}*(x-0.5)*exp(-40*((x-.5)^2+(y-.5)^2))",
+                                                        sense)},
+                                  2);
       double torque = 0;
       for (const unsigned int axis : {0, 1})
         torque += sum_over(push[axis].lattice(), [&](const auto &face) {
@@ -102,8 +103,7 @@ TEST_CASE("confinement spins vortices of either sense faster, about their cores"
 }
 
 
-TEST_CASE("confinement leaves even vorticity, walls and their neighbours alone",
-          "[vorticity][mpi]")
+TEST_CASE("confinement leaves even vorticity, walls and their neighbours alone", "[vorticity][mpi]")
 {
   const auto even = confining_acceleration<2>(FluidText{"12, 12", "", "-y; x"}, 5);
   for (const unsigned int axis : {0, 1})

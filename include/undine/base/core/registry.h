@@ -73,7 +73,7 @@ namespace undine
       operator=(const Hidden &) = delete;
 
     private:
-      Registry                                         &registry;
+      Registry                                        &registry;
       typename std::map<std::string, Entry>::node_type part;
     };
 
