@@ -10,6 +10,10 @@ namespace undine
   /// A force that the scene prescribes, as a function of place and time: on the fluid, explicit at
   /// the end of the step, and on bodies that it names, there of the place at rest. Its work is
   /// sum rho V h a (v + h a / 2) on the fluid and int f dX times the change of d on bodies.
+  ///
+  /// Where bodies cut the grid a force acts on a piece of area A_f as pressure does, along the way
+  /// from one pressure to the other: with (A_f / V_f) a.(x_1 - x_0) for a, a uniform force is the
+  /// gradient of a pressure, exactly, and fluid that it cannot move stays at rest.
   template <int dim>
   class BodyForce : public Effect<dim>
   {
@@ -63,20 +67,25 @@ namespace undine
     {
       if (is_zero(on_fluid))
         return;
-      const auto   timed   = step.timing.section(this->name);
-      const double density = step.model.density();
+      const auto  timed = step.timing.section(this->name);
+      const auto &grid  = step.model.grid();
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
           const auto &component = step.state.velocity[axis];
-          const auto  at        = [&](const dealii::Point<dim> &place) {
-            return on_fluid.acceleration.value(place, step.end, axis) +
-                   on_fluid.per_volume.value(place, step.end, axis) / density;
-          };
           accelerate_faces(
             step,
             axis,
-            [&](const auto &face) { return at(component.lattice().point(face)); },
-            [&](const unsigned int piece) { return at(component.divided()->all()[piece].place); });
+            [&](const auto &face) {
+              return acceleration(step, component.lattice().point(face))[axis];
+            },
+            [&](const unsigned int piece) {
+              const auto &open = *component.open_parts();
+              const auto &part = component.divided()->all()[piece];
+              const auto  across =
+                place(grid, open, axis, piece, 1) - place(grid, open, axis, piece, 0);
+              return acceleration(step, part.place) * across * part.measure /
+                     open.pieces[axis][piece].volume;
+            });
         }
     }
 
@@ -91,6 +100,34 @@ namespace undine
     }
 
   private:
+    /// Of the fluid [m/s^2].
+    dealii::Tensor<1, dim>
+    acceleration(const FluidStep<dim> &step, const dealii::Point<dim> &place) const
+    {
+      return on_fluid.acceleration.vector(place, step.end) +
+             on_fluid.per_volume.vector(place, step.end) / step.model.density();
+    }
+
+
+    /// Where the pressure below (0) or above (1) a piece is, taken as the centroid of its
+    /// component; at a side of the domain the piece's own.
+    static dealii::Point<dim>
+    place(const MacGrid<dim>   &grid,
+          const OpenParts<dim> &open,
+          const unsigned int    axis,
+          const unsigned int    piece,
+          const unsigned int    end)
+    {
+      const auto &part   = open.faces[axis].all()[piece];
+      const int   beside = open.pieces[axis][piece].components[end];
+      if (beside == OpenParts<dim>::outside)
+        return part.place;
+      if (beside == OpenParts<dim>::whole)
+        return grid.cells()->point(moved<dim>(part.index, axis, int(end) - 1));
+      return open.cells.all()[beside].place;
+    }
+
+
     static void
     read_force(VolumeForce<dim> &force, const Options &options, const std::string &arguments)
     {

@@ -129,7 +129,7 @@ TEST_CASE("around a stiff body the fluid is the same in all directions", "[one_w
                       section("Effects", convection()));
     for (unsigned int n = 0; n < 4; ++n)
       run.step();
-    return run.column("Pressure force on plate x");
+    return run.column("pressure force plate x");
   };
   const double both = force("two-way");
   CHECK(force("fluid to body") == Approx(both).epsilon(1e-3));
