@@ -37,8 +37,8 @@ namespace
              "Bodies",
              body("plate",
                   plane_or_space<dim>(
-                    "set Lower corner = .41, -.05\nset Upper corner = .46, .5\nset Cells = 1, 6",
-                    "set Lower corner = .41, -.05, .2\nset Upper corner = .46, .5, .7\n"
+                    "set Lower corner = .41, -.05\nset Upper corner = .46, .53\nset Cells = 1, 6",
+                    "set Lower corner = .41, -.05, .2\nset Upper corner = .46, .53, .7\n"
                     "set Cells = 1, 4, 3") +
                     fmt::format("\nset Density = 20\nset Young's modulus = {}\n"
                                 "set Poisson's ratio = .3",
@@ -84,7 +84,7 @@ TEMPLATE_TEST_CASE_SIG(
       run->step();
   // The fluid is the same to the bit, whatever the body does and whatever the scheme.
   CHECK(velocity_values(soft) == velocity_values(stiff));
-  CHECK(soft.column("max speed plate") > 100 * stiff.column("max speed plate"));
+  CHECK(soft.column("max speed plate") > 20 * stiff.column("max speed plate"));
   CHECK(soft.column("max speed plate") > 1e-3);
   // What the body feels is what the fluid gave.
   for (auto *run : {&soft, &stiff})
@@ -125,9 +125,10 @@ TEMPLATE_TEST_CASE_SIG("a body that does not feel the fluid moves as without it"
 TEST_CASE("around a stiff body the fluid is the same in all directions", "[one_way]")
 {
   const auto force = [](const std::string &name) {
-    CoupledRun<2> run(plate<2>(1e9) + stream<2>() + direction(name) +
-                      section("Effects", convection()));
-    for (unsigned int n = 0; n < 4; ++n)
+    // Implicit Euler, which leaves no vibrations of the plate.
+    CoupledRun<2> run(plate<2>(1e9) + section("Time", "set Integrator = theta\nset Theta = 1") +
+                      stream<2>() + direction(name) + section("Effects", convection()));
+    for (unsigned int n = 0; n < 8; ++n)
       run.step();
     return run.column("pressure force plate x");
   };
