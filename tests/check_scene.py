@@ -15,7 +15,8 @@ import tempfile
 import scene_tools
 
 TOLERANCE = 1e-7
-WRITTEN = ("log.txt", "original.prm", "parameters.prm", "parameters.json", "timing")
+WRITTEN = ("log.txt", "original.prm", "parameters.prm", "parameters.json", "timing",
+           "effects.json")
 
 
 def settings(scene):

@@ -206,6 +206,14 @@ namespace undine
   }
 
 
+  template <int dim>
+  std::size_t
+  BlockSolver<dim>::memory_consumption() const
+  {
+    return schur ? schur->memory_consumption() : 0;
+  }
+
+
   template class BlockSolver<2>;
   template class BlockSolver<3>;
 } // namespace undine

@@ -97,7 +97,11 @@ namespace undine
     residual *= -1.;
     // No better than Newton's method needs it.
     const double enough = 0.01 * model.numerics().newton.relative_tolerance / last_norm;
-    return solver.solve(system, residual, solid.displacement(x.block(0)), enough);
+    const auto   result = solver.solve(system, residual, solid.displacement(x.block(0)), enough);
+    timing.memory.hold_briefly("two-way coupling",
+                               surface.matrix().memory_consumption() +
+                                 fluid.matrix().memory_consumption() + solver.memory_consumption());
+    return result;
   }
 
 

@@ -207,6 +207,34 @@ namespace undine
 
 
   template <int dim>
+  std::size_t
+  FluidGeometry<dim>::memory_consumption() const
+  {
+    const auto bytes = [](const auto &...lists) {
+      return ((lists.capacity() * sizeof(lists.front())) + ...);
+    };
+    std::size_t sum = bytes(cells.cells,
+                            cells.components,
+                            cells.faces,
+                            cells.pieces,
+                            cells.fragments,
+                            cells.corners.first,
+                            cells.corners.points,
+                            parts.cut_components,
+                            parts.open_components,
+                            positions,
+                            was_at,
+                            velocities);
+    if (parts.open)
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        sum += bytes(parts.open->pieces[axis], parts.open->faces[axis].all());
+    if (flux_operator)
+      sum += bytes(flux_operator->entries());
+    return sum;
+  }
+
+
+  template <int dim>
   std::string
   complaint_at_start(const Models<dim> &models)
   {

@@ -64,6 +64,36 @@ namespace undine
         state.surface_positions = models.surface->positions(state.solid, time);
       }
     add_columns(report, state.fluid, projected.divergence, time);
+    count_memory(state.fluid);
+  }
+
+
+  /// `act` on every effect, and book what each has done.
+  template <int dim>
+  template <class Action>
+  void
+  FluidSide<dim>::run_phase(FluidStep<dim>                   &fluid,
+                            const typename Ledger<dim>::Phase phase,
+                            const Action                     &act)
+  {
+    for (unsigned int e = 0; e < models.effects.size(); ++e)
+      {
+        fluid.work.reset();
+        act(*models.effects[e]);
+        if (fluid.stage.is_last)
+          ledger.add(phase, e, fluid.state.velocity, fluid.work);
+      }
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::count_memory(const FluidState<dim> &state)
+  {
+    for (const auto &effect : models.effects)
+      timing.memory.hold(effect->name, effect->memory_consumption(state));
+    if (cut)
+      timing.memory.hold("surfaces in the fluid", cut->memory_consumption());
   }
 
 
@@ -74,7 +104,7 @@ namespace undine
     if (stage.is_first)
       ledger.start(state.fluid.velocity);
     place_surfaces(state, stage);
-    auto       fluid = std::make_unique<FluidStep<dim>>(model,
+    auto fluid = std::make_unique<FluidStep<dim>>(model,
                                                   state.fluid,
                                                   state.next_velocity,
                                                   uniform_gravity,
@@ -82,28 +112,23 @@ namespace undine
                                                   stage,
                                                   timing,
                                                   bodies());
-    const auto book  = [&](const typename Ledger<dim>::Phase phase) {
-      if (stage.is_last)
-        ledger.add(phase, state.fluid.velocity);
-    };
     {
       const auto phase = timing.section("transport");
-      for (const auto &effect : models.effects)
-        effect->transport(*fluid);
+      run_phase(
+        *fluid, Ledger<dim>::transport, [&](const auto &effect) { effect.transport(*fluid); });
       fluid->settle();
-      book(Ledger<dim>::transport);
+      if (stage.is_last)
+        ledger.add(Ledger<dim>::transport, state.fluid.velocity);
     }
     {
       const auto phase = timing.section("accelerate");
-      for (const auto &effect : models.effects)
-        effect->accelerate(*fluid);
-      book(Ledger<dim>::forces);
+      run_phase(
+        *fluid, Ledger<dim>::forces, [&](const auto &effect) { effect.accelerate(*fluid); });
     }
     {
       const auto phase = timing.section("diffuse");
-      for (const auto &effect : models.effects)
-        effect->diffuse(*fluid);
-      book(Ledger<dim>::diffusion);
+      run_phase(
+        *fluid, Ledger<dim>::diffusion, [&](const auto &effect) { effect.diffuse(*fluid); });
     }
     return fluid;
   }
@@ -124,6 +149,7 @@ namespace undine
         state.surface_positions = cut->surface_positions();
       }
     report.linear_iterations += fluid.linear_iterations;
+    count_memory(state.fluid);
     if (!fluid.stage.is_last)
       return;
     const auto phase = timing.section("measure");

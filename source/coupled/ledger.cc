@@ -3,6 +3,7 @@
 #include <undine/coupled/ledger.h>
 #include <undine/fluid/fluid_quantities.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace undine
@@ -31,6 +32,7 @@ namespace undine
     : models(models)
     , on(is_on)
     , has_stages(has_stages)
+    , by_effect(models.effects.size())
   {
   }
 
@@ -42,6 +44,15 @@ namespace undine
     gain   = {};
     terms  = {};
     energy = impulse_of_fluid = 0;
+    by_effect.assign(models.effects.size(), 0.);
+  }
+
+
+  template <int dim>
+  typename Ledger<dim>::Amount
+  Ledger<dim>::amount(const Velocity<dim> &velocity) const
+  {
+    return {kinetic_energy(*models.fluid, velocity), linear_momentum(*models.fluid, velocity)};
   }
 
 
@@ -52,7 +63,7 @@ namespace undine
     start();
     if (!on)
       return;
-    fluid = {kinetic_energy(*models.fluid, velocity), linear_momentum(*models.fluid, velocity)};
+    fluid = amount(velocity);
     gain.energy -= fluid.energy;
     gain.momentum -= fluid.momentum;
   }
@@ -84,11 +95,29 @@ namespace undine
   {
     if (!on)
       return;
-    const Amount now{kinetic_energy(*models.fluid, velocity),
-                     linear_momentum(*models.fluid, velocity)};
-    terms[phase].energy   = now.energy - fluid.energy;
-    terms[phase].momentum = now.momentum - fluid.momentum;
-    fluid                 = now;
+    const Amount now = amount(velocity);
+    terms[phase].energy += now.energy - fluid.energy;
+    terms[phase].momentum += now.momentum - fluid.momentum;
+    fluid = now;
+  }
+
+
+  template <int dim>
+  void
+  Ledger<dim>::add(const Phase                  phase,
+                   const unsigned int           effect,
+                   const Velocity<dim>         &velocity,
+                   const std::optional<double> &work)
+  {
+    if (!on)
+      return;
+    const Amount now = amount(velocity);
+    const double done =
+      work ? dealii::Utilities::MPI::sum(*work, models.communicator()) : now.energy - fluid.energy;
+    by_effect[effect] += done;
+    terms[phase].energy += done;
+    terms[phase].momentum += now.momentum - fluid.momentum;
+    fluid = now;
   }
 
 
@@ -144,6 +173,10 @@ namespace undine
     terms[by_damping]           = {-solid.damping, dt * solid.damping_force};
     terms[by_inertia]           = {-solid.inertia_loss, -solid.inertia_gap};
     terms[by_elasticity].energy = -solid.elastic_loss;
+    for (unsigned int e = 0; e < models.effects.size(); ++e)
+      if (const auto found = solid.loads_by_effect.find(models.effects[e]->name);
+          found != solid.loads_by_effect.end())
+        by_effect[e] += found->second;
   }
 
 
@@ -175,6 +208,22 @@ namespace undine
   }
 
 
+  /// An effect that has a term of its own, as damping has, needs no other.
+  template <int dim>
+  void
+  Ledger<dim>::add_effects(Columns &columns) const
+  {
+    for (unsigned int e = 0; e < models.effects.size(); ++e)
+      {
+        const std::string name = "energy by " + models.effects[e]->name;
+        if (std::none_of(columns.begin(), columns.end(), [&](const auto &column) {
+              return column.name == name;
+            }))
+          columns.push_back({name, "J", by_effect[e]});
+      }
+  }
+
+
   template <int dim>
   Columns
   Ledger<dim>::columns() const
@@ -191,6 +240,7 @@ namespace undine
           if (impulse_of_fluid == 0)
             impulses += terms[term].momentum.norm();
         }
+    add_effects(result);
     result.push_back({"energy closure", "1", relative(std::abs(missing().energy), energies)});
     for (unsigned int axis = 0; axis < dim; ++axis)
       result.push_back(

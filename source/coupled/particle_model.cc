@@ -82,9 +82,9 @@ namespace undine
 
 
   template <int dim>
-  ParticleModel<dim>::ParticleModel(const Options           &scene,
-                                    const NamedEffects<dim> &effects,
-                                    const MPI_Comm           communicator)
+  ParticleModel<dim>::ParticleModel(const Options      &scene,
+                                    const Effects<dim> &effects,
+                                    const MPI_Comm      communicator)
     : ranks(communicator)
     , particle_numerics(only_one_rank(scene, communicator))
     , box(scene, particle_numerics.spacing, particle_numerics.numerics.reach)
@@ -144,12 +144,12 @@ namespace undine
 
   template <int dim>
   void
-  ParticleModel<dim>::apply(const NamedEffects<dim> &effects, const Options &scene)
+  ParticleModel<dim>::apply(const Effects<dim> &effects, const Options &scene)
   {
-    for (unsigned int e = 0; e < effects.effects.size(); ++e)
-      if (!effects.effects[e]->affect_particles(constants))
+    for (const auto &effect : effects)
+      if (!effect->affect_particles(constants))
         throw scene.section("Effects")
-          .section(effects.names[e])
+          .section(effect->name)
           .error("",
                  "this effect is one of fluids on a grid or of bodies of finite elements",
                  "Remove the section: particles know 'gravity', 'viscosity', 'wall friction' and "

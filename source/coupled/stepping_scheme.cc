@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/one_way.h>
 #include <undine/coupled/single_physics.h>
 #include <undine/coupled/stepping_scheme.h>
 
@@ -61,7 +62,9 @@ namespace undine
   SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
   {
     ledger = std::make_unique<Ledger<dim>>(models, keeps_ledger, has_stages());
-    if (models.solid && models.fluid)
+    if (models.direction != Direction::two_way)
+      physics = std::make_unique<OneWay<dim>>(models, *ledger, timing);
+    else if (models.solid && models.fluid)
       physics = couple(models, *ledger, timing);
     else if (models.solid)
       physics = std::make_unique<SolidAlone<dim>>(models, *ledger, timing);

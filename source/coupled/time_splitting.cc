@@ -48,8 +48,11 @@ namespace undine
     step(State<dim> &state, const Stage &stage, Report &report) override
     {
       SurfaceExchange<dim> exchange;
-      // J p^n, where the grid was cut when p^n was computed.
-      exchange.on_bodies = geometry_of(models, state)->pressure_forces(state.fluid.pressure);
+      {
+        const auto timed = timing.section("couple");
+        // J p^n, where the grid was cut when p^n was computed.
+        exchange.on_bodies = geometry_of(models, state)->pressure_forces(state.fluid.pressure);
+      }
       start_stage(state, stage, solid_step, ledger);
       const auto   fluid    = fluid_side.predict(state, stage);
       const auto  &geometry = *fluid_side.geometry();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/version.h>
 #include <undine/coupled/fluid_geometry.h>
+#include <undine/driver/effects_report.h>
 #include <undine/driver/log.h>
 #include <undine/driver/progress.h>
 #include <undine/driver/run.h>
@@ -18,7 +19,8 @@ namespace undine
     /// The whole of a simulation. `state` is at its first time, initial or resumed.
     template <int dim>
     void
-    run_time_loop(State<dim> &state, Scene<dim> &scene, Log &log, TimingTree &timing)
+    run_time_loop(
+      State<dim> &state, Scene<dim> &scene, Adviser<dim> &adviser, Log &log, TimingTree &timing)
     {
       Progress progress(log, state.clock);
       while (!state.clock.ended())
@@ -26,6 +28,7 @@ namespace undine
           const double dt     = scene.scheme->choose_dt(state);
           const Report report = scene.scheme->step(state, dt);
           state.clock.advance(report.dt); // what was accepted; retries happen inside step
+          adviser.observe(state, report);
           const auto timed = timing.section("output");
           for (auto &output : scene.outputs)
             if (output->due(state.clock))
@@ -73,11 +76,12 @@ namespace undine
     /// settings.
     template <int dim>
     void
-    run_keeping_last_state(State<dim> &state, Scene<dim> &scene, Log &log, TimingTree &timing)
+    run_keeping_last_state(
+      State<dim> &state, Scene<dim> &scene, Adviser<dim> &adviser, Log &log, TimingTree &timing)
     {
       try
         {
-          run_time_loop(state, scene, log, timing);
+          run_time_loop(state, scene, adviser, log, timing);
         }
       catch (const FileError &error)
         {
@@ -161,9 +165,17 @@ namespace undine
         start_outputs(state, first, scene, timing, communicator);
       }
       print_unknowns(log, scene);
-      run_keeping_last_state(state, scene, log, timing);
+      const EffectsReport<dim> effects(scene, timing);
+      Adviser<dim>             adviser(scene.models, state);
+      const auto               file = scene.directory / "effects.json";
+      effects.print_start(log);
+      write_whole_file(file, effects.json({}), communicator);
+      run_keeping_last_state(state, scene, adviser, log, timing);
       write_checkpoint(scene.directory, scene.models, state);
       write_timing(scene.directory, timing, log, communicator);
+      const auto advice = adviser.advice();
+      effects.print_end(log, advice);
+      write_whole_file(file, effects.json(advice), communicator);
     }
 
 

@@ -77,8 +77,13 @@ namespace undine
       if (!resumed)
         {
           // What an earlier run left in the same folder must not be taken for results of this.
-          for (const char *name :
-               {"checkpoint", "statistics", "timing", "solution", "solution.pvd", "solution.xdmf"})
+          for (const char *name : {"checkpoint",
+                                   "statistics",
+                                   "timing",
+                                   "effects.json",
+                                   "solution",
+                                   "solution.pvd",
+                                   "solution.xdmf"})
             fs::remove_all(directory / name, problem);
           write_file(directory / "original.prm", options.file().text());
         }
@@ -87,25 +92,11 @@ namespace undine
   }
 
 
-  namespace
+  void
+  write_whole_file(const fs::path &path, const std::string &text, MPI_Comm communicator)
   {
-    template <int dim>
-    void
-    print_effects(Log &log, const Scene<dim> &scene)
-    {
-      log.print("\n{:<20} {:<4} why", "effect", "");
-      for (const auto &name : Registry<Effect<dim>>::instance().names())
-        {
-          const auto found = std::find(scene.effect_names.begin(), scene.effect_names.end(), name);
-          if (found == scene.effect_names.end())
-            log.print("{:<20} off  no subsection 'Effects / {}'", name, name);
-          else
-            log.print("{:<20} on   {}",
-                      name,
-                      scene.models.effects[found - scene.effect_names.begin()]->summary());
-        }
-    }
-  } // namespace
+    on_first_rank(communicator, [&] { write_file(path, text); });
+  }
 
 
   template <int dim>
@@ -122,7 +113,6 @@ namespace undine
               dim,
               options.file().name(),
               scene.directory.string());
-    print_effects(log, scene);
   }
 
 
@@ -150,7 +140,7 @@ namespace undine
   {
     std::ostringstream table;
     timing.write(table);
-    on_first_rank(communicator, [&] { write_file(directory / "timing", table.str()); });
+    write_whole_file(directory / "timing", table.str(), communicator);
     log.print("\n{}", table.str());
   }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/effects/face_forces.h>
 #include <undine/fluid/pressure_numbers.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace undine
 {
@@ -78,15 +79,27 @@ namespace undine
     void
     accelerate(FluidStep<dim> &step) const override
     {
-      const auto timed = step.timing.section("buoyancy");
+      const auto timed = step.timing.section(this->name);
       for (const auto &lift : lifts)
         {
           auto scalar = step.state.scalars.at(lift.scalar);
           scalar.exchange(1);
+          step.timing.memory.hold_briefly(this->name, scalar.memory_consumption());
           for (unsigned int axis = 0; axis < dim; ++axis)
             if (step.gravity[axis] != 0)
-              accelerate_faces(step, scalar, lift, axis);
+              accelerate_along(step, scalar, lift, axis);
         }
+    }
+
+    void
+    measure(typename Effect<dim>::Scales &scales, const FluidState<dim> &state) const override
+    {
+      for (const auto &lift : lifts)
+        for_each_value(
+          state.scalars.at(lift.scalar), [&](const double value, const auto &, const auto &) {
+            scales.lift =
+              std::max(scales.lift, std::abs(lift.expansion * (value - lift.reference)));
+          });
     }
 
   private:
@@ -97,36 +110,42 @@ namespace undine
       double      reference = 0;
     };
 
-    /// On faces between two cells with the value there, linear between the centres; on openings
-    /// with that of the cell inside.
     void
-    accelerate_faces(FluidStep<dim>    &step,
+    accelerate_along(FluidStep<dim>    &step,
                      const Field<dim>  &scalar,
                      const Lift        &lift,
                      const unsigned int axis) const
     {
-      const auto  &grid      = step.model.grid();
-      auto        &component = step.state.velocity[axis];
-      const auto  *divided   = component.divided();
-      const double factor    = -step.dt * lift.expansion * step.gravity[axis];
-      for_each(component.owned(), [&](const GridIndex<dim> &face) {
-        if (divided && divided->kind(face) != LatticeParts<dim>::Kind::whole)
-          return;
-        auto below = moved<dim>(face, axis, -1);
-        auto above = face;
-        if (grid.at_boundary(axis, face))
-          (face[axis] == 0 ? below : above) = face[axis] == 0 ? above : below;
-        const double width_below = grid.cell_width(axis, below[axis]);
-        const double width_above = grid.cell_width(axis, above[axis]);
-        const double value =
-          (scalar(below) * width_above + scalar(above) * width_below) / (width_below + width_above);
-        component(face) += factor * (value - lift.reference);
-      });
-      for (std::size_t k = 0; k < component.parts().size(); ++k)
-        if (divided->owns(k))
-          component.parts()[k] +=
-            factor * (mean_of_ends(scalar, *component.open_parts(), axis, k) - lift.reference);
-      set_means(component, grid);
+      const auto  &grid   = step.model.grid();
+      const auto  *open   = step.state.velocity.open_parts();
+      const double factor = -lift.expansion * step.gravity[axis];
+      accelerate_faces(
+        step,
+        axis,
+        [&](const auto &face) {
+          return factor * (on_face(scalar, grid, axis, face) - lift.reference);
+        },
+        [&](const unsigned int piece) {
+          return factor * (mean_of_ends(scalar, *open, axis, piece) - lift.reference);
+        });
+    }
+
+
+    /// Linear between the centres of two cells; on openings the value of the cell inside.
+    static double
+    on_face(const Field<dim>     &scalar,
+            const MacGrid<dim>   &grid,
+            const unsigned int    axis,
+            const GridIndex<dim> &face)
+    {
+      auto below = moved<dim>(face, axis, -1);
+      auto above = face;
+      if (grid.at_boundary(axis, face))
+        (face[axis] == 0 ? below : above) = face[axis] == 0 ? above : below;
+      const double width_below = grid.cell_width(axis, below[axis]);
+      const double width_above = grid.cell_width(axis, above[axis]);
+      return (scalar(below) * width_above + scalar(above) * width_below) /
+             (width_below + width_above);
     }
 
 

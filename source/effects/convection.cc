@@ -37,20 +37,23 @@ namespace undine
     void
     transport(FluidStep<dim> &step) const override
     {
-      const auto timed = step.timing.section("convection");
+      const auto timed = step.timing.section(this->name);
       if (step.stage.keeps_rates)
         for (auto *velocity : step.to_carry())
-          carry(*velocity, step.flow);
+          carry(*velocity, step);
       else
         carry_with_acceleration(step);
     }
 
   private:
     void
-    carry(Velocity<dim> &velocity, const Flow<dim> &flow) const
+    carry(Velocity<dim> &velocity, FluidStep<dim> &step) const
     {
       for (unsigned int axis = 0; axis < dim; ++axis)
-        velocity[axis] = method->advect(flow, velocity[axis], VelocityCondition<dim>(axis));
+        {
+          step.timing.memory.hold_briefly(this->name, velocity[axis].memory_consumption());
+          velocity[axis] = method->advect(step.flow, velocity[axis], VelocityCondition<dim>(axis));
+        }
     }
 
     void
@@ -61,10 +64,11 @@ namespace undine
       const double share    = FluidStep<dim>::carried_share * step.dt;
       for (unsigned int axis = 0; axis < dim; ++axis)
         add_to_whole_faces(velocity[axis], share, now[axis]);
-      carry(velocity, step.flow);
+      carry(velocity, step);
       for (unsigned int axis = 0; axis < dim; ++axis)
         add_to_whole_faces(velocity[axis], -share, now[axis]);
       step.carried = velocity;
+      step.timing.memory.hold_briefly(this->name, 2 * undine::memory_consumption(velocity));
     }
 
     /// A body may have come or gone between the two: faces that it divides have no acceleration.

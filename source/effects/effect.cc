@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
 
+#include <algorithm>
+
 namespace undine
 {
   template <int dim>
@@ -47,6 +49,14 @@ namespace undine
 
 
   template <int dim>
+  std::size_t
+  Effect<dim>::memory_consumption(const FluidState<dim> &) const
+  {
+    return 0;
+  }
+
+
+  template <int dim>
   void
   Effect<dim>::affect(SolidEnvironment<dim> &) const
   {
@@ -69,6 +79,38 @@ namespace undine
   }
 
 
+  template <int dim>
+  void
+  Effect<dim>::measure(Scales &, const FluidState<dim> &) const
+  {
+  }
+
+
+  template <int dim>
+  Effects<dim>
+  read_effects(const Options &section)
+  {
+    const auto &registry = Registry<Effect<dim>>::instance();
+    auto names = section.is_reference() ? registry.names() : section.named_sections("effect");
+    std::sort(names.begin(), names.end());
+    Effects<dim> effects;
+    for (const auto &name : names)
+      {
+        if (!registry.contains(name))
+          throw section.error(
+            name, "there is no such effect", "Allowed: " + registry.joined_names());
+        effects.push_back(registry.make(name));
+        effects.back()->name = name;
+        effects.back()->add_options(section.section(name));
+      }
+    return effects;
+  }
+
+
+  template Effects<2>
+  read_effects(const Options &);
+  template Effects<3>
+  read_effects(const Options &);
   template class Effect<2>;
   template class Effect<3>;
 } // namespace undine

@@ -108,11 +108,37 @@ namespace undine
             values.parts()[k] += length * source.value(divided->all()[k].place, time);
       }
 
+      /// Does anything change it besides the flow?
+      bool
+      changes() const
+      {
+        return diffusivity > 0 || !source.is_zero();
+      }
+
+      /// s^0 of a stage that keeps rates (T9), and what the next one needs of s^n and f^n.
+      void
+      start(Field<dim> &values, const Field<dim> &rate, const Stage &stage) const
+      {
+        const auto before = values;
+        if (stage.is_first)
+          add(values, stage.rate(), rate);
+        else
+          values = *next;
+        next.reset();
+        if (stage.is_last)
+          return;
+        next = before;
+        add(*next, stage.next_old.length, rate);
+      }
+
       std::string              name;
       Expression<dim>          initial, source, inflow, held;
       std::vector<std::string> held_boundaries;
       double                   diffusivity = 0;
       double                   neglected   = 1e-6;
+
+      /// What the stage that follows starts from; within a step only.
+      mutable std::optional<Field<dim>> next;
 
       /// Matrix of the last step size: a cache.
       mutable std::unique_ptr<ImplicitDiffusion<dim>> equation;
@@ -153,7 +179,9 @@ namespace undine
   ///
   ///     ds/dt + v.grad s = D Laplace(s) + q
   ///
-  /// explicit source, implicit diffusion. Advection is not conservative: the integral of s drifts
+  /// along the flow by the stages of the step (T9) with ds/dt = D Laplace(s) + q as the rate, of
+  /// second order in time; in steps of one stage with the source in the middle and implicit
+  /// diffusion, of first order. Advection is not conservative: the integral of s drifts
   /// with the error of the interpolation.
   template <int dim>
   class ScalarTransport : public Effect<dim>
@@ -221,46 +249,48 @@ namespace undine
           });
           set_means(values, model.grid());
           state.scalars[field->name] = values;
+          if (field->changes())
+            state.scalar_rates[field->name] =
+              Field<dim>(model.grid().cells(), state.velocity[0].open_parts());
         }
     }
 
+    /// All of a stage, so that forces see the fields at its end.
     void
     transport(FluidStep<dim> &step) const override
     {
-      const auto timed = step.timing.section("scalar transport");
+      const auto timed = step.timing.section(this->name);
       for (const auto &field : fields)
         {
           auto &values = step.state.scalars.at(field->name);
-          values       = method->advect(step.flow, values, *field);
+          step.timing.memory.hold_briefly(this->name, values.memory_consumption());
+          if (field->changes() && step.stage.keeps_rates)
+            field->start(values, step.state.scalar_rates.at(field->name), step.stage);
+          values = method->advect(step.flow, values, *field);
+          if (!field->changes())
+            continue;
+          if (field->next)
+            field->next = method->advect(step.flow, *field->next, *field);
+          change(*field, step);
         }
     }
 
-    void
-    accelerate(FluidStep<dim> &step) const override
+    std::size_t
+    memory_consumption(const FluidState<dim> &state) const override
     {
-      const auto timed = step.timing.section("scalar transport");
+      std::size_t sum = 0;
       for (const auto &field : fields)
-        if (!field->source.is_zero())
-          {
-            auto &values = step.state.scalars.at(field->name);
-            field->add_source(values, step.time + step.stage.way() / 2, step.stage.way());
-            set_means(values, step.model.grid());
-          }
-    }
-
-    void
-    diffuse(FluidStep<dim> &step) const override
-    {
-      const auto timed = step.timing.section("scalar diffusion");
-      for (const auto &field : fields)
-        if (field->diffusivity > 0)
-          {
-            if (!field->equation)
-              field->equation = std::make_unique<ImplicitDiffusion<dim>>(
-                step.model, step.model.grid().cells(), *field, field->diffusivity);
-            step.linear_iterations +=
-              field->equation->step(step.state.scalars.at(field->name), step.end, step.stage.way());
-          }
+        {
+          const auto values = state.scalars.find(field->name);
+          if (values != state.scalars.end())
+            sum += values->second.memory_consumption();
+          const auto rates = state.scalar_rates.find(field->name);
+          if (rates != state.scalar_rates.end())
+            sum += rates->second.memory_consumption();
+          if (field->equation)
+            sum += field->equation->memory_consumption();
+        }
+      return sum;
     }
 
     Columns
@@ -275,6 +305,34 @@ namespace undine
     }
 
   private:
+    /// Sources and diffusion, and the rate that they make.
+    void
+    change(const CarriedScalar<dim> &field, FluidStep<dim> &step) const
+    {
+      auto        &values  = step.state.scalars.at(field.name);
+      const auto   carried = values;
+      const auto  &stage   = step.stage;
+      const double at      = stage.keeps_rates ? step.end : step.time + stage.way() / 2;
+      if (!field.source.is_zero())
+        {
+          field.add_source(values, at, stage.length);
+          set_means(values, step.model.grid());
+        }
+      if (field.diffusivity > 0)
+        {
+          if (!field.equation)
+            field.equation = std::make_unique<ImplicitDiffusion<dim>>(
+              step.model, step.model.grid().cells(), field, field.diffusivity);
+          step.linear_iterations += field.equation->step(values, step.end, stage.length);
+        }
+      auto &rate = step.state.scalar_rates.at(field.name);
+      rate       = values;
+      add(rate, -1., carried);
+      add(rate, 1 / stage.length - 1, Field<dim>(rate));
+      if (field.next)
+        add(*field.next, stage.next_new.length, rate);
+    }
+
     static void
     check_field(const Options                    &options,
                 const CarriedScalar<dim>         &field,

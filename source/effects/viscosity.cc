@@ -53,7 +53,7 @@ namespace undine
     void
     diffuse(FluidStep<dim> &step) const override
     {
-      const auto timed    = step.timing.section("viscosity");
+      const auto timed    = step.timing.section(this->name);
       auto      &velocity = step.state.velocity;
       auto       pressure = step.state.pressure;
       pressure.exchange(1);
@@ -66,7 +66,21 @@ namespace undine
       for (unsigned int axis = 0; axis < dim; ++axis)
         step.linear_iterations += solver(step.model, axis).step(velocity[axis], step.end, step.dt);
       step.pressure_correction = pressure_correction(step.model, velocity);
+      step.timing.memory.hold_briefly(this->name,
+                                      pressure.memory_consumption() +
+                                        undine::memory_consumption(gradient) +
+                                        step.pressure_correction->memory_consumption());
       add(velocity, -step.dt, gradient);
+    }
+
+    std::size_t
+    memory_consumption(const FluidState<dim> &) const override
+    {
+      std::size_t sum = 0;
+      for (const auto &equation : equations)
+        if (equation)
+          sum += equation->memory_consumption();
+      return sum;
     }
 
     Columns
@@ -76,6 +90,12 @@ namespace undine
     {
       return force_columns(
         "Viscous force", model, viscous_forces(model, state, dynamic_viscosity, time));
+    }
+
+    void
+    measure(typename Effect<dim>::Scales &scales, const FluidState<dim> &) const override
+    {
+      scales.viscosity = dynamic_viscosity;
     }
 
   private:

@@ -286,6 +286,17 @@ namespace undine
   }
 
 
+  template <int dim>
+  std::size_t
+  ImplicitDiffusion<dim>::memory_consumption() const
+  {
+    // deal.II knows the size of a hierarchy's finest matrix, and of relaxation nothing.
+    const auto *multigrid =
+      dynamic_cast<const dealii::TrilinosWrappers::PreconditionAMG *>(preconditioner.get());
+    return matrix.memory_consumption() + (multigrid ? multigrid->memory_consumption() : 0);
+  }
+
+
   template class ImplicitDiffusion<2>;
   template class ImplicitDiffusion<3>;
 } // namespace undine

@@ -33,38 +33,6 @@ namespace undine
     }
 
 
-    /// The subsections of `Effects` that the scene has, or every effect for the reference.
-    template <int dim>
-    std::vector<std::string>
-    called_effects(const Options &effects)
-    {
-      const auto &registry = Registry<Effect<dim>>::instance();
-      if (effects.is_reference())
-        return registry.names();
-      auto names = effects.named_sections("effect");
-      std::sort(names.begin(), names.end());
-      for (const auto &name : names)
-        if (!registry.contains(name))
-          throw effects.error(
-            name, "there is no such effect", "Allowed: " + registry.joined_names());
-      return names;
-    }
-
-
-    template <int dim>
-    void
-    read_effects(Scene<dim> &scene, const Options &options)
-    {
-      const auto section = options.section("Effects");
-      scene.effect_names = called_effects<dim>(section);
-      for (const auto &name : scene.effect_names)
-        {
-          scene.models.effects.push_back(Registry<Effect<dim>>::instance().make(name));
-          scene.models.effects.back()->add_options(section.section(name));
-        }
-    }
-
-
     /// Every effect is asked whether the rest of the scene lets it act.
     template <int dim>
     void
@@ -73,16 +41,18 @@ namespace undine
       typename Effect<dim>::Surroundings surroundings{scene.models.fluid.get(),
                                                       scene.models.solid.get(),
                                                       scene.models.surface != nullptr,
-                                                      scene.effect_names,
+                                                      {},
                                                       {},
                                                       scene.models.particles &&
                                                         scene.models.particles->has_fluid()};
       for (const auto &effect : scene.models.effects)
-        for (const auto &scalar : effect->scalars())
-          surroundings.scalars.push_back(scalar);
-      for (unsigned int e = 0; e < scene.models.effects.size(); ++e)
-        scene.models.effects[e]->check(options.section("Effects").section(scene.effect_names[e]),
-                                       surroundings);
+        {
+          surroundings.effects.push_back(effect->name);
+          for (const auto &scalar : effect->scalars())
+            surroundings.scalars.push_back(scalar);
+        }
+      for (const auto &effect : scene.models.effects)
+        effect->check(options.section("Effects").section(effect->name), surroundings);
     }
 
 
@@ -93,9 +63,11 @@ namespace undine
     {
       const auto &model      = *scene.models.fluid;
       const auto  boundaries = options.section("Fluid").section("Boundaries");
-      const auto &names      = scene.effect_names;
+      const auto &effects    = scene.models.effects;
       const auto  wall       = model.boundaries().wall_that_needs_viscosity();
-      if (!wall.empty() && std::find(names.begin(), names.end(), "viscosity") == names.end())
+      if (!wall.empty() && std::none_of(effects.begin(), effects.end(), [](const auto &effect) {
+            return effect->name == "viscosity";
+          }))
         throw boundaries.section(wall).error(
           "Kind",
           "fluid without viscosity does not stick to a wall",
@@ -184,7 +156,7 @@ namespace undine
                   "not given.");
       scene.clock  = read_clock(options);
       scene.scheme = options.choose<Scheme<dim>>("Scheme", "simultaneous", "How time advances.");
-      read_effects(scene, options);
+      scene.models.effects = read_effects<dim>(options.section("Effects"));
       read_outputs(scene, options);
       read_probes(scene, options);
       return scene;
@@ -197,8 +169,8 @@ namespace undine
     make_particles(Scene<dim> &scene, const Options &options, const MPI_Comm communicator)
     {
       refuse_keys_of_other_schemes(options);
-      scene.models.particles = std::make_unique<const ParticleModel<dim>>(
-        options, NamedEffects<dim>{scene.models.effects, scene.effect_names}, communicator);
+      scene.models.particles =
+        std::make_unique<const ParticleModel<dim>>(options, scene.models.effects, communicator);
     }
 
 
@@ -215,6 +187,7 @@ namespace undine
         scene.models.solid = std::make_unique<const SolidModel<dim>>(options, communicator);
       if (options.section("Fluid").given())
         scene.models.fluid = std::make_unique<const FluidModel<dim>>(options, communicator);
+      scene.models.direction   = read_direction(options, scene.models.solid && scene.models.fluid);
       const bool has_obstacles = options.section("Obstacles").given();
       if (has_obstacles && !scene.models.fluid)
         throw options.error("Obstacles",
@@ -273,6 +246,7 @@ namespace undine
   declare_scene(const Options &options)
   {
     read_without_models<dim>(options);
+    read_direction(options, true);
     SolidModel<dim>::declare(options);
     FluidModel<dim>::declare(options);
     Obstacles<dim>::declare(options);

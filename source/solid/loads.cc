@@ -17,28 +17,87 @@ namespace undine
 
   namespace
   {
-    template <int dim>
+    /// forces += int load(body, place at rest) . N_i dX, where `acts_on(body)` says so.
+    template <int dim, class ActsOn, class Load>
     void
-    add_volume_loads(Vector                      &forces,
-                     const SolidModel<dim>       &model,
-                     const SolidEnvironment<dim> &environment,
-                     const double                 time)
+    add_volume_load(Vector                &forces,
+                    const SolidModel<dim> &model,
+                    const ActsOn          &acts_on,
+                    const Load            &load_at)
     {
       const auto &geometry = model.geometry();
       for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
         {
-          const auto         &body   = model.bodies()[geometry.body(cell)];
-          const auto          weight = body.density * environment.gravity;
+          const auto &body = model.bodies()[geometry.body(cell)];
+          if (!acts_on(body))
+            continue;
           std::vector<double> local(geometry.dofs(cell).size(), 0.);
           for (unsigned int q = 0; q < geometry.n_points(); ++q)
             {
-              const auto load = (weight + body.load.vector(geometry.position(cell, q), time)) *
-                                geometry.JxW(cell, q);
+              const dealii::Tensor<1, dim> load =
+                load_at(body, geometry.position(cell, q)) * geometry.JxW(cell, q);
               for (unsigned int dof = 0; dof < local.size(); ++dof)
                 local[dof] += load[dof % dim] * geometry.shape(dof / dim, q);
             }
           forces.add(geometry.dofs(cell), local);
         }
+    }
+
+
+    template <int dim>
+    void
+    add_weight(Vector &forces, const SolidModel<dim> &model, const dealii::Tensor<1, dim> &gravity)
+    {
+      add_volume_load(
+        forces,
+        model,
+        [](const auto &) { return true; },
+        [&](const auto &body, const auto &) { return body.density * gravity; });
+    }
+
+
+    template <int dim>
+    void
+    add_force(Vector                 &forces,
+              const SolidModel<dim>  &model,
+              const VolumeForce<dim> &force,
+              const double            time)
+    {
+      add_volume_load(
+        forces,
+        model,
+        [&](const auto &body) { return body.name == force.body; },
+        [&](const auto &body, const auto &place) {
+          return body.density * force.acceleration.vector(place, time) +
+                 force.per_volume.vector(place, time);
+        });
+    }
+
+
+    template <int dim>
+    void
+    add_loads_of_bodies(Vector &forces, const SolidModel<dim> &model, const double time)
+    {
+      add_volume_load(
+        forces,
+        model,
+        [](const auto &body) { return !body.load.is_zero(); },
+        [&](const auto &body, const auto &place) { return body.load.vector(place, time); });
+    }
+
+
+    /// What effects do: action(name of the effect, function that adds its forces to a vector).
+    template <int dim, class Action>
+    void
+    for_all_effects(const SolidModel<dim>       &model,
+                    const SolidEnvironment<dim> &environment,
+                    const double                 time,
+                    const Action                &action)
+    {
+      if (environment.gravity.norm() > 0)
+        action("gravity", [&](Vector &forces) { add_weight(forces, model, environment.gravity); });
+      for (const auto &force : environment.forces)
+        action(force.effect, [&](Vector &forces) { add_force(forces, model, force, time); });
     }
 
 
@@ -194,13 +253,35 @@ namespace undine
   Vector
   dead_loads(const SolidModel<dim>       &model,
              const SolidEnvironment<dim> &environment,
-             const double                 time)
+             const double                 time,
+             TimingTree                  *timing)
   {
-    Vector forces = model.vector();
-    add_volume_loads(forces, model, environment, time);
+    Vector     forces = model.vector();
+    TimingTree unused;
+    for_all_effects(model, environment, time, [&](const std::string &effect, const auto &add) {
+      const auto timed = (timing ? *timing : unused).section(effect);
+      add(forces);
+    });
+    add_loads_of_bodies(forces, model, time);
     add_tractions(forces, model, time);
     forces.compress(dealii::VectorOperation::add);
     return forces;
+  }
+
+
+  template <int dim>
+  std::map<std::string, Vector>
+  effect_loads(const SolidModel<dim>       &model,
+               const SolidEnvironment<dim> &environment,
+               const double                 time)
+  {
+    std::map<std::string, Vector> result;
+    for_all_effects(model, environment, time, [&](const std::string &effect, const auto &add) {
+      add(result.try_emplace(effect, model.vector()).first->second);
+    });
+    for (auto &[effect, forces] : result)
+      forces.compress(dealii::VectorOperation::add);
+    return result;
   }
 
 
@@ -275,10 +356,13 @@ namespace undine
   }
 
 
-#define UNDINE_INSTANTIATE(dim)                                                               \
-  template Vector dead_loads(const SolidModel<dim> &, const SolidEnvironment<dim> &, double); \
-  template bool   has_pressure_loads(const SolidModel<dim> &);                                \
-  template Vector pressure_loads(const SolidModel<dim> &, const Vector &, double);            \
+#define UNDINE_INSTANTIATE(dim)                                                    \
+  template Vector dead_loads(                                                      \
+    const SolidModel<dim> &, const SolidEnvironment<dim> &, double, TimingTree *); \
+  template std::map<std::string, Vector> effect_loads(                             \
+    const SolidModel<dim> &, const SolidEnvironment<dim> &, double);               \
+  template bool   has_pressure_loads(const SolidModel<dim> &);                     \
+  template Vector pressure_loads(const SolidModel<dim> &, const Vector &, double); \
   template Matrix pressure_stiffness(const SolidModel<dim> &, const Vector &, double);
 
   UNDINE_INSTANTIATE(2)

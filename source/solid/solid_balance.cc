@@ -49,6 +49,11 @@ namespace undine
     Vector            damping = model.vector();
     add_damping(damping, velocity, coefficients.damping);
     add_damping(damping, old_state.velocity, coefficients.damping_old_velocity);
+    for (const auto &stage : coefficients.stages)
+      for (const auto &[effect, force] :
+           effect_loads(model, environment, time + stage.position * dt))
+        result.loads_by_effect[effect] +=
+          stage.weight / coefficients.sum_of_weights() * (force * way);
     Vector loads = dead;
     if (nodal_forces.size() > 0)
       {

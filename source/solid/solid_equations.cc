@@ -37,6 +37,7 @@ namespace undine
     , known(model.vector())
   {
     const auto timed = timing.section("assemble forces");
+    timing.memory.hold("deformable bodies", mass.memory_consumption());
     if (environment.stiffness_damping > 0 && coefficients.damping != 0)
       find_damping_stiffness();
     find_known_forces();
@@ -47,7 +48,8 @@ namespace undine
   void
   SolidEquations<dim>::find_damping_stiffness()
   {
-    Vector displacement = old_state.displacement;
+    const auto timed        = timing.section("damping");
+    Vector     displacement = old_state.displacement;
     displacement.add(coefficients.damping_position * dt, old_state.velocity);
     try
       {
@@ -59,6 +61,7 @@ namespace undine
         // The extrapolation may invert a cell where d^n does not.
         add_matrix(damping_stiffness, 1, internal_stiffness(model, old_state.displacement));
       }
+    timing.memory.hold_briefly("damping", damping_stiffness.memory_consumption());
   }
 
 
@@ -91,7 +94,10 @@ namespace undine
                                    const Vector &velocity,
                                    const double  factor) const
   {
-    Vector product = model.vector();
+    if (environment.mass_damping == 0 && damping_stiffness.m() == 0)
+      return;
+    const auto timed   = timing.section("damping");
+    Vector     product = model.vector();
     if (environment.mass_damping > 0)
       {
         mass.vmult(product, velocity);
@@ -134,7 +140,7 @@ namespace undine
       add_damping(known, old_state.velocity, coefficients.damping_old_velocity);
     for (const auto &stage : coefficients.stages)
       {
-        const Vector loads = dead_loads(model, environment, time + stage.position * dt);
+        const Vector loads = dead_loads(model, environment, time + stage.position * dt, &timing);
         note_size(loads, stage.weight);
         dead.add(stage.weight, loads);
         if (stage.position == 0)
@@ -328,6 +334,7 @@ namespace undine
       add_matrix(result, mass_factor, mass);
     if (damping_stiffness.m() > 0)
       add_matrix(result, coefficients.damping * environment.stiffness_damping, damping_stiffness);
+    timing.memory.hold_briefly("deformable bodies", result.memory_consumption());
     return result;
   }
 

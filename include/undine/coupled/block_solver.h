@@ -57,6 +57,11 @@ namespace undine
     most_iterations() const;
     /// @}
 
+    /// Of what approximates the Schur complement, on this rank [bytes]. Trilinos does not tell the
+    /// size of its factors and hierarchies.
+    std::size_t
+    memory_consumption() const;
+
     /// What was unusual since start_step(); empty if nothing was.
     const std::string &
     note() const;

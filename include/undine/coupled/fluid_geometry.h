@@ -112,6 +112,10 @@ namespace undine
     std::string
     news() const;
 
+    /// Of the lists of cut cells, pieces, components and entries of B, on this rank [bytes].
+    std::size_t
+    memory_consumption() const;
+
   private:
     void
     cut();

@@ -53,6 +53,11 @@ namespace undine
     }
 
   private:
+    template <class Action>
+    void
+    run_phase(FluidStep<dim> &fluid, typename Ledger<dim>::Phase phase, const Action &act);
+    void
+    count_memory(const FluidState<dim> &state);
     void
     place_surfaces(const State<dim> &state, const Stage &stage);
     typename Flow<dim>::Bodies

@@ -9,6 +9,7 @@
 #include <undine/solid/solid_balance.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace undine
@@ -69,9 +70,17 @@ namespace undine
     add(const SolidAmounts<dim> &bodies);
     /// @}
 
-    /// A phase has led to `velocity`. Collective.
+    /// A phase has led to `velocity`, or an effect in it has, numbered as in `models`; what that
+    /// did is taken from `work` [J], of this rank, if given: the effect's own formula. Collective.
+    /// @{
     void
     add(Phase phase, const Velocity<dim> &velocity);
+    void
+    add(Phase                        phase,
+        unsigned int                 effect,
+        const Velocity<dim>         &velocity,
+        const std::optional<double> &work);
+    /// @}
 
     /// What followed in a step of `dt` [s]; boundary_values are what pressures found changed.
     /// @{
@@ -84,6 +93,7 @@ namespace undine
     /// @}
 
     /// The terms as gains of fluid and bodies, energies in J, momenta in kg m/s (in 2D per metre).
+    /// After them "energy by NAME" for every effect that is on: what of the terms is due to it.
     /// "energy closure": |gain - sum of terms| over energy and |terms|. "momentum closure": the
     /// same over h sum_i |(B^T p)_i| or, where surfaces feel nothing, over |terms|. None if off.
     Columns
@@ -128,6 +138,10 @@ namespace undine
     concerns(unsigned int term) const;
     Amount
     missing() const;
+    Amount
+    amount(const Velocity<dim> &velocity) const;
+    void
+    add_effects(Columns &columns) const;
 
     const Models<dim>          &models;
     const bool                  on;
@@ -136,6 +150,7 @@ namespace undine
     Amount                      bodies; ///< what they had at t^n
     Amount                      gain;
     std::array<Amount, n_terms> terms;
+    std::vector<double>         by_effect;            ///< [J]
     double                      energy           = 0; ///< of fluid and bodies
     double                      impulse_of_fluid = 0; ///< h sum_i |(B^T p)_i|
   };

@@ -2,6 +2,7 @@
 #ifndef undine_coupled_models_h
 #define undine_coupled_models_h
 
+#include <undine/coupled/direction.h>
 #include <undine/coupled/particle_model.h>
 #include <undine/effects/effect.h>
 #include <undine/fluid/fluid_model.h>
@@ -20,6 +21,7 @@ namespace undine
     std::unique_ptr<const SolidModel<dim>> solid; ///< nullptr: no bodies
     std::unique_ptr<const FluidModel<dim>> fluid; ///< nullptr: no fluid
     Effects<dim>                           effects;
+    Direction                              direction = Direction::two_way;
 
     /// Of fluid and bodies, in place of the two models above; nullptr: there are none.
     std::unique_ptr<const ParticleModel<dim>> particles;

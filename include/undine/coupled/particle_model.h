@@ -21,14 +21,6 @@
 
 namespace undine
 {
-  /// The effects of a scene, with their names.
-  template <int dim>
-  struct NamedEffects
-  {
-    const Effects<dim>             &effects;
-    const std::vector<std::string> &names;
-  };
-
   /// A scene of particles: what does not change during a run, and how it begins. The bridge from
   /// the parameter file to `particles`, which knows neither of it nor of deal.II.
   template <int dim>
@@ -37,7 +29,7 @@ namespace undine
   public:
     /// Read the sections `Particles`, `Domain`, `Fluid`, `Bodies`, `Obstacles` and `Output`, and
     /// place all particles. Throws InputError, also if there is more than one rank.
-    ParticleModel(const Options &scene, const NamedEffects<dim> &effects, MPI_Comm communicator);
+    ParticleModel(const Options &scene, const Effects<dim> &effects, MPI_Comm communicator);
 
     /// Declare the keys without building anything.
     static void
@@ -127,7 +119,7 @@ namespace undine
     static constexpr double overlap = 0.55; ///< nearer ones lie on each other [spacings]
 
     void
-    apply(const NamedEffects<dim> &effects, const Options &scene);
+    apply(const Effects<dim> &effects, const Options &scene);
     void
     place_bodies(std::vector<ParticleBody<dim>> &bodies, const ParticleObstacles<dim> &obstacles);
     void

@@ -19,7 +19,14 @@ namespace undine
                     const bool                   resumed,
                     MPI_Comm                     communicator);
 
-  /// Versions, ranks, and the table of effects with the reason why each is on or off.
+  /// Write a file of the run's folder, whole or not at all. Collective. Throws FileError, on all
+  /// ranks.
+  void
+  write_whole_file(const std::filesystem::path &path,
+                   const std::string           &text,
+                   MPI_Comm                     communicator);
+
+  /// Versions and ranks, and what the scene is.
   template <int dim>
   void
   print_header(Log &log, const Scene<dim> &scene, const Options &options, MPI_Comm communicator);

@@ -19,7 +19,8 @@ namespace undine
 
   /// One physical effect. A scene calls for it by a subsection of its name in `Effects`; nothing
   /// else switches it on, and an effect that is off does not exist during the run. A new effect is
-  /// one new .cc file that overrides what it needs and registers itself.
+  /// one new .cc file that overrides what it needs and registers itself; it times its work in
+  /// phases of its own name.
   template <int dim>
   class Effect
   {
@@ -72,6 +73,11 @@ namespace undine
     diffuse(FluidStep<dim> &step) const;
     /// @}
 
+    /// What exists on this rank for the effect alone: matrices that it keeps, its fields in the
+    /// state [bytes]. What it allocates within a phase goes to FluidStep::timing.memory.
+    virtual std::size_t
+    memory_consumption(const FluidState<dim> &state) const;
+
     /// Say what the effect does to the bodies.
     virtual void
     affect(SolidEnvironment<dim> &environment) const;
@@ -83,11 +89,32 @@ namespace undine
     /// What the effect adds to the file `statistics`.
     virtual Columns
     columns(const FluidModel<dim> &model, const FluidState<dim> &state, double time) const;
+
+    /// Sizes of which dimensionless numbers are made; zero: unknown.
+    struct Scales
+    {
+      double viscosity = 0; ///< dynamic [Pa s]
+      double lift      = 0; ///< largest relative change of density by carried fields [1]
+    };
+
+    /// Raise those that the effect knows of, for what this rank has of the state.
+    virtual void
+    measure(Scales &scales, const FluidState<dim> &state) const;
+
+    /// By which the scene calls for it. The phases of FluidStep::timing in which it works, and its
+    /// memory there, bear this name.
+    std::string name;
   };
 
   /// The effects that the scene calls for, in alphabetical order of their names.
   template <int dim>
   using Effects = std::vector<std::unique_ptr<Effect<dim>>>;
+
+  /// Those of which `section`, the scene's `Effects`, has a subsection, with their keys; for the
+  /// reference all. Throws InputError, also for names that nobody has registered.
+  template <int dim>
+  Effects<dim>
+  read_effects(const Options &section);
 } // namespace undine
 
 #endif

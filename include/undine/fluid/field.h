@@ -128,6 +128,13 @@ namespace undine
     set_owned_values(const std::vector<double> &owned_values);
     /// @}
 
+    /// Of the values on this rank [bytes].
+    std::size_t
+    memory_consumption() const
+    {
+      return sizeof(double) * (values.capacity() + part_values.capacity());
+    }
+
   private:
     std::size_t
     position(const GridIndex<dim> &index) const

@@ -36,6 +36,17 @@ namespace undine
     }
   };
 
+  /// Of the values on this rank [bytes].
+  template <int dim>
+  std::size_t
+  memory_consumption(const Velocity<dim> &velocity)
+  {
+    std::size_t sum = 0;
+    for (const auto &component : velocity.components)
+      sum += component.memory_consumption();
+    return sum;
+  }
+
   /// The fluid at one time, on the staggered grid: normal velocities on cell faces, the rest in
   /// cell centres. Fields carry ghost layers; owned values are the truth.
   template <int dim>
@@ -46,6 +57,7 @@ namespace undine
     Velocity<dim>                     change;       ///< dv/dt of the last stage [m/s^2]
     Field<dim>                        pressure;     ///< reduced pressure p - rho g.x [Pa]
     std::map<std::string, Field<dim>> scalars;      ///< by name, e.g. "smoke", "temperature"
+    std::map<std::string, Field<dim>> scalar_rates; ///< Ds/Dt of the last stage, of those that have
   };
 } // namespace undine
 

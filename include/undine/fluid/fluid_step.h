@@ -86,6 +86,10 @@ namespace undine
     std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
     /// @}
 
+    /// For the ledger: the work of the effect that has just acted, on this rank, by the effect's
+    /// own formula [J]; empty: it has none.
+    std::optional<double> work;
+
   private:
     void
     start_from_rates();

@@ -34,6 +34,10 @@ namespace undine
     unsigned int
     step(Field<dim> &field, const double time, const double dt);
 
+    /// Of the matrix and what deal.II says of the preconditioner, on this rank [bytes].
+    std::size_t
+    memory_consumption() const;
+
   private:
     /// A row of the matrix; the first column is the diagonal.
     struct Row

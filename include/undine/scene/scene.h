@@ -25,7 +25,6 @@ namespace undine
     std::filesystem::path                     directory; ///< where results go
     Clock                                     clock;
     Models<dim>                               models;
-    std::vector<std::string>                  effect_names; ///< of models.effects, same order
     std::unique_ptr<Scheme<dim>>              scheme;
     std::vector<std::unique_ptr<Output<dim>>> outputs;
     std::vector<std::unique_ptr<Probe<dim>>>  probes;

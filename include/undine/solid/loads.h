@@ -2,18 +2,31 @@
 #ifndef undine_solid_loads_h
 #define undine_solid_loads_h
 
+#include <undine/base/core/timing.h>
 #include <undine/solid/solid_environment.h>
 #include <undine/solid/solid_model.h>
+
+#include <map>
+#include <string>
 
 namespace undine
 {
   /// Nodal forces of the loads that a scene puts on its bodies, over the locally owned degrees of
   /// freedom, as of the displacement. Collective. @{
 
-  /// Forces that do not depend on the displacement [N]: gravity rho g, loads per volume, tractions.
+  /// Forces that do not depend on the displacement [N]: gravity rho g, forces of other effects,
+  /// loads per volume, tractions. `timing`, if given, gets the phases of effects.
   template <int dim>
   dealii::TrilinosWrappers::MPI::Vector
-  dead_loads(const SolidModel<dim> &model, const SolidEnvironment<dim> &environment, double time);
+  dead_loads(const SolidModel<dim>       &model,
+             const SolidEnvironment<dim> &environment,
+             double                       time,
+             TimingTree                  *timing = nullptr);
+
+  /// What of them is due to which effect.
+  template <int dim>
+  std::map<std::string, dealii::TrilinosWrappers::MPI::Vector>
+  effect_loads(const SolidModel<dim> &model, const SolidEnvironment<dim> &environment, double time);
 
   /// Is any boundary loaded by a follower pressure? Its tangent need not be symmetric.
   template <int dim>

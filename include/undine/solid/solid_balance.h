@@ -4,6 +4,9 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <map>
+#include <string>
+
 namespace undine
 {
   /// What became of the bodies' energy and momentum in a step, each term from its own formula. With
@@ -25,6 +28,9 @@ namespace undine
     double damping      = 0; ///< C (c u + c_u u^n) / W times dd [J]
     double inertia_loss = 0; ///< the integrator's: M (m u + ...).dd - kinetic [J], and the rest
     double elastic_loss = 0; ///< the integrator's: sum_e w_e K(d_e).dd - int K(d).dd [J]
+
+    /// What of the loads is due to which effect, by its own force [J].
+    std::map<std::string, double> loads_by_effect;
 
     dealii::Tensor<1, dim> momentum;    ///< gain of sum M u [kg m/s]
     dealii::Tensor<1, dim> inertia_gap; ///< h sum M (m u + ...) - momentum, and the rest [kg m/s]

@@ -2,17 +2,33 @@
 #ifndef undine_solid_solid_environment_h
 #define undine_solid_solid_environment_h
 
+#include <undine/base/options/expression.h>
+
 #include <deal.II/base/tensor.h>
+
+#include <string>
+#include <vector>
 
 namespace undine
 {
+  /// A force on a body that an effect calls for, as a function of the place at rest and the time.
+  template <int dim>
+  struct VolumeForce
+  {
+    std::string          effect;       ///< its name
+    std::string          body;         ///< its name
+    Expression<dim, dim> acceleration; ///< [m/s^2]
+    Expression<dim, dim> per_volume;   ///< at rest, besides [N/m^3]
+  };
+
   /// What the effects that a scene calls for do to its bodies.
   template <int dim>
   struct SolidEnvironment
   {
-    dealii::Tensor<1, dim> gravity;               ///< uniform acceleration [m/s^2]
-    double                 mass_damping      = 0; ///< alpha in C = alpha M + eta K'(d^n) [1/s]
-    double                 stiffness_damping = 0; ///< eta in C = alpha M + eta K'(d^n) [s]
+    dealii::Tensor<1, dim>        gravity;               ///< uniform acceleration [m/s^2]
+    double                        mass_damping      = 0; ///< alpha, C = alpha M + eta K' [1/s]
+    double                        stiffness_damping = 0; ///< eta, C = alpha M + eta K' [s]
+    std::vector<VolumeForce<dim>> forces;                ///< in order of their effects
   };
 } // namespace undine
 

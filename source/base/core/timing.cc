@@ -34,6 +34,20 @@ namespace undine
       for (const auto &inner : node.children)
         write_row(out, *inner, depth + 1, node.seconds);
     }
+
+
+    void
+    add_work(TimingTree::Work &sum, const TimingTree::Node &node, const std::string &name)
+    {
+      if (node.name == name)
+        {
+          sum.seconds += node.seconds;
+          sum.calls += node.calls;
+          return;
+        }
+      for (const auto &inner : node.children)
+        add_work(sum, *inner, name);
+    }
   } // namespace
 
 
@@ -81,6 +95,16 @@ namespace undine
   TimingTree::root() const
   {
     return top;
+  }
+
+
+  TimingTree::Work
+  TimingTree::work_of(const std::string &name) const
+  {
+    Work sum;
+    for (const auto &node : top.children)
+      add_work(sum, *node, name);
+    return sum;
   }
 
 

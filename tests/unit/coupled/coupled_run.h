@@ -21,7 +21,8 @@ namespace undine_tests
         models.solid = std::make_unique<const SolidModel<dim>>(options, MPI_COMM_WORLD);
       if (options.section("Fluid").given())
         models.fluid = std::make_unique<const FluidModel<dim>>(options, MPI_COMM_WORLD);
-      models.effects = make_effects<dim>(options);
+      models.effects   = make_effects<dim>(options);
+      models.direction = read_direction(options, models.solid && models.fluid);
       if (models.fluid && (models.solid || options.section("Obstacles").given()))
         add_surface();
       options.assert_all_used();

@@ -32,11 +32,9 @@ namespace undine_tests
   ParticleModel<dim>
   read_particles(const std::string &text)
   {
-    const auto options = read_scene_text(text);
-    const auto effects = make_effects<dim>(options);
-    auto       names   = options.section("Effects").named_sections("effect");
-    std::sort(names.begin(), names.end());
-    ParticleModel<dim> model(options, NamedEffects<dim>{effects, names}, MPI_COMM_SELF);
+    const auto         options = read_scene_text(text);
+    const auto         effects = make_effects<dim>(options);
+    ParticleModel<dim> model(options, effects, MPI_COMM_SELF);
     options.assert_all_used();
     return model;
   }

@@ -14,16 +14,7 @@ namespace undine_tests
   Effects<dim>
   make_effects(const Options &options)
   {
-    Effects<dim> effects;
-    const auto   called = options.section("Effects");
-    auto         names  = called.named_sections("effect");
-    std::sort(names.begin(), names.end());
-    for (const auto &name : names)
-      {
-        effects.push_back(Registry<Effect<dim>>::instance().make(name));
-        effects.back()->add_options(called.section(name));
-      }
-    return effects;
+    return read_effects<dim>(options.section("Effects"));
   }
 
 

@@ -27,11 +27,9 @@ namespace
   Models<2>
   sample_models(const std::string &more = "")
   {
-    Models<2>                      models;
-    const Effects<2>               effects;
-    const std::vector<std::string> names;
+    Models<2> models;
     models.particles = std::make_unique<const ParticleModel<2>>(
-      options_of(scene_text + more), NamedEffects<2>{effects, names}, MPI_COMM_SELF);
+      options_of(scene_text + more), models.effects, MPI_COMM_SELF);
     return models;
   }
 

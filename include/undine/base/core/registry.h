@@ -17,6 +17,8 @@ namespace undine
   template <class Part>
   class Registry
   {
+    struct Entry;
+
   public:
     using Factory = std::function<std::unique_ptr<Part>()>;
 
@@ -51,6 +53,36 @@ namespace undine
       return entry->second.factory();
     }
 
+    /// While it lives, a part is as if it had never registered itself: for tests.
+    class Hidden
+    {
+    public:
+      Hidden(Registry &registry, const std::string &name)
+        : registry(registry)
+        , part(registry.entries.extract(name))
+      {
+      }
+
+      ~Hidden()
+      {
+        registry.entries.insert(std::move(part));
+      }
+
+      Hidden(const Hidden &) = delete;
+      Hidden &
+      operator=(const Hidden &) = delete;
+
+    private:
+      Registry                                        &registry;
+      typename std::map<std::string, Entry>::node_type part;
+    };
+
+    Hidden
+    hide(const std::string &name)
+    {
+      return Hidden(*this, name);
+    }
+
     const std::string &
     help(const std::string &name) const
     {
@@ -82,6 +114,7 @@ namespace undine
       std::string help;
       Factory     factory;
     };
+
     std::map<std::string, Entry> entries;
   };
 

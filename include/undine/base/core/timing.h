@@ -2,6 +2,8 @@
 #ifndef undine_base_core_timing_h
 #define undine_base_core_timing_h
 
+#include <undine/base/core/memory_accounts.h>
+
 #include <chrono>
 #include <iosfwd>
 #include <memory>
@@ -10,7 +12,8 @@
 
 namespace undine
 {
-  /// Wall seconds by phase, as a tree: a section opened inside another becomes its child.
+  /// What a run costs. Wall seconds by phase, as a tree: a section opened inside another becomes
+  /// its child; and memory by name. The phases of an effect bear its name wherever they are.
   class TimingTree
   {
   public:
@@ -51,9 +54,21 @@ namespace undine
     const Node &
     root() const;
 
+    struct Work
+    {
+      double        seconds = 0;
+      unsigned long calls   = 0;
+    };
+
+    /// Of all phases of this name, but not of those within another one of them.
+    Work
+    work_of(const std::string &name) const;
+
     /// One row per phase: indented name, calls, seconds, share of the parent in percent.
     void
     write(std::ostream &out) const;
+
+    MemoryAccounts memory;
 
   private:
     Node  top;

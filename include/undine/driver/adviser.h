@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_driver_adviser_h
+#define undine_driver_adviser_h
+
+#include <undine/coupled/models.h>
+#include <undine/coupled/report.h>
+#include <undine/coupled/state.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// What a run says about the effects that a scene calls for.
+  struct Advice
+  {
+    struct Number
+    {
+      std::string name;
+      double      value; ///< [1]
+      std::string meaning;
+    };
+
+    /// An effect that is on and does not matter, or is off and would.
+    struct Remark
+    {
+      std::string effect;
+      bool        is_on;
+      std::string number; ///< by which that is known
+      double      value;  ///< of it [1]
+      std::string rule;
+    };
+
+    std::vector<Number> numbers;
+    std::vector<Remark> remarks;
+  };
+
+
+  /// The largest of what was measured during a run.
+  struct Extremes
+  {
+    double speed      = 0; ///< of the fluid [m/s]
+    double body_speed = 0; ///< [m/s]
+    double way        = 0; ///< of the bodies from where they were at the start [m]
+    double gradient   = 0; ///< |dd/dX| in the bodies [1]
+    double length = 0; ///< of a body or obstacle in the fluid along an axis, or of the domain [m]
+    double viscosity   = 0; ///< dynamic [Pa s]
+    double lift        = 0; ///< relative change of the fluid's density by carried fields [1]
+    double damped      = 0; ///< sum of |energy by damping|, where there is a ledger [J]
+    double body_energy = 0; ///< kinetic and elastic [J]
+    double time        = 0; ///< how long it was [s]
+  };
+
+
+  /// Watches a run, and names effects that could be left out, or should not have been. It knows
+  /// nothing but what the run has measured. Not for particles.
+  template <int dim>
+  class Adviser
+  {
+  public:
+    /// `start` is the state at the beginning. The models must outlive it. Collective.
+    Adviser(const Models<dim> &models, const State<dim> &start);
+
+    /// A step of `dt` [s] has led to `state`. Collective.
+    void
+    observe(const State<dim> &state, const Report &report);
+
+    /// Collective.
+    Advice
+    advice() const;
+
+  private:
+    void
+    measure_length(const State<dim> &state);
+
+    const Models<dim>                    &models;
+    dealii::TrilinosWrappers::MPI::Vector first_displacement;
+    Extremes                              largest;
+  };
+} // namespace undine
+
+#endif

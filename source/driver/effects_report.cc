@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/implied_effect.h>
+#include <undine/driver/effects_report.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  namespace
+  {
+    std::string
+    readable_bytes(const double bytes)
+    {
+      if (bytes < 1e3)
+        return fmt::format("{:.0f} B", bytes);
+      if (bytes < 1e6)
+        return fmt::format("{:.1f} kB", bytes / 1e3);
+      if (bytes < 1e9)
+        return fmt::format("{:.1f} MB", bytes / 1e6);
+      return fmt::format("{:.1f} GB", bytes / 1e9);
+    }
+
+
+    std::string
+    quoted(const std::string &text)
+    {
+      std::string result = "\"";
+      for (const char c : text)
+        if (c == '"' || c == '\\')
+          result += std::string("\\") + c;
+        else
+          result += c == '\n' ? ' ' : c;
+      return result + "\"";
+    }
+
+
+    /// "[\n first,\n second\n ]" with what `write` makes of each item.
+    template <class Items, class Write>
+    std::string
+    json_list(const Items &items, const Write &write)
+    {
+      std::string result;
+      for (const auto &item : items)
+        result += (result.empty() ? "\n    " : ",\n    ") + write(item);
+      return "[" + result + "\n  ]";
+    }
+  } // namespace
+
+
+  template <int dim>
+  EffectsReport<dim>::EffectsReport(const Scene<dim> &scene, const TimingTree &timing)
+    : timing(timing)
+    , communicator(scene.models.communicator())
+  {
+    add_effects(scene);
+    add_implied_effects(scene);
+    std::stable_sort(
+      rows.begin(), rows.end(), [](const Row &a, const Row &b) { return a.is_on > b.is_on; });
+    for (auto &row : rows)
+      row.start_bytes =
+        dealii::Utilities::MPI::sum(double(timing.memory.of(row.name).now), communicator);
+  }
+
+
+  template <int dim>
+  void
+  EffectsReport<dim>::add_effects(const Scene<dim> &scene)
+  {
+    const auto &registry = Registry<Effect<dim>>::instance();
+    const auto &effects  = scene.models.effects;
+    for (const auto &name : registry.names())
+      {
+        const auto found = std::find_if(
+          effects.begin(), effects.end(), [&](const auto &effect) { return effect->name == name; });
+        if (found == effects.end())
+          rows.push_back(
+            {name, false, "no subsection 'Effects / " + name + "'", registry.help(name), {name}});
+        else
+          rows.push_back({name,
+                          true,
+                          "Effects / " + name + ": " + (*found)->summary(),
+                          registry.help(name),
+                          {name}});
+      }
+  }
+
+
+  template <int dim>
+  void
+  EffectsReport<dim>::add_implied_effects(const Scene<dim> &scene)
+  {
+    const auto &registry = Registry<ImpliedEffect<dim>>::instance();
+    for (const auto &name : registry.names())
+      {
+        const auto effect = registry.make(name);
+        const auto call   = effect->call(scene.models);
+        rows.push_back({name, call.is_on, call.why, registry.help(name), effect->phases()});
+      }
+  }
+
+
+  template <int dim>
+  typename EffectsReport<dim>::Cost
+  EffectsReport<dim>::cost(const Row &row) const
+  {
+    Cost result;
+    if (!row.is_on)
+      return result;
+    for (const auto &phase : row.phases)
+      {
+        const auto work = timing.work_of(phase);
+        result.seconds += work.seconds;
+        result.calls += work.calls;
+      }
+    result.seconds = dealii::Utilities::MPI::max(result.seconds, communicator);
+    result.peak_bytes =
+      dealii::Utilities::MPI::sum(double(timing.memory.of(row.name).peak), communicator);
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  EffectsReport<dim>::print_start(Log &log) const
+  {
+    log.print("\n{:<22} {:<3} {:>9}  why", "effect", "", "memory");
+    for (const auto &row : rows)
+      log.print("{:<22} {:<3} {:>9}  {}",
+                row.name,
+                row.is_on ? "on" : "off",
+                row.is_on ? readable_bytes(row.start_bytes) : "",
+                row.why);
+  }
+
+
+  template <int dim>
+  void
+  EffectsReport<dim>::print_end(Log &log, const Advice &advice) const
+  {
+    log.print("\n{:<22} {:>9} {:>11} {:>12}", "effect", "calls", "seconds", "peak memory");
+    for (const auto &row : rows)
+      if (row.is_on)
+        {
+          const auto spent = cost(row);
+          log.print("{:<22} {:>9} {:>11.4f} {:>12}",
+                    row.name,
+                    spent.calls,
+                    spent.seconds,
+                    readable_bytes(spent.peak_bytes));
+        }
+    for (const auto &remark : advice.remarks)
+      log.print("advice: '{}' is {} and {}: {} = {:.3g}; {}",
+                remark.effect,
+                remark.is_on ? "on" : "off",
+                remark.is_on ? "does not matter" : "would matter",
+                remark.number,
+                remark.value,
+                remark.rule);
+  }
+
+
+  template <int dim>
+  std::string
+  EffectsReport<dim>::json(const Advice &advice) const
+  {
+    double whole = 0;
+    for (const auto &phase : timing.root().children)
+      whole += phase->seconds;
+    const auto effects = json_list(rows, [&](const Row &row) {
+      const auto  spent = cost(row);
+      std::string phases;
+      for (const auto &phase : row.phases)
+        phases += (phases.empty() ? "" : ", ") + quoted(phase);
+      return fmt::format("{{\"name\": {}, \"on\": {}, \"why\": {}, \"rule\": {}, "
+                         "\"phases\": [{}], \"calls\": {}, \"seconds\": {:.6f}, "
+                         "\"bytes at start\": {:.0f}, \"peak bytes\": {:.0f}}}",
+                         quoted(row.name),
+                         row.is_on,
+                         quoted(row.why),
+                         quoted(row.rule),
+                         phases,
+                         spent.calls,
+                         spent.seconds,
+                         row.start_bytes,
+                         spent.peak_bytes);
+    });
+    const auto numbers = json_list(advice.numbers, [](const Advice::Number &number) {
+      return fmt::format("{{\"name\": {}, \"value\": {:.6g}, \"meaning\": {}}}",
+                         quoted(number.name),
+                         number.value,
+                         quoted(number.meaning));
+    });
+    const auto remarks = json_list(advice.remarks, [](const Advice::Remark &remark) {
+      return fmt::format("{{\"effect\": {}, \"on\": {}, \"matters\": {}, \"number\": {}, "
+                         "\"value\": {:.6g}, \"rule\": {}}}",
+                         quoted(remark.effect),
+                         remark.is_on,
+                         !remark.is_on,
+                         quoted(remark.number),
+                         remark.value,
+                         quoted(remark.rule));
+    });
+    return fmt::format("{{\n  \"ranks\": {},\n  \"seconds\": {:.6f},\n  \"effects\": {},\n"
+                       "  \"numbers\": {},\n  \"advice\": {}\n}}\n",
+                       dealii::Utilities::MPI::n_mpi_processes(communicator),
+                       whole,
+                       effects,
+                       numbers,
+                       remarks);
+  }
+
+
+  template class EffectsReport<2>;
+  template class EffectsReport<3>;
+} // namespace undine
