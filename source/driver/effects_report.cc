@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/implied_effect.h>
 #include <undine/driver/effects_report.h>
+#include <undine/particles/phases.h>
 
 #include <algorithm>
 
@@ -68,6 +69,8 @@ namespace undine
   {
     const auto &registry = Registry<Effect<dim>>::instance();
     const auto &effects  = scene.models.effects;
+    // Particles have no phase of each effect: their forces are computed in one pass.
+    const std::string of_particles = name_of(particles::Phase::forces);
     for (const auto &name : registry.names())
       {
         const auto found = std::find_if(
@@ -80,7 +83,7 @@ namespace undine
                           true,
                           "Effects / " + name + ": " + (*found)->summary(),
                           registry.help(name),
-                          {name}});
+                          {scene.models.particles ? of_particles : name}});
       }
   }
 

@@ -11,8 +11,8 @@ namespace undine
     typename ImpliedEffect<dim>::Call
     call(const Models<dim> &models) const override
     {
-      if (models.particles)
-        return {!models.particles->body_names().empty(), "section 'Bodies'"};
+      if (models.particles && !models.particles->body_names().empty())
+        return {true, "section 'Bodies'"};
       if (!models.solid)
         return {false, "no section 'Bodies'"};
       return {true, "Bodies / " + names_of_bodies(models, [](const auto &) { return true; })};
@@ -21,7 +21,7 @@ namespace undine
     std::vector<std::string>
     phases() const override
     {
-      return {"assemble forces", "assemble tangent", "solve linear system"};
+      return {"assemble forces", "assemble tangent", "solve linear system", "elastic steps"};
     }
   };
 

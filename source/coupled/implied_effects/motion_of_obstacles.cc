@@ -12,20 +12,26 @@ namespace undine
     call(const Models<dim> &models) const override
     {
       if (models.particles)
-        return {models.particles->setup().n_moving > 0, "Obstacles / <name> / Displacement"};
+        return call(models.particles->setup().n_moving > 0);
       const bool has_obstacles =
         models.surface && models.surface->surface().n_nodes() > models.surface->n_body_nodes();
       if (!has_obstacles)
         return {false, "no section 'Obstacles'"};
-      if (!models.surface->obstacles().move())
-        return {false, "no 'Obstacles / <name> / Displacement'"};
-      return {true, "Obstacles / <name> / Displacement"};
+      return call(models.surface->obstacles().move());
     }
 
     std::vector<std::string>
     phases() const override
     {
       return {"cut cells"};
+    }
+
+  private:
+    static typename ImpliedEffect<dim>::Call
+    call(const bool moves)
+    {
+      const std::string key = "'Obstacles / <name> / Displacement'";
+      return {moves, moves ? key : "no " + key};
     }
   };
 
