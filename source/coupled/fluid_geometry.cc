@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/fluid_geometry.h>
+#include <undine/coupled/node_masses.h>
 #include <undine/interface/body_forces.h>
 #include <undine/interface/sampled_pockets.h>
 
@@ -14,6 +15,8 @@ namespace undine
     , model(*models.fluid)
     , void_regions(models.void_regions.get())
     , cells(block_of_rank(model.grid()))
+    , has_friction(models.has_friction())
+    , masses(has_friction ? node_masses(models) : Velocities())
   {
   }
 
@@ -38,6 +41,19 @@ namespace undine
         close_sampled_pockets(voids, grid, cells, parts);
         parts = make_open_parts(grid, cells, voids);
       }
+    if (has_friction)
+      find_walls();
+  }
+
+
+  template <int dim>
+  void
+  FluidGeometry<dim>::find_walls()
+  {
+    auto found = make_sticking_walls(
+      model.grid(), cells, parts, *flux_operator, {surface.surface(), positions});
+    found.masses = masses;
+    walls        = std::make_shared<const StickingWalls<dim>>(std::move(found));
   }
 
 
@@ -83,7 +99,7 @@ namespace undine
   typename Flow<dim>::Bodies
   FluidGeometry<dim>::bodies() const
   {
-    return {queries.get(), parts.open};
+    return {queries.get(), parts.open, walls, velocities};
   }
 
 
@@ -179,7 +195,8 @@ namespace undine
   Columns
   FluidGeometry<dim>::columns(const Field<dim>             &pressure,
                               const dealii::Tensor<1, dim> &gravity,
-                              const double                  time) const
+                              const double                  time,
+                              const Velocities             &friction) const
   {
     PressureForces<dim> forces;
     forces.reduced = pressure_forces(pressure);
@@ -192,6 +209,8 @@ namespace undine
     if (gravity.norm() > 0)
       forces.gravity = gravity_forces(gravity);
     auto columns = pressure_force_columns(surface.surface(), forces);
+    if (!friction.empty())
+      append(columns, body_force_columns("viscous force", surface.surface(), friction));
     columns.push_back({"Cut cells", "1", double(cut_report.cut_cells)});
     columns.push_back({"Flagged cells", "1", double(cut_report.flagged_cells)});
     return columns;

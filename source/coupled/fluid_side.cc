@@ -13,8 +13,11 @@ namespace undine
     , timing(timing)
     , uniform_gravity(models.environment().gravity)
   {
-    if (models.surface)
-      cut = std::make_unique<FluidGeometry<dim>>(models);
+    if (!models.surface)
+      return;
+    cut = std::make_unique<FluidGeometry<dim>>(models);
+    if (models.has_friction())
+      friction.resize(models.surface->surface().n_nodes());
   }
 
 
@@ -117,6 +120,8 @@ namespace undine
                          const double    divergence)
   {
     fluid.finish();
+    if (fluid.friction)
+      friction = fluid.friction->on_nodes;
     if (cut)
       {
         report.note += cut->news();
@@ -142,7 +147,7 @@ namespace undine
     for (const auto &effect : models.effects)
       append(report.columns, effect->columns(model, state, time));
     if (cut)
-      append(report.columns, cut->columns(state.pressure, uniform_gravity, time));
+      append(report.columns, cut->columns(state.pressure, uniform_gravity, time, friction));
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
+#include <undine/fluid/immersed_friction.h>
 #include <undine/fluid/implicit_diffusion.h>
 #include <undine/fluid/pressure_gradient.h>
 
@@ -31,10 +32,6 @@ namespace undine
         throw options.error("",
                             "viscosity acts on a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
-      if (around.has_obstacles)
-        throw options.error("",
-                            "friction on obstacles is not part of this version",
-                            "Remove the section or the section 'Obstacles'.");
     }
 
     std::string
@@ -64,9 +61,18 @@ namespace undine
       add(velocity, step.dt, gradient);
       set_boundary_velocity(velocity, step.model, step.end);
       for (unsigned int axis = 0; axis < dim; ++axis)
-        step.linear_iterations += solver(step.model, axis).step(velocity[axis], step.end, step.dt);
+        step.linear_iterations +=
+          step.flow.bodies().walls
+            ? among_bodies(step, axis)
+            : solver(step.model, axis).step(velocity[axis], step.end, step.dt);
       step.pressure_correction = pressure_correction(step.model, velocity);
       add(velocity, -step.dt, gradient);
+    }
+
+    bool
+    sticks_to_surfaces() const override
+    {
+      return true;
     }
 
     Columns
@@ -79,15 +85,43 @@ namespace undine
     }
 
   private:
-    /// -mu div w in every cell [Pa]. Exchanges ghosts of w.
+    /// Friction along one axis, also on surfaces. Returns the number of iterations.
+    unsigned int
+    among_bodies(FluidStep<dim> &step, const unsigned int axis) const
+    {
+      const auto &bodies   = step.flow.bodies();
+      auto       &friction = frictions[axis];
+      if (!friction || friction->walls() != bodies.walls)
+        friction = std::make_unique<ImmersedFriction<dim>>(
+          step.model, axis, bodies.open_parts, bodies.walls, dynamic_viscosity);
+      const unsigned int n_iterations =
+        friction->step(step.state.velocity[axis], bodies.wall_velocities, step.end, step.dt);
+      const auto &forces = friction->forces();
+      if (!step.friction)
+        step.friction.emplace();
+      const auto copy = [&](auto &to, const auto &from) {
+        to.resize(from.size());
+        for (std::size_t k = 0; k < from.size(); ++k)
+          to[k][axis] = from[k];
+      };
+      copy(step.friction->on_nodes, forces.on_nodes);
+      copy(step.friction->on_boundaries, forces.on_boundaries);
+      return n_iterations;
+    }
+
+
+    /// -mu div w in every cell that is whole [Pa]. Exchanges ghosts of w.
     Field<dim>
     pressure_correction(const FluidModel<dim> &model, Velocity<dim> &velocity) const
     {
       exchange(velocity);
       auto correction = divergence(model, velocity);
+      const auto *divided = correction.divided();
       for_each(correction.owned(), [&](const GridIndex<dim> &cell) {
-        correction(cell) *= -dynamic_viscosity / model.grid().cell_volume(cell);
+        const bool is_whole = !divided || divided->kind(cell) == LatticeParts<dim>::Kind::whole;
+        correction(cell) *= is_whole ? -dynamic_viscosity / model.grid().cell_volume(cell) : 0.;
       });
+      std::fill(correction.parts().begin(), correction.parts().end(), 0.);
       return correction;
     }
 
@@ -112,6 +146,7 @@ namespace undine
     /// Matrices of the last step size: a cache.
     mutable std::array<std::unique_ptr<VelocityCondition<dim>>, dim> conditions;
     mutable std::array<std::unique_ptr<ImplicitDiffusion<dim>>, dim> equations;
+    mutable std::array<std::unique_ptr<ImmersedFriction<dim>>, dim>  frictions;
   };
 
 

@@ -12,6 +12,7 @@
 #include <undine/interface/cut_parts.h>
 #include <undine/interface/cut_report.h>
 #include <undine/interface/immersed_surface.h>
+#include <undine/interface/make_sticking_walls.h>
 #include <undine/interface/surface_queries.h>
 #include <undine/interface/void_regions.h>
 
@@ -102,10 +103,13 @@ namespace undine
     Velocities
     other_forces(const dealii::Tensor<1, dim> &gravity, double time) const;
 
-    /// Forces of the pressure at `time` on each body [N], with g also their parts; and how the
-    /// cutting went. Collective.
+    /// Forces of the pressure at `time` on each body [N], with g also their parts; those of
+    /// friction in the nodes, if given; and how the cutting went. Collective.
     Columns
-    columns(const Field<dim> &pressure, const dealii::Tensor<1, dim> &gravity, double time) const;
+    columns(const Field<dim>             &pressure,
+            const dealii::Tensor<1, dim> &gravity,
+            double                        time,
+            const Velocities             &friction = {}) const;
 
     /// What is wrong with the surfaces, where; empty if nothing is, or if accept() has been called
     /// for the same since.
@@ -115,6 +119,8 @@ namespace undine
   private:
     void
     cut();
+    void
+    find_walls();
     Velocities
     gravity_forces(const dealii::Tensor<1, dim> &gravity) const;
     Velocities
@@ -134,6 +140,9 @@ namespace undine
     std::string                                told; ///< CutReport::subject
     std::unique_ptr<const BoundaryFlux<dim>>   flux_operator;
     std::unique_ptr<const SurfaceQueries<dim>> queries;
+    const bool                                 has_friction;
+    const Velocities                           masses; ///< of nodes, see node_masses() [kg]
+    std::shared_ptr<const StickingWalls<dim>>  walls; ///< nullptr: without friction
   };
 
   /// What is wrong with the surfaces at the start, see CutReport::message. Collective.

@@ -66,6 +66,7 @@ namespace undine
     TimingTree                         &timing;
     const dealii::Tensor<1, dim>        uniform_gravity; ///< [m/s^2]
     std::unique_ptr<FluidGeometry<dim>> cut;
+    std::vector<dealii::Tensor<1, dim>> friction; ///< in the nodes of surfaces, last stage [N]
   };
 } // namespace undine
 

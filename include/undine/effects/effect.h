@@ -72,6 +72,10 @@ namespace undine
     diffuse(FluidStep<dim> &step) const;
     /// @}
 
+    /// Does it need to know where the planes of the grid meet the surfaces in the fluid?
+    virtual bool
+    sticks_to_surfaces() const;
+
     /// Say what the effect does to the bodies.
     virtual void
     affect(SolidEnvironment<dim> &environment) const;
