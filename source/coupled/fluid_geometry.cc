@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/fluid_geometry.h>
-#include <undine/coupled/node_masses.h>
 #include <undine/interface/body_forces.h>
 #include <undine/interface/sampled_pockets.h>
 
@@ -15,8 +14,6 @@ namespace undine
     , model(*models.fluid)
     , void_regions(models.void_regions.get())
     , cells(block_of_rank(model.grid()))
-    , has_friction(models.has_friction())
-    , masses(has_friction ? node_masses(models) : Velocities())
   {
   }
 
@@ -41,19 +38,6 @@ namespace undine
         close_sampled_pockets(voids, grid, cells, parts);
         parts = make_open_parts(grid, cells, voids);
       }
-    if (has_friction)
-      find_walls();
-  }
-
-
-  template <int dim>
-  void
-  FluidGeometry<dim>::find_walls()
-  {
-    auto found = make_sticking_walls(
-      model.grid(), cells, parts, *flux_operator, {surface.surface(), positions});
-    found.masses = masses;
-    walls        = std::make_shared<const StickingWalls<dim>>(std::move(found));
   }
 
 
@@ -99,7 +83,7 @@ namespace undine
   typename Flow<dim>::Bodies
   FluidGeometry<dim>::bodies() const
   {
-    return {queries.get(), parts.open, walls, velocities};
+    return {queries.get(), parts.open};
   }
 
 
@@ -210,7 +194,8 @@ namespace undine
       forces.gravity = gravity_forces(gravity);
     auto columns = pressure_force_columns(surface.surface(), forces);
     if (!friction.empty())
-      append(columns, body_force_columns("viscous force", surface.surface(), friction));
+      for (const auto &column : body_force_columns("viscous force", surface.surface(), friction))
+        columns.push_back(column);
     columns.push_back({"Cut cells", "1", double(cut_report.cut_cells)});
     columns.push_back({"Flagged cells", "1", double(cut_report.flagged_cells)});
     return columns;

@@ -12,12 +12,10 @@ namespace undine
     , ledger(ledger)
     , timing(timing)
     , uniform_gravity(models.environment().gravity)
+    , surface_friction(models)
   {
-    if (!models.surface)
-      return;
-    cut = std::make_unique<FluidGeometry<dim>>(models);
-    if (models.has_friction())
-      friction.resize(models.surface->surface().n_nodes());
+    if (models.surface)
+      cut = std::make_unique<FluidGeometry<dim>>(models);
   }
 
 
@@ -26,6 +24,22 @@ namespace undine
   FluidSide<dim>::bodies() const
   {
     return cut ? cut->bodies() : typename Flow<dim>::Bodies();
+  }
+
+
+  /// Those that the fluid sticks to where there is friction.
+  template <int dim>
+  typename Flow<dim>::Bodies
+  FluidSide<dim>::sticky_bodies(const State<dim> &state, const Stage &stage)
+  {
+    auto result = bodies();
+    if (cut && models.has_friction())
+      {
+        const auto phase       = timing.section("cut cells");
+        result.walls           = surface_friction.walls(*cut);
+        result.wall_velocities = surface_friction.start(state, *cut, stage.length);
+      }
+    return result;
   }
 
 
@@ -84,7 +98,7 @@ namespace undine
                                                   state.clock.time,
                                                   stage,
                                                   timing,
-                                                  bodies());
+                                                  sticky_bodies(state, stage));
     const auto book  = [&](const typename Ledger<dim>::Phase phase) {
       if (stage.is_last)
         ledger.add(phase, state.fluid.velocity);
@@ -121,7 +135,7 @@ namespace undine
   {
     fluid.finish();
     if (fluid.friction)
-      friction = fluid.friction->on_nodes;
+      surface_friction.end(state, fluid);
     if (cut)
       {
         report.note += cut->news();
@@ -147,7 +161,7 @@ namespace undine
     for (const auto &effect : models.effects)
       append(report.columns, effect->columns(model, state, time));
     if (cut)
-      append(report.columns, cut->columns(state.pressure, uniform_gravity, time, friction));
+      append(report.columns, cut->columns(state.pressure, uniform_gravity, time, surface_friction.forces()));
   }
 
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace undine
 {
   /// Friction in a fluid of constant viscosity, implicit in time (implicit Euler):
@@ -65,7 +67,8 @@ namespace undine
           step.flow.bodies().walls
             ? among_bodies(step, axis)
             : solver(step.model, axis).step(velocity[axis], step.end, step.dt);
-      step.pressure_correction = pressure_correction(step.model, velocity);
+      step.pressure_correction =
+        pressure_correction(step.model, velocity, step.flow.bodies());
       add(velocity, -step.dt, gradient);
     }
 
@@ -110,18 +113,31 @@ namespace undine
     }
 
 
-    /// -mu div w in every cell that is whole [Pa]. Exchanges ghosts of w.
+    /// -mu div w in every cell; in components of divided ones half of that, since there only less
+    /// than 2/dim is sure to converge (Guermond, Minev & Shen 2006) [Pa]. Exchanges ghosts of w.
     Field<dim>
-    pressure_correction(const FluidModel<dim> &model, Velocity<dim> &velocity) const
+    pressure_correction(const FluidModel<dim>            &model,
+                        Velocity<dim>                    &velocity,
+                        const typename Flow<dim>::Bodies &bodies) const
     {
+      constexpr double share = 0.5, least_fraction = 0.01;
       exchange(velocity);
-      auto correction = divergence(model, velocity);
-      const auto *divided = correction.divided();
+      auto        correction = divergence(model, velocity);
+      const auto *divided    = correction.divided();
       for_each(correction.owned(), [&](const GridIndex<dim> &cell) {
         const bool is_whole = !divided || divided->kind(cell) == LatticeParts<dim>::Kind::whole;
         correction(cell) *= is_whole ? -dynamic_viscosity / model.grid().cell_volume(cell) : 0.;
       });
-      std::fill(correction.parts().begin(), correction.parts().end(), 0.);
+      if (bodies.walls)
+        for (const auto &patch : bodies.walls->patches)
+          correction.parts()[patch.component] += patch.area * bodies.wall_velocities[patch.node];
+      for (std::size_t c = 0; c < correction.parts().size(); ++c)
+        {
+          const auto  &component = divided->all()[c];
+          const double volume =
+            std::max(component.measure, least_fraction * model.grid().cell_volume(component.index));
+          correction.parts()[c] *= -share * dynamic_viscosity / volume;
+        }
       return correction;
     }
 

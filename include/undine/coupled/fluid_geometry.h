@@ -12,7 +12,6 @@
 #include <undine/interface/cut_parts.h>
 #include <undine/interface/cut_report.h>
 #include <undine/interface/immersed_surface.h>
-#include <undine/interface/make_sticking_walls.h>
 #include <undine/interface/surface_queries.h>
 #include <undine/interface/void_regions.h>
 
@@ -119,8 +118,6 @@ namespace undine
   private:
     void
     cut();
-    void
-    find_walls();
     Velocities
     gravity_forces(const dealii::Tensor<1, dim> &gravity) const;
     Velocities
@@ -140,9 +137,6 @@ namespace undine
     std::string                                told; ///< CutReport::subject
     std::unique_ptr<const BoundaryFlux<dim>>   flux_operator;
     std::unique_ptr<const SurfaceQueries<dim>> queries;
-    const bool                                 has_friction;
-    const Velocities                           masses; ///< of nodes, see node_masses() [kg]
-    std::shared_ptr<const StickingWalls<dim>>  walls; ///< nullptr: without friction
   };
 
   /// What is wrong with the surfaces at the start, see CutReport::message. Collective.

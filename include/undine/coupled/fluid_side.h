@@ -8,6 +8,7 @@
 #include <undine/coupled/models.h>
 #include <undine/coupled/report.h>
 #include <undine/coupled/state.h>
+#include <undine/coupled/surface_friction.h>
 #include <undine/fluid/fluid_step.h>
 #include <undine/fluid/projection.h>
 
@@ -57,6 +58,8 @@ namespace undine
     place_surfaces(const State<dim> &state, const Stage &stage);
     typename Flow<dim>::Bodies
     bodies() const;
+    typename Flow<dim>::Bodies
+    sticky_bodies(const State<dim> &state, const Stage &stage);
     void
     add_columns(Report &report, const FluidState<dim> &state, double divergence, double time) const;
 
@@ -66,7 +69,7 @@ namespace undine
     TimingTree                         &timing;
     const dealii::Tensor<1, dim>        uniform_gravity; ///< [m/s^2]
     std::unique_ptr<FluidGeometry<dim>> cut;
-    std::vector<dealii::Tensor<1, dim>> friction; ///< in the nodes of surfaces, last stage [N]
+    SurfaceFriction<dim>                surface_friction;
   };
 } // namespace undine
 

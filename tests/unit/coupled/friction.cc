@@ -106,6 +106,184 @@ namespace
   };
 
 
+  /// A closed box with a fixed and a moving body, in which the fluid swirls.
+  template <int dim>
+  std::string
+  swirl_among_bodies()
+  {
+    const std::string swirl = plane_or_space<dim>("sin(6*y)+x; cos(5*x)*y", "sin(6*y)+x; cos(5*x)*z; x*y");
+    return section("Domain", plane_or_space<dim>("set Cells = 17, 13", "set Cells = 9, 8, 7")) +
+           section("Fluid",
+                   "set Density = 700\nset Initial velocity = " + swirl + "\n" +
+                     section("Boundaries", boundary("walls", every_side<dim>(), "no-slip wall")));
+  }
+
+
+  template <int dim>
+  void
+  check_momentum()
+  {
+    const std::string bodies =
+      obstacle("disc",
+               "ball",
+               plane_or_space<dim>("set Centre = .31, .4", "set Centre = .31, .4, .52") +
+                 "\nset Radius = .17") +
+      obstacle("bar",
+               "box",
+               plane_or_space<dim>("set Centre = .7, .6\nset Size = .05, .4\nset Rotation = 20\n"
+                                   "set Displacement = .3*sin(t); .1*t",
+                                   "set Centre = .7, .6, .5\nset Size = .05, .4, .3\nset Rotation "
+                                   "= 20, 10, 40\nset Displacement = .3*sin(t); .1*t; 0"));
+    const Options options(read_scene_text(swirl_among_bodies<dim>() + section("Obstacles", bodies) +
+                                          section("Effects", viscosity(30))));
+    const auto    models = make_models<dim>(options);
+    Ledger<dim>   ledger(models, true);
+    TimingTree    timing;
+    FluidAlone<dim> scheme(models, ledger, timing);
+    State<dim>    state;
+    Report        report;
+    const double  dt = .01;
+    scheme.initialize(state, dt, report);
+    FluidSide<dim> side(models, ledger, timing);
+    const auto     fluid = side.predict(state, single_stage(dt));
+    REQUIRE(fluid->friction);
+    dealii::Tensor<1, dim> on_nodes, on_sides;
+    for (const auto &force : fluid->friction->on_nodes)
+      on_nodes += force;
+    for (const auto &force : fluid->friction->on_boundaries)
+      on_sides += force;
+    const auto columns = ledger.columns();
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      for (const auto &column : columns)
+        if (column.name == std::string("momentum by diffusion ") + "xyz"[axis])
+          {
+            INFO("axis " << axis << " " << column.value << " " << on_nodes << " " << on_sides);
+            CHECK(std::abs(on_nodes[axis]) > 1e-3);
+            CHECK(std::abs(column.value + dt * (on_nodes[axis] + on_sides[axis])) <=
+                  1e-9 * dt * (on_nodes.norm() + on_sides.norm()));
+          }
+  }
+
+
+  /// Between two long boxes, tilted and not in line with the grid. At both ends the velocity or the
+  /// pressure is given.
+  struct TiltedChannel
+  {
+    static constexpr double angle = .35, width = .4, fastest = 1e-3, viscosity = 20;
+
+    struct Errors
+    {
+      double velocity; ///< largest, of the fastest
+      double force;    ///< of the plates' friction in the middle
+    };
+
+    explicit TiltedChannel(const unsigned int n)
+      : run(fluid(n), plate("lower", -1) + plate("upper", 1), undine_tests::viscosity(viscosity), 1)
+    {
+      for (unsigned int k = 0; k < 40; ++k)
+        run.step();
+    }
+
+    static std::string
+    plate(const std::string &name, const int side)
+    {
+      const double away = side * (width / 2 + .5);
+      return obstacle(name,
+                      "box",
+                      fmt::format("set Centre = {:.17g}, {:.17g}\nset Size = 4, 1\nset Rotation = "
+                                  "{:.17g}\nset Cells = 8, 1",
+                                  .5 - away * std::sin(angle),
+                                  .5 + away * std::cos(angle),
+                                  angle * 180 / M_PI));
+    }
+
+    static std::string
+    fluid(const unsigned int n)
+    {
+      const auto across = fmt::format(
+        "(-{:.17g}*(x-.5)+{:.17g}*(y-.5))", std::sin(angle), std::cos(angle));
+      const auto along = fmt::format(
+        "({:.17g}*(x-.5)+{:.17g}*(y-.5))", std::cos(angle), std::sin(angle));
+      const auto speed =
+        fmt::format("max(0,{:.17g}*(1-({}/{})^2))", fastest, across, width / 2);
+      const auto velocity =
+        fmt::format("{:.17g}*{};{:.17g}*{}", std::cos(angle), speed, std::sin(angle), speed);
+      return section("Domain", fmt::format("set Cells = {}, {}", n, n)) +
+             section("Fluid",
+                     "set Density = 1\nset Initial velocity = " + velocity + "\n" +
+                       section("Boundaries",
+                               boundary("in", "left", "inflow", "set Velocity = " + velocity) +
+                                 boundary("out",
+                                          "right",
+                                          "pressure",
+                                          fmt::format("set Pressure = -{:.17g}*{}",
+                                                      gradient(),
+                                                      along))));
+    }
+
+    static double
+    gradient()
+    {
+      return 8 * viscosity * fastest / (width * width);
+    }
+
+    Errors
+    errors() const
+    {
+      Errors     result{0, 0};
+      const auto arm = [](const dealii::Point<2> &x) {
+        return dealii::Tensor<1, 2>({std::cos(angle) * (x[0] - .5) + std::sin(angle) * (x[1] - .5),
+                                     -std::sin(angle) * (x[0] - .5) + std::cos(angle) * (x[1] - .5)});
+      };
+      for (unsigned int axis = 0; axis < 2; ++axis)
+        for_each_value(run.state.fluid.velocity[axis],
+                       [&](const double value, const dealii::Point<2> &place, const auto &) {
+                         const double s = arm(place)[0], n = arm(place)[1];
+                         if (std::abs(s) > .25 || std::abs(n) > width / 2)
+                           return;
+                         const double speed = fastest * (1 - std::pow(2 * n / width, 2));
+                         const double exact = speed * (axis == 0 ? std::cos(angle) : std::sin(angle));
+                         result.velocity =
+                           std::max(result.velocity, std::abs(value - exact) / fastest);
+                       });
+      const auto friction = run.column_vector("viscous force lower") +
+                            run.column_vector("viscous force upper");
+      const auto pressure = run.column_vector("pressure force lower") +
+                            run.column_vector("pressure force upper");
+      // Along the channel pressure does nothing to the plates, friction holds the drop of pressure.
+      const double length = 1 / std::cos(angle);
+      const double along  = std::cos(angle) * friction[0] + std::sin(angle) * friction[1];
+      result.force = std::abs(along / (gradient() * length * width) - 1);
+      UNSCOPED_INFO("pressure " << pressure);
+      return result;
+    }
+
+    ObstacleRun<2> run;
+  };
+
+
+  /// The flow after a step in a closed box that a bar moves through.
+  Velocity<2>
+  stirred(const double value, const bool has_friction)
+  {
+    ObstacleRun<2> run(section("Domain", "set Cells = 20, 20") +
+                         section("Fluid",
+                                 "set Density = 1\n" + section("Boundaries",
+                                         boundary("top", "top", "outflow") +
+                                           boundary("walls",
+                                                    "left, right, bottom",
+                                                    "no-slip wall"))),
+                       obstacle("bar",
+                                "box",
+                                "set Centre = .51, .43\nset Size = .05, .3\nset Rotation = "
+                                "20\nset Displacement = t; 0"),
+                       has_friction ? viscosity(value) : "",
+                       .01);
+    run.step();
+    return run.state.fluid.velocity;
+  }
+
+
   double
   order(const double coarse, const double fine)
   {
@@ -158,5 +336,47 @@ TEST_CASE("The flow around a turning disc converges with second order", "[fricti
     }
   CHECK(order(coarse, fine) >= 1.6);
   CHECK(largest <= .02);
-  CHECK(false);
+}
+
+
+TEST_CASE("What friction takes from the fluid it gives to surfaces and sides", "[friction][mpi]")
+{
+  SECTION("2D")
+  {
+    check_momentum<2>();
+  }
+  SECTION("3D")
+  {
+    check_momentum<3>();
+  }
+}
+
+
+TEST_CASE("Fluid between tilted plates flows as in a parabola", "[friction]")
+{
+  const auto coarse = TiltedChannel(24).errors(), fine = TiltedChannel(48).errors();
+  UNSCOPED_INFO(coarse.velocity << " " << fine.velocity << ", " << coarse.force << " " << fine.force);
+  CHECK(order(coarse.velocity, fine.velocity) >= 1.5);
+  CHECK(fine.velocity <= .02);
+  CHECK(fine.force <= .02);
+}
+
+
+TEST_CASE("Friction without viscosity is none, with much of it all moves alike", "[friction]")
+{
+  SECTION("little")
+  {
+    const auto with = stirred(1e-14, true), without = stirred(0, false);
+    for (unsigned int axis = 0; axis < 2; ++axis)
+      for (std::size_t k = 0; k < with[axis].parts().size(); ++k)
+        CHECK(std::abs(with[axis].parts()[k] - without[axis].parts()[k]) <= 1e-9);
+  }
+  SECTION("much")
+  {
+    // Nothing is faster than what stirs it.
+    const auto velocity = stirred(1e6, true);
+    CHECK(largest_on_faces(velocity, [](const double v, const auto &, const int) {
+            return std::abs(v);
+          }) <= 1.001);
+  }
 }
