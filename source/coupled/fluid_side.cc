@@ -161,7 +161,8 @@ namespace undine
     for (const auto &effect : models.effects)
       append(report.columns, effect->columns(model, state, time));
     if (cut)
-      append(report.columns, cut->columns(state.pressure, uniform_gravity, time, surface_friction.forces()));
+      append(report.columns,
+             cut->columns(state.pressure, uniform_gravity, time, surface_friction.forces()));
   }
 
 

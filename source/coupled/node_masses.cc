@@ -14,7 +14,7 @@ namespace undine
       return {};
     const auto &solid = *models.solid;
     auto        ones = solid.vector(), sums = solid.vector();
-    ones             = 1.;
+    ones = 1.;
     mass_matrix(solid).vmult(sums, ones);
     if (solid.numerics().integrator->coefficients(1.).mass == 0) // static
       sums = std::numeric_limits<double>::infinity();

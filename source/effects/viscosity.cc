@@ -67,8 +67,7 @@ namespace undine
           step.flow.bodies().walls
             ? among_bodies(step, axis)
             : solver(step.model, axis).step(velocity[axis], step.end, step.dt);
-      step.pressure_correction =
-        pressure_correction(step.model, velocity, step.flow.bodies());
+      step.pressure_correction = pressure_correction(step.model, velocity, step.flow.bodies());
       add(velocity, -step.dt, gradient);
     }
 

@@ -114,12 +114,11 @@ namespace undine
           links.for_each_place(face, [&](const FacePlace<dim> &place) {
             links.for_each_neighbour(
               place, d, 1, [&](const FacePlace<dim> &next, const double common) {
-                const double distance =
-                  std::max(links.centroid(next)[d] - links.centroid(place)[d],
-                           least_share * grid.cell_width(d, face[d]));
-                term.weight   = viscosity * width * common / distance;
-                term.faces[0] = {place, 1.};
-                term.faces[1] = {next, -1.};
+                const double distance = std::max(links.centroid(next)[d] - links.centroid(place)[d],
+                                                 least_share * grid.cell_width(d, face[d]));
+                term.weight           = viscosity * width * common / distance;
+                term.faces[0]         = {place, 1.};
+                term.faces[1]         = {next, -1.};
                 action(term);
               });
           });
@@ -131,8 +130,8 @@ namespace undine
   void
   FrictionTerms<dim>::sides(const Action &action) const
   {
-    Term                        term;
-    const auto                 &lattice = *grid.faces(axis);
+    Term                         term;
+    const auto                  &lattice = *grid.faces(axis);
     const VelocityCondition<dim> condition(axis);
     term.faces.resize(1);
     for (unsigned int d = 0; d < dim; ++d)
@@ -179,8 +178,8 @@ namespace undine
     term.nodes.resize(dim);
     for (const auto &contact : walls.contacts[axis])
       {
-        term.weight = viscosity * grid.dual_width(axis, contact.face[axis]) * contact.length /
-                      contact.distance;
+        term.weight =
+          viscosity * grid.dual_width(axis, contact.face[axis]) * contact.length / contact.distance;
         term.faces[0] = {{contact.face, contact.part}, 1.};
         for (unsigned int k = 0; k < dim; ++k)
           term.nodes[k] = {contact.nodes[k], -contact.weights[k]};

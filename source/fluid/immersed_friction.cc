@@ -57,15 +57,16 @@ namespace undine
   {
     namespace mpi           = dealii::Utilities::MPI;
     const auto communicator = model.grid().communicator();
-    const bool is_last      = mpi::this_mpi_process(communicator) + 1 == mpi::n_mpi_processes(communicator);
-    numbers                 = Field<dim>(model.grid().faces(axis), open);
-    Number count            = 0;
+    const bool is_last =
+      mpi::this_mpi_process(communicator) + 1 == mpi::n_mpi_processes(communicator);
+    numbers      = Field<dim>(model.grid().faces(axis), open);
+    Number count = 0;
     for_each_value(numbers, [&](double &, const auto &, const auto &) { ++count; });
-    first_node             = mpi::sum(count, communicator);
-    const Number n_nodes   = is_last ? sticking_walls->masses.size() : 0;
-    mine                   = mpi::create_ascending_partitioning(
-      communicator, count + n_nodes)[mpi::this_mpi_process(communicator)];
-    Number next = count > 0 ? mine.nth_index_in_set(0) : 0;
+    first_node           = mpi::sum(count, communicator);
+    const Number n_nodes = is_last ? sticking_walls->masses.size() : 0;
+    mine                 = mpi::create_ascending_partitioning(communicator,
+                                              count + n_nodes)[mpi::this_mpi_process(communicator)];
+    Number next          = count > 0 ? mine.nth_index_in_set(0) : 0;
     for_each_value(numbers, [&](double &number, const auto &, const auto &) { number = next++; });
     numbers.exchange(1);
   }
@@ -96,7 +97,8 @@ namespace undine
   bool
   ImmersedFriction<dim>::is_free(const unsigned int node) const
   {
-    return node < sticking_walls->masses.size() && std::isfinite(sticking_walls->masses[node][axis]);
+    return node < sticking_walls->masses.size() &&
+           std::isfinite(sticking_walls->masses[node][axis]);
   }
 
 
@@ -167,8 +169,7 @@ namespace undine
     double reach = 0;
     for_each(model.grid().cells()->owned(), [&](const GridIndex<dim> &cell) {
       for (unsigned int d = 0; d < dim; ++d)
-        reach =
-          std::max(reach, dt * kinematic / std::pow(model.grid().cell_width(d, cell[d]), 2));
+        reach = std::max(reach, dt * kinematic / std::pow(model.grid().cell_width(d, cell[d]), 2));
     });
     solver.set_up(dealii::Utilities::MPI::max(reach, communicator));
     assembled_dt = dt;
@@ -211,7 +212,8 @@ namespace undine
       if (const auto number = first_node + node; mine.is_element(number))
         {
           solution(number) = nodes[node];
-          load(number)     = (is_free(node) ? sticking_walls->masses[node][axis] : 1.) * solution(number);
+          load(number) =
+            (is_free(node) ? sticking_walls->masses[node][axis] : 1.) * solution(number);
         }
     solution.compress(dealii::VectorOperation::insert);
     load.compress(dealii::VectorOperation::insert);

@@ -188,8 +188,8 @@ namespace undine
     double result = 0;
     for_each(lattice->owned(), [&](const GridIndex<dim> &index) {
       for (unsigned int d = 0; d < dim; ++d)
-        result =
-          std::max(result, dt * diffusivity / std::pow(extent(model.grid(), *lattice, d, index), 2));
+        result = std::max(result,
+                          dt * diffusivity / std::pow(extent(model.grid(), *lattice, d, index), 2));
     });
     return dealii::Utilities::MPI::max(result, model.grid().communicator());
   }

@@ -41,8 +41,8 @@ namespace undine
         edge.start[across] > planes.width(axes[across], corner[axes[across]]) / 2 ? 1 : 0;
       auto        &rim    = rims[2 * axes[across] + end];
       const double length = size[along];
-      const double middle =
-        planes.position(axes[along], corner[axes[along]]) + (edge.start[along] + edge.end[along]) / 2;
+      const double middle = planes.position(axes[along], corner[axes[along]]) +
+                            (edge.start[along] + edge.end[along]) / 2;
       if (length > 0)
         rim = {rim.length + length,
                (rim.length * rim.middle + length * middle) / (rim.length + length)};

@@ -3,6 +3,7 @@
 #include <undine/fluid/face_links.h>
 #include <undine/interface/facet_geometry.h>
 #include <undine/interface/make_sticking_walls.h>
+#include <undine/interface/plane_chord.h>
 
 #include <cmath>
 #include <limits>
@@ -14,42 +15,6 @@ namespace undine
     /// Contacts nearer than this share of a cell's width count as so near: what sticks to a wall
     /// at that distance moves with it, and the equations keep their condition.
     constexpr double least_distance = 0.01;
-
-
-    /// Where a fragment meets a plane of the grid.
-    template <int dim>
-    struct Chord
-    {
-      dealii::Point<dim>     middle;
-      dealii::Tensor<1, dim> normal; ///< in the plane, of the chord's length, out of the fluid
-    };
-
-
-    /// Out of the ends of the chord, given the fragment's normal. @{
-    Chord<2>
-    make_chord(const std::vector<dealii::Point<2>> &ends,
-               const unsigned int                   axis,
-               const dealii::Tensor<1, 2>          &fragment_normal)
-    {
-      Chord<2> chord{ends[0], {}};
-      chord.normal[1 - axis] = fragment_normal[1 - axis] < 0 ? -1 : 1;
-      return chord;
-    }
-
-    Chord<3>
-    make_chord(const std::vector<dealii::Point<3>> &ends,
-               const unsigned int                   axis,
-               const dealii::Tensor<1, 3>          &fragment_normal)
-    {
-      dealii::Tensor<1, 3> direction;
-      direction[axis] = 1;
-      Chord<3> chord{ends[0] + (ends[1] - ends[0]) / 2,
-                     dealii::cross_product_3d(ends[1] - ends[0], direction)};
-      if (chord.normal * fragment_normal < 0)
-        chord.normal *= -1;
-      return chord;
-    }
-    /// @}
 
 
     template <int dim>
@@ -88,11 +53,11 @@ namespace undine
                          const int           cell,
                          const unsigned int  end) const;
       int
-      piece_at(const unsigned int    axis,
-               const GridIndex<dim> &face,
-               const unsigned int    end,
-               const int             component,
-               const Chord<dim>     &chord) const;
+      piece_at(const unsigned int     axis,
+               const GridIndex<dim>  &face,
+               const unsigned int     end,
+               const int              component,
+               const PlaneChord<dim> &chord) const;
       bool
       lies_among_whole_faces(const FaceLinks<dim> &links,
                              const unsigned int    axis,
@@ -198,11 +163,11 @@ namespace undine
     /// a chord; -1 if there is none.
     template <int dim>
     int
-    WallFinder<dim>::piece_at(const unsigned int    axis,
-                              const GridIndex<dim> &face,
-                              const unsigned int    end,
-                              const int             component,
-                              const Chord<dim>     &chord) const
+    WallFinder<dim>::piece_at(const unsigned int     axis,
+                              const GridIndex<dim>  &face,
+                              const unsigned int     end,
+                              const int              component,
+                              const PlaneChord<dim> &chord) const
     {
       const auto &divided = open.faces[axis];
       int         result  = -1;
@@ -240,7 +205,7 @@ namespace undine
               ends.push_back(cut.corners.points[c]);
           if (ends.size() != dim - 1)
             continue;
-          const auto   chord  = make_chord(ends, axis, fragment.area_vector);
+          const auto   chord  = plane_chord(ends, axis, fragment.area_vector);
           const double length = chord.normal.norm();
           const int    part =
             piece_at(axis, face, 1 - end, parts.open_components[fragment.component], chord);
@@ -315,10 +280,10 @@ namespace undine
       constexpr double negligible = 1e-9;
       const Rim        rim        = links.rim(place, side.axis, side.end);
       double           closed     = rim.length;
-      links.for_each_neighbour(place,
-                               side.axis,
-                               side.end,
-                               [&](const FacePlace<dim> &, const double common) { closed -= common; });
+      links.for_each_neighbour(
+        place, side.axis, side.end, [&](const FacePlace<dim> &, const double common) {
+          closed -= common;
+        });
       if (closed <= negligible * rim.length)
         return;
       auto         on_rim = links.centroid(place);
@@ -327,11 +292,8 @@ namespace undine
       on_rim[side.axis]   = at;
       const int facet     = nearest_facet(on_rim, place.face, axis, side);
       if (facet >= 0)
-        add(walls.contacts[axis],
-            {place.face, place.part, closed, way, {}, {}},
-            axis,
-            facet,
-            on_rim);
+        add(
+          walls.contacts[axis], {place.face, place.part, closed, way, {}, {}}, axis, facet, on_rim);
     }
 
 

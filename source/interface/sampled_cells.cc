@@ -104,14 +104,14 @@ namespace undine
               const double                       area)
     {
       Rims<3>      result;
-      const double share = std::min(1.,
-                                    area / (planes.width(axes[0], corner[axes[0]]) *
-                                            planes.width(axes[1], corner[axes[1]])));
+      const double share = std::min(
+        1.,
+        area / (planes.width(axes[0], corner[axes[0]]) * planes.width(axes[1], corner[axes[1]])));
       for (unsigned int d = 0; d < 2; ++d)
         for (unsigned int end = 0; end < 2; ++end)
           {
-            const unsigned int along = axes[1 - d];
-            const double       width = planes.width(along, corner[along]);
+            const unsigned int along  = axes[1 - d];
+            const double       width  = planes.width(along, corner[along]);
             result[2 * axes[d] + end] = {share * width,
                                          planes.position(along, corner[along]) + width / 2};
           }

@@ -106,7 +106,7 @@ namespace undine
       by_interface, ///< what bodies get less what the fluid gives
       by_fluid_at_rest,
       by_friction, ///< what bodies get; the fluid gives it by diffusion
-      // bodies
+                   // bodies
       by_loads,
       by_supports,
       by_damping,

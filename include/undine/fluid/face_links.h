@@ -59,8 +59,7 @@ namespace undine
       if (is_whole(face))
         action(FacePlace<dim>{face, -1});
       else
-        for_each_part(
-          divided, face, [&](const int part) { action(FacePlace<dim>{face, part}); });
+        for_each_part(divided, face, [&](const int part) { action(FacePlace<dim>{face, part}); });
     }
 
     /// Centroid [m].
@@ -98,7 +97,8 @@ namespace undine
                   const unsigned int    end) const
     {
       const int next = face[direction] + (end == 0 ? -1 : 1);
-      return lattice.row(direction).periodic() || (next >= 0 && next < lattice.row(direction).size());
+      return lattice.row(direction).periodic() ||
+             (next >= 0 && next < lattice.row(direction).size());
     }
 
     /// action(FacePlace, length of the rim in common) for what a piece touches on that side.
@@ -112,11 +112,10 @@ namespace undine
       const Rim own = rim(place, direction, end);
       for_each_place(moved<dim>(place.face, direction, end == 0 ? -1 : 1),
                      [&](const FacePlace<dim> &next) {
-                       const Rim    other  = rim(next, direction, 1 - end);
-                       const double common = std::min(own.middle + own.length / 2,
-                                                      other.middle + other.length / 2) -
-                                             std::max(own.middle - own.length / 2,
-                                                      other.middle - other.length / 2);
+                       const Rim    other = rim(next, direction, 1 - end);
+                       const double common =
+                         std::min(own.middle + own.length / 2, other.middle + other.length / 2) -
+                         std::max(own.middle - own.length / 2, other.middle - other.length / 2);
                        if (own.length > 0 && other.length > 0 && common > 0)
                          action(next, common);
                      });

@@ -10,13 +10,14 @@
 
 namespace undine
 {
-  /// One implicit Euler step of friction along one axis in a fluid with bodies in it: the minimum of
+  /// One implicit Euler step of friction along one axis in a fluid with bodies in it: the minimum
+  /// of
   ///
   ///     sum_f rho V_f (v_f - v_f*)^2 / 2 + sum_k m_k (u_k - u_k*)^2 / 2 + h power(v, u) / 2
   ///
-  /// over v, and over the velocities u of the nodes of bodies that have a mass; the power is that of
-  /// FrictionTerms. Symmetric and positive definite, for pieces of any size and any h. The sum of
-  /// rho V v and of h times all forces does not change, to the tolerance of the solver.
+  /// over v, and over the velocities u of the nodes of bodies that have a mass; the power is that
+  /// of FrictionTerms. Symmetric and positive definite, for pieces of any size and any h. The sum
+  /// of rho V v and of h times all forces does not change, to the tolerance of the solver.
   ///
   /// What bodies get is the force; their u here is forgotten, and only makes it one that bodies
   /// lighter than the fluid that they drag along can bear.

@@ -9,8 +9,8 @@
 
 namespace undine
 {
-  /// Where the planes of faces meet the surface; without masses. `cut`, `parts` and `boundary_flux` are those of the surface as placed.
-  /// Collective.
+  /// Where the planes of faces meet the surface; without masses. `cut`, `parts` and `boundary_flux`
+  /// are those of the surface as placed. Collective.
   template <int dim>
   StickingWalls<dim>
   make_sticking_walls(const MacGrid<dim>       &grid,

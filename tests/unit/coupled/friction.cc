@@ -17,13 +17,11 @@ namespace
     for (unsigned int d = 0; d < dim; ++d)
       cells += (d == 0 ? "" : ", ") + std::to_string(n);
     return section("Domain", "set Cells = " + cells) +
-           section("Fluid",
-                   fmt::format("set Density = {}\nset Initial velocity = {}\n", density, velocity) +
-                     section("Boundaries",
-                             boundary("all",
-                                      every_side<dim>(),
-                                      "inflow",
-                                      "set Velocity = " + velocity)));
+           section(
+             "Fluid",
+             fmt::format("set Density = {}\nset Initial velocity = {}\n", density, velocity) +
+               section("Boundaries",
+                       boundary("all", every_side<dim>(), "inflow", "set Velocity = " + velocity)));
   }
 
 
@@ -68,8 +66,7 @@ namespace
     std::string
     fluid(const unsigned int n) const
     {
-      const auto square =
-        "((x-" + number(centre[0]) + ")^2+(y-" + number(centre[1]) + ")^2)";
+      const auto square = "((x-" + number(centre[0]) + ")^2+(y-" + number(centre[1]) + ")^2)";
       return given_on_all_sides<2>(
         n, 1, turning(number(speed * radius * radius) + "/max(1e-3," + square + ")"));
     }
@@ -87,16 +84,15 @@ namespace
     {
       double largest = 0, sum = 0, n = 0;
       for (unsigned int axis = 0; axis < 2; ++axis)
-        for_each_value(run.state.fluid.velocity[axis],
-                       [&](const double value, const auto &place, const auto &) {
-                         if ((place - centre).norm() < radius)
-                           return;
-                         const double error =
-                           std::abs(value - exact(place, axis)) / (speed * radius);
-                         largest = std::max(largest, error);
-                         sum += error * error;
-                         n += 1;
-                       });
+        for_each_value(
+          run.state.fluid.velocity[axis], [&](const double value, const auto &place, const auto &) {
+            if ((place - centre).norm() < radius)
+              return;
+            const double error = std::abs(value - exact(place, axis)) / (speed * radius);
+            largest            = std::max(largest, error);
+            sum += error * error;
+            n += 1;
+          });
       return {largest, std::sqrt(sum / n)};
     }
 
@@ -111,7 +107,8 @@ namespace
   std::string
   swirl_among_bodies()
   {
-    const std::string swirl = plane_or_space<dim>("sin(6*y)+x; cos(5*x)*y", "sin(6*y)+x; cos(5*x)*z; x*y");
+    const std::string swirl =
+      plane_or_space<dim>("sin(6*y)+x; cos(5*x)*y", "sin(6*y)+x; cos(5*x)*z; x*y");
     return section("Domain", plane_or_space<dim>("set Cells = 17, 13", "set Cells = 9, 8, 7")) +
            section("Fluid",
                    "set Density = 700\nset Initial velocity = " + swirl + "\n" +
@@ -140,9 +137,9 @@ namespace
     Ledger<dim>   ledger(models, true);
     TimingTree    timing;
     FluidAlone<dim> scheme(models, ledger, timing);
-    State<dim>    state;
-    Report        report;
-    const double  dt = .01;
+    State<dim>      state;
+    Report          report;
+    const double    dt = .01;
     scheme.initialize(state, dt, report);
     FluidSide<dim> side(models, ledger, timing);
     const auto     fluid = side.predict(state, single_stage(dt));
@@ -165,7 +162,8 @@ namespace
   }
 
 
-  /// Between two long boxes, tilted and not in line with the grid; the velocity at both ends is given.
+  /// Between two long boxes, tilted and not in line with the grid; the velocity at both ends is
+  /// given.
   struct TiltedChannel
   {
     static constexpr double angle = .35, width = .4, fastest = 1e-3, viscosity = 20;
@@ -177,7 +175,10 @@ namespace
     };
 
     explicit TiltedChannel(const unsigned int n)
-      : run(fluid(n), plate("lower", -1) + plate("upper", 1), undine_tests::viscosity(viscosity), .005)
+      : run(fluid(n),
+            plate("lower", -1) + plate("upper", 1),
+            undine_tests::viscosity(viscosity),
+            .005)
     {
       for (unsigned int k = 0; k < 50; ++k)
         run.step();
@@ -199,20 +200,17 @@ namespace
     static std::string
     fluid(const unsigned int n)
     {
-      const auto across = fmt::format(
-        "(-{:.17g}*(x-.5)+{:.17g}*(y-.5))", std::sin(angle), std::cos(angle));
-      const auto speed =
-        fmt::format("max(0,{:.17g}*(1-({}/{})^2))", fastest, across, width / 2);
+      const auto across =
+        fmt::format("(-{:.17g}*(x-.5)+{:.17g}*(y-.5))", std::sin(angle), std::cos(angle));
+      const auto speed = fmt::format("max(0,{:.17g}*(1-({}/{})^2))", fastest, across, width / 2);
       const auto velocity =
         fmt::format("{:.17g}*{};{:.17g}*{}", std::cos(angle), speed, std::sin(angle), speed);
       return section("Domain", fmt::format("set Cells = {}, {}", n, n)) +
-             section("Fluid",
-                     "set Density = 1\nset Initial velocity = " + velocity + "\n" +
-                       section("Boundaries",
-                               boundary("ends",
-                                        "left, right",
-                                        "inflow",
-                                        "set Velocity = " + velocity)));
+             section(
+               "Fluid",
+               "set Density = 1\nset Initial velocity = " + velocity + "\n" +
+                 section("Boundaries",
+                         boundary("ends", "left, right", "inflow", "set Velocity = " + velocity)));
     }
 
     static double
@@ -226,8 +224,9 @@ namespace
     {
       Errors     result{0, 0};
       const auto arm = [](const dealii::Point<2> &x) {
-        return dealii::Tensor<1, 2>({std::cos(angle) * (x[0] - .5) + std::sin(angle) * (x[1] - .5),
-                                     -std::sin(angle) * (x[0] - .5) + std::cos(angle) * (x[1] - .5)});
+        return dealii::Tensor<1, 2>(
+          {std::cos(angle) * (x[0] - .5) + std::sin(angle) * (x[1] - .5),
+           -std::sin(angle) * (x[0] - .5) + std::cos(angle) * (x[1] - .5)});
       };
       for (unsigned int axis = 0; axis < 2; ++axis)
         for_each_value(run.state.fluid.velocity[axis],
@@ -236,16 +235,17 @@ namespace
                          if (std::abs(s) > .25 || std::abs(n) > width / 2)
                            return;
                          const double speed = fastest * (1 - std::pow(2 * n / width, 2));
-                         const double exact = speed * (axis == 0 ? std::cos(angle) : std::sin(angle));
+                         const double exact =
+                           speed * (axis == 0 ? std::cos(angle) : std::sin(angle));
                          result.velocity =
                            std::max(result.velocity, std::abs(value - exact) / fastest);
                        });
-      const auto friction = run.column_vector("viscous force lower") +
-                            run.column_vector("viscous force upper");
+      const auto friction =
+        run.column_vector("viscous force lower") + run.column_vector("viscous force upper");
       // Friction holds the drop of pressure along the channel.
       const double length = 1 / std::cos(angle);
       const double along  = std::cos(angle) * friction[0] + std::sin(angle) * friction[1];
-      result.force = std::abs(along / (gradient() * length * width) - 1);
+      result.force        = std::abs(along / (gradient() * length * width) - 1);
       return result;
     }
 
@@ -257,23 +257,24 @@ namespace
   Velocity<2>
   stirred(const double value)
   {
-    ObstacleRun<2> run(section("Domain", "set Cells = 20, 20") +
-                         section("Fluid",
-                                 "set Density = 1\n" +
-                                   section("Boundaries",
-                                           boundary("top", "top", "outflow") +
-                                             boundary("walls",
-                                                      "left, right, bottom",
-                                                      "no-slip wall"))),
-                       obstacle("bar",
-                                "box",
-                                "set Centre = .51, .43\nset Size = .05, .3\nset Rotation = "
-                                "20\nset Displacement = t; 0"),
-                       viscosity(value),
-                       .01);
+    ObstacleRun<2> run(
+      section("Domain", "set Cells = 20, 20") +
+        section("Fluid",
+                "set Density = 1\n" +
+                  section("Boundaries",
+                          boundary("top", "top", "outflow") +
+                            boundary("walls", "left, right, bottom", "no-slip wall"))),
+      obstacle("bar",
+               "box",
+               "set Centre = .51, .43\nset Size = .05, .3\nset Rotation = "
+               "20\nset Displacement = t; 0"),
+      viscosity(value),
+      .01);
     FluidSide<2> side(run.models, run.ledger, run.timing);
-    run.state.fluid.velocity = run.models.fluid->initial_state(run.state.fluid.pressure.open_parts()).velocity;
-    run.state.fluid.pressure = Field<2>(run.models.fluid->grid().cells(), run.state.fluid.pressure.open_parts());
+    run.state.fluid.velocity =
+      run.models.fluid->initial_state(run.state.fluid.pressure.open_parts()).velocity;
+    run.state.fluid.pressure =
+      Field<2>(run.models.fluid->grid().cells(), run.state.fluid.pressure.open_parts());
     side.predict(run.state, single_stage(.01));
     return run.state.fluid.velocity;
   }
@@ -297,19 +298,19 @@ TEST_CASE("Friction leaves a linear flow alone that bodies move along with", "[f
           "box\nset Lower corner = .25, .375\nset Upper corner = .5, .625"})
       {
         INFO(shape << ", " << angle);
-        const double c = std::cos(angle), s = std::sin(angle);
-        const auto   shear  = "(" + number(-s) + "*x+" + number(c) + "*y)";
-        const auto   linear = number(c) + "*" + shear + ";" + number(s) + "*" + shear;
-        const auto   moving = "t*" + number(c) + "*" + shear + ";t*" + number(s) + "*" + shear;
-        const std::string text = shape;
-        ObstacleRun<2>    run(given_on_all_sides<2>(16, 3, linear),
-                           section("body",
-                                   "set Shape = " + text + "\nset Displacement = " + moving),
-                           viscosity(10),
-                           .01);
+        const double      c = std::cos(angle), s = std::sin(angle);
+        const auto        shear  = "(" + number(-s) + "*x+" + number(c) + "*y)";
+        const auto        linear = number(c) + "*" + shear + ";" + number(s) + "*" + shear;
+        const auto        moving = "t*" + number(c) + "*" + shear + ";t*" + number(s) + "*" + shear;
+        const std::string text   = shape;
+        ObstacleRun<2>    run(
+          given_on_all_sides<2>(16, 3, linear),
+          section("body", "set Shape = " + text + "\nset Displacement = " + moving),
+          viscosity(10),
+          .01);
         run.step();
-        const double error =
-          largest_on_faces(run.state.fluid.velocity, [&](const double v, const auto &x, const int i) {
+        const double error = largest_on_faces(
+          run.state.fluid.velocity, [&](const double v, const auto &x, const int i) {
             return std::abs(v - (i == 0 ? c : s) * (-s * x[0] + c * x[1]));
           });
         // What lies on planes of the grid leaves cells without volume, which count as thin ones.
@@ -323,7 +324,8 @@ TEST_CASE("The flow around a turning disc converges with second order", "[fricti
   double coarse = 0, fine = 0, largest = 0;
   for (const double shift : {0., .013, .027})
     {
-      const auto on_coarse = TurningDisc(20, shift).errors(), on_fine = TurningDisc(40, shift).errors();
+      const auto on_coarse = TurningDisc(20, shift).errors(),
+                 on_fine   = TurningDisc(40, shift).errors();
       UNSCOPED_INFO(on_coarse.first << " " << on_fine.first << ", " << on_coarse.second << " "
                                     << on_fine.second);
       coarse += on_coarse.second;
@@ -351,7 +353,8 @@ TEST_CASE("What friction takes from the fluid it gives to surfaces and sides", "
 TEST_CASE("Fluid between tilted plates flows as in a parabola", "[friction]")
 {
   const auto coarse = TiltedChannel(24).errors(), fine = TiltedChannel(48).errors();
-  UNSCOPED_INFO(coarse.velocity << " " << fine.velocity << ", " << coarse.force << " " << fine.force);
+  UNSCOPED_INFO(coarse.velocity << " " << fine.velocity << ", " << coarse.force << " "
+                                << fine.force);
   CHECK(order(coarse.velocity, fine.velocity) >= 1.3);
   CHECK(order(coarse.force, fine.force) >= 1.3);
   CHECK(fine.velocity <= .002);
