@@ -5,6 +5,7 @@
 usage: check_channel_flows.py PROGRAM PRM_FOLDER REFERENCE_FOLDER
 
 DFG 2D-1 (cylinder, Reynolds number 20): drag within 1 %, lift and pressure difference within 5 %.
+Turek-Hron CFD1 (cylinder with a rigid flag, Reynolds number 20): drag within 1 %, lift within 5 %.
 """
 import csv
 import os
@@ -34,11 +35,14 @@ def check(what, value, wanted, allowed):
     return abs(error) <= allowed
 
 
+def rows(folder, name):
+    with open(os.path.join(folder, name)) as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
 def main():
     program, scenes, folder = sys.argv[1:4]
-    with open(os.path.join(folder, "dfg_2d1_re20.csv")) as file:
-        lines = csv.DictReader(line for line in file if not line.startswith("#"))
-        published = {line["quantity"]: line["later"] for line in lines}
+    published = {line["quantity"]: line["later"] for line in rows(folder, "dfg_2d1_re20.csv")}
     row = last_row(program, os.path.join(scenes, "dfg_2d1.prm"))
     to_coefficient = 2 / (0.2**2 * 0.1)  # 2 / (density * mean speed^2 * diameter)
     good = [
@@ -48,6 +52,12 @@ def main():
               float(published["cl"]), LIFT),
         check("pressure difference [Pa]", row["front pressure"] - row["back pressure"],
               float(published["dp_Pa"]), PRESSURE)]
+    published = next(line for line in rows(folder, "turek_hron_cfd.csv")
+                     if line["case"] == "CFD1" and line["source"] == "Turek-Hron2006")
+    row = last_row(program, os.path.join(scenes, "turek_hron_cfd1.prm"))
+    good += [check(f"CFD1 {name} [N]", force(row, "obstacle", axis),
+                   float(published[f"{name}_mean"]), allowed)
+             for name, axis, allowed in (("drag", "x", DRAG), ("lift", "y", LIFT))]
     if not all(good):
         sys.exit("outside the allowed error")
 
