@@ -135,7 +135,7 @@ def run(program, case, settings, ranks=1, steps=STEPS):
         with open(file, "w") as stream:
             stream.write(scene(case))
         arguments = [file, "--output", os.path.join(folder, "results"),
-                     "--set", f"Time/Maximum steps={steps}"]
+                     "--set", f"Time/Maximum steps={steps}", "--set", "Time/Integrator=theta"]
         for setting in settings:
             arguments += ["--set", setting]
         text = scene_tools.run(program, arguments, ranks).stdout

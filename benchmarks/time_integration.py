@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Which integrator reaches which accuracy at which cost: error against core seconds for every integrator, every
-setting of Newton's method and every step, in six cases.
+setting of Newton's method and every step, in five cases.
 
 usage: benchmarks/time_integration.py [PROGRAM] [--out DIR] [--case NAME]... [--integrator NAME]... [--quick]
        [--jobs N] [--repeats N]
@@ -95,9 +95,6 @@ CASES = {
     "plate": Case("water falls on a plate with a tenth of the scene's damping", "prm/hydrostatic_plate.prm", 0.5,
                   point("middle", "y", "plate"), (64, 128, 256, 512, 1024),
                   ("Effects/damping/Stiffness coefficient=0.002",)),
-    "plate_initial": Case("the same, pushing the water through the boundary at the beginning of a step",
-                          "prm/hydrostatic_plate.prm", 0.5, point("middle", "y", "plate"), (64, 128, 256, 512),
-                          ("Effects/damping/Stiffness coefficient=0.002", "Coupling/Boundary flux=initial")),
     "jet": Case("the first sheet in the jet", "prm/jet_two_sheets_2d.prm", 1, point("first_tip", "x", "first"),
                 (32, 64, 128, 256), ("Output/Ledger=false",)),
     "csm3": Case("a flag alone, without damping", "prm/turek_hron_csm3.prm", 1, point("A", "y"),

@@ -92,6 +92,18 @@ namespace undine
 
 
   template <int dim>
+  double
+  chamber_volume(const Models<dim>                     &models,
+                 const std::vector<dealii::Point<dim>> &positions,
+                 const dealii::Point<dim>              &point)
+  {
+    FluidGeometry<dim> geometry(models);
+    geometry.place(positions, positions, typename FluidGeometry<dim>::Velocities(positions.size()));
+    return volume_around(point, models.fluid->grid(), geometry.bodies());
+  }
+
+
+  template <int dim>
   Chamber
   measure_chamber(const Models<dim>        &models,
                   const State<dim>         &state,
@@ -101,17 +113,22 @@ namespace undine
     if (!models.surface)
       return {volume_around<dim>(point, model.grid(), {}),
               inflow_around<dim>(point, model, {}, state.fluid.velocity)};
-    using Velocities = typename FluidGeometry<dim>::Velocities;
-    FluidGeometry<dim> geometry(models);
-    const auto         now = models.surface->positions(state.solid, state.clock.time);
-    geometry.place(now, now, Velocities(now.size()));
-    const double volume = volume_around(point, model.grid(), geometry.bodies());
+    const double volume =
+      chamber_volume(models, models.surface->positions(state.solid, state.clock.time), point);
     // The velocity belongs to where the grid was cut for it.
     const auto before = geometry_of(models, state);
     return {volume, inflow_around(point, model, before->bodies(), state.fluid.velocity)};
   }
 
 
+  template double
+  chamber_volume(const Models<2> &,
+                 const std::vector<dealii::Point<2>> &,
+                 const dealii::Point<2> &);
+  template double
+  chamber_volume(const Models<3> &,
+                 const std::vector<dealii::Point<3>> &,
+                 const dealii::Point<3> &);
   template Chamber
   measure_chamber(const Models<2> &, const State<2> &, const dealii::Point<2> &);
   template Chamber

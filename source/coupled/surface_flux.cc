@@ -51,14 +51,7 @@ namespace undine
         : SurfaceFlux<dim>(models, geometry, numbers)
         , solid(solid)
         , way(bodies.way)
-        , chambers(*models.fluid,
-                   models.surface->surface(),
-                   geometry,
-                   numbers,
-                   bodies.stage,
-                   bodies.time,
-                   models.surface->n_body_nodes(),
-                   bodies.before)
+        , chambers(models, geometry, numbers, bodies.stage, bodies.time, bodies.before)
       {
         this->use(geometry.boundary_flux());
       }

@@ -5,6 +5,8 @@
 #include <undine/fluid/pressure_gradient.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace undine
 {
@@ -38,6 +40,14 @@ namespace undine
                     "given.");
         if (!options.given("Inflow value"))
           inflow = initial;
+        options.add(
+          "Neglected variation",
+          neglected,
+          "1",
+          Allowed::between(0, 0.01),
+          "Where within reach of the flow values differ by no more than this share of the "
+          "field's range, nothing is carried: what holds no smoke costs nothing. 0: "
+          "everything is carried.");
         options.add("Diffusivity", diffusivity, "m^2/s", Allowed::not_negative(), "Its own.");
         options.add("Held boundaries",
                     held_boundaries,
@@ -79,15 +89,82 @@ namespace undine
         return true;
       }
 
+      double
+      neglected_variation() const override
+      {
+        return neglected;
+      }
+
+      /// What the source at `time` adds in `length` [s].
+      void
+      add_source(Field<dim> &values, const double time, const double length) const
+      {
+        const auto *divided = values.divided();
+        for (const auto &[index, rate] : sources(values, time))
+          if (!divided || divided->kind(index) == LatticeParts<dim>::Kind::whole)
+            values(index) += length * rate;
+        for (std::size_t k = 0; k < values.parts().size(); ++k)
+          if (divided->owns(k))
+            values.parts()[k] += length * source.value(divided->all()[k].place, time);
+      }
+
+      /// Does anything change it besides the flow?
+      bool
+      changes() const
+      {
+        return diffusivity > 0 || !source.is_zero();
+      }
+
+      /// s^0 of a stage that keeps rates (T9), and what the next one needs of s^n and f^n.
+      void
+      start(Field<dim> &values, const Field<dim> &rate, const Stage &stage) const
+      {
+        const auto before = values;
+        if (stage.is_first)
+          add(values, stage.rate(), rate);
+        else
+          values = *next;
+        next.reset();
+        if (stage.is_last)
+          return;
+        next = before;
+        add(*next, stage.next_old.length, rate);
+      }
+
       std::string              name;
       Expression<dim>          initial, source, inflow, held;
       std::vector<std::string> held_boundaries;
       double                   diffusivity = 0;
+      double                   neglected   = 1e-6;
+
+      /// What the stage that follows starts from; within a step only.
+      mutable std::optional<Field<dim>> next;
 
       /// Matrix of the last step size: a cache.
       mutable std::unique_ptr<ImplicitDiffusion<dim>> equation;
 
     private:
+      using Sources = std::vector<std::pair<GridIndex<dim>, double>>;
+
+      /// The source in the middle of owned cells, where it is not zero. Found once if the time does
+      /// not matter.
+      const Sources &
+      sources(const Field<dim> &values, const double time) const
+      {
+        if (!known_sources || source.names_time())
+          {
+            known_sources.emplace();
+            for_each(values.owned(), [&](const GridIndex<dim> &index) {
+              const double rate = source.value(values.lattice().point(index), time);
+              if (rate != 0)
+                known_sources->emplace_back(index, rate);
+            });
+          }
+        return *known_sources;
+      }
+
+      mutable std::optional<Sources> known_sources; ///< a cache
+
       bool
       is_listed(const Boundary<dim> &boundary) const
       {
@@ -102,7 +179,9 @@ namespace undine
   ///
   ///     ds/dt + v.grad s = D Laplace(s) + q
   ///
-  /// explicit source, implicit diffusion. Advection is not conservative: the integral of s drifts
+  /// along the flow by the stages of the step (T9) with ds/dt = D Laplace(s) + q as the rate, of
+  /// second order in time; in steps of one stage with the source in the middle and implicit
+  /// diffusion, of first order. Advection is not conservative: the integral of s drifts
   /// with the error of the interpolation.
   template <int dim>
   class ScalarTransport : public Effect<dim>
@@ -170,9 +249,13 @@ namespace undine
           });
           set_means(values, model.grid());
           state.scalars[field->name] = values;
+          if (field->changes())
+            state.scalar_rates[field->name] =
+              Field<dim>(model.grid().cells(), state.velocity[0].open_parts());
         }
     }
 
+    /// All of a stage, so that forces see the fields at its end.
     void
     transport(FluidStep<dim> &step) const override
     {
@@ -181,39 +264,15 @@ namespace undine
         {
           auto &values = step.state.scalars.at(field->name);
           step.timing.memory.hold_briefly(this->name, values.memory_consumption());
+          if (field->changes() && step.stage.keeps_rates)
+            field->start(values, step.state.scalar_rates.at(field->name), step.stage);
           values = method->advect(step.flow, values, *field);
+          if (!field->changes())
+            continue;
+          if (field->next)
+            field->next = method->advect(step.flow, *field->next, *field);
+          change(*field, step);
         }
-    }
-
-    void
-    accelerate(FluidStep<dim> &step) const override
-    {
-      for (const auto &field : fields)
-        if (!field->source.is_zero())
-          {
-            const auto   timed  = step.timing.section(this->name);
-            auto        &values = step.state.scalars.at(field->name);
-            const double way    = step.stage.way();
-            for_each_value(values, [&](double &value, const auto &place, const auto &) {
-              value += way * field->source.value(place, step.time + way / 2);
-            });
-            set_means(values, step.model.grid());
-          }
-    }
-
-    void
-    diffuse(FluidStep<dim> &step) const override
-    {
-      for (const auto &field : fields)
-        if (field->diffusivity > 0)
-          {
-            const auto timed = step.timing.section(this->name);
-            if (!field->equation)
-              field->equation = std::make_unique<ImplicitDiffusion<dim>>(
-                step.model, step.model.grid().cells(), *field, field->diffusivity);
-            step.linear_iterations +=
-              field->equation->step(step.state.scalars.at(field->name), step.end, step.stage.way());
-          }
     }
 
     std::size_t
@@ -225,6 +284,9 @@ namespace undine
           const auto values = state.scalars.find(field->name);
           if (values != state.scalars.end())
             sum += values->second.memory_consumption();
+          const auto rates = state.scalar_rates.find(field->name);
+          if (rates != state.scalar_rates.end())
+            sum += rates->second.memory_consumption();
           if (field->equation)
             sum += field->equation->memory_consumption();
         }
@@ -243,6 +305,34 @@ namespace undine
     }
 
   private:
+    /// Sources and diffusion, and the rate that they make.
+    void
+    change(const CarriedScalar<dim> &field, FluidStep<dim> &step) const
+    {
+      auto        &values  = step.state.scalars.at(field.name);
+      const auto   carried = values;
+      const auto  &stage   = step.stage;
+      const double at      = stage.keeps_rates ? step.end : step.time + stage.way() / 2;
+      if (!field.source.is_zero())
+        {
+          field.add_source(values, at, stage.length);
+          set_means(values, step.model.grid());
+        }
+      if (field.diffusivity > 0)
+        {
+          if (!field.equation)
+            field.equation = std::make_unique<ImplicitDiffusion<dim>>(
+              step.model, step.model.grid().cells(), field, field.diffusivity);
+          step.linear_iterations += field.equation->step(values, step.end, stage.length);
+        }
+      auto &rate = step.state.scalar_rates.at(field.name);
+      rate       = values;
+      add(rate, -1., carried);
+      add(rate, 1 / stage.length - 1, Field<dim>(rate));
+      if (field.next)
+        add(*field.next, stage.next_new.length, rate);
+    }
+
     static void
     check_field(const Options                    &options,
                 const CarriedScalar<dim>         &field,

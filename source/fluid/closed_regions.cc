@@ -204,6 +204,40 @@ namespace undine
 
 
   template <int dim>
+  std::vector<dealii::Point<dim>>
+  ClosedRegions<dim>::places_within() const
+  {
+    const auto                      communicator = model.grid().communicator();
+    std::vector<double>             largest(size(), 0.);
+    std::vector<dealii::Point<dim>> places(size());
+    const auto                      which = regions_of_pressures();
+    std::size_t                     k     = 0;
+    for_each_value(which, [&](const double value, const auto &place, const auto &) {
+      const double volume = volumes[k++];
+      const int    region = static_cast<int>(value);
+      if (region == open_region || volume <= largest[region])
+        return;
+      largest[region] = volume;
+      places[region]  = place;
+    });
+    // The first rank that has the largest.
+    const auto all =
+      dealii::Utilities::MPI::all_gather(communicator, std::make_pair(largest, places));
+    for (std::size_t region = 0; region < size(); ++region)
+      {
+        double found = 0;
+        for (const auto &[volumes_there, places_there] : all)
+          if (volumes_there[region] > found)
+            {
+              found          = volumes_there[region];
+              places[region] = places_there[region];
+            }
+      }
+    return places;
+  }
+
+
+  template <int dim>
   std::vector<double>
   ClosedRegions<dim>::sums_on_components(const std::vector<double> &values) const
   {

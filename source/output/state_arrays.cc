@@ -194,6 +194,8 @@ namespace undine
       action("fluid/pressure", fluid.pressure);
       for (auto &scalar : fluid.scalars)
         action("fluid/scalars/" + scalar.first, scalar.second);
+      for (auto &rate : fluid.scalar_rates)
+        action("fluid/scalar_rates/" + rate.first, rate.second);
     }
 
 

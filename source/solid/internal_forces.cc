@@ -78,10 +78,9 @@ namespace undine
 
   template <int dim>
   double
-  rounding_of_forces(const SolidModel<dim> &model, const Vector &displacement)
+  rounding_of_forces(const SolidModel<dim> &model, const double size)
   {
     const auto                         &geometry = model.geometry();
-    const double                        size     = displacement.linfty_norm();
     Vector                              forces   = model.vector();
     std::vector<dealii::Tensor<1, dim>> gradients;
     for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
@@ -108,7 +107,7 @@ namespace undine
   template Vector internal_forces(const SolidModel<dim> &, const Vector &);    \
   template Matrix internal_stiffness(const SolidModel<dim> &, const Vector &); \
   template double elastic_energy(const SolidModel<dim> &, const Vector &);     \
-  template double rounding_of_forces(const SolidModel<dim> &, const Vector &);
+  template double rounding_of_forces(const SolidModel<dim> &, const double);
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

@@ -31,7 +31,8 @@ namespace undine
     , nodal_forces(nodal_forces)
     , coefficients(model.numerics().integrator->coefficients(dt))
     , has_pressure(has_pressure_loads(model))
-    , own_rounding(rounding_of_forces(model, old_state.displacement))
+    , own_rounding(rounding_of_forces(
+        model, old_state.displacement.linfty_norm() + dt * old_state.velocity.linfty_norm()))
     , dead(model.vector())
     , known(model.vector())
   {

@@ -5,6 +5,8 @@
 #include <undine/coupled/models.h>
 #include <undine/coupled/state.h>
 
+#include <vector>
+
 namespace undine
 {
   /// A region of fluid: all that one reaches from a place without crossing a body or an obstacle.
@@ -21,6 +23,14 @@ namespace undine
   measure_chamber(const Models<dim>        &models,
                   const State<dim>         &state,
                   const dealii::Point<dim> &point);
+
+  /// The volume of the one around `point` if the surfaces' nodes are at `positions` [m^dim].
+  /// Cuts the grid. Collective. Throws SolveError if the point is not in the fluid then.
+  template <int dim>
+  double
+  chamber_volume(const Models<dim>                     &models,
+                 const std::vector<dealii::Point<dim>> &positions,
+                 const dealii::Point<dim>              &point);
 } // namespace undine
 
 #endif

@@ -16,9 +16,11 @@ namespace undine
   ///
   ///     ( S_c + sum_j w_j q_c(t_j) ) / g - (B u)_c    [m^dim/s],                             (C3)
   ///
-  /// spread over the bodies' surface there. S: swept from t^n to the end of the stage, by the
-  /// displacement; q: what leaves through sides with a given velocity, at the earlier times t_j of
-  /// which the stage is made, which count for w_j; g: length of the stage.
+  /// spread over the bodies' surface there. S: what the chamber gains from t^n to the end of
+  /// the stage, the difference of its volumes: that where the grid is cut for the stage
+  /// and that at t^n are exact, and from the former to the end is a way of second order in h, whose
+  /// fragments of facets sweep it; q: what leaves through sides with a given velocity, at the
+  /// earlier times t_j of which the stage is made, which count for w_j; g: length of the stage.
   template <int dim>
   class ChamberVolumes
   {
@@ -28,13 +30,11 @@ namespace undine
 
     /// For a stage of the step from `time` = t^n, at which the nodes of all surfaces were at
     /// `before`. The references must outlive it. Collective.
-    ChamberVolumes(const FluidModel<dim>      &model,
-                   const Surface<dim>         &surface,
+    ChamberVolumes(const Models<dim>          &models,
                    const FluidGeometry<dim>   &geometry,
                    const PressureNumbers<dim> &numbers,
                    const Stage                &stage,
                    double                      time,
-                   std::size_t                 n_body_nodes,
                    Positions                   before);
 
     /// Are there chambers?
@@ -50,6 +50,14 @@ namespace undine
     missing_fluxes(const std::vector<double> &fluxes, const Vectors &way) const;
 
   private:
+    /// S from t^n to where the grid is cut. Cuts it where the surfaces were at t^n, too.
+    std::vector<double>
+    gained_until_cut(const Models<dim> &models) const;
+
+    /// Swept out of each chamber along straight ways from a place [m^dim].
+    std::vector<double>
+    swept(const Positions &from, const Vectors &way) const;
+
     const Surface<dim>       &surface;
     const FluidGeometry<dim> &geometry;
     const ClosedRegions<dim>  chambers;
@@ -58,6 +66,7 @@ namespace undine
     std::vector<double>       areas;        ///< of bodies, around each component [m^(dim-1)]
     std::vector<double>       region_areas; ///< of each chamber
     std::vector<double>       earlier;      ///< sum_j w_j q(t_j) of each chamber [m^dim]
+    std::vector<double>       gained;       ///< S up to where the grid is cut [m^dim]
   };
 } // namespace undine
 

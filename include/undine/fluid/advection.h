@@ -3,7 +3,9 @@
 #define undine_fluid_advection_h
 
 #include <undine/fluid/flow.h>
+#include <undine/fluid/quiet_places.h>
 
+#include <optional>
 #include <string>
 
 namespace undine
@@ -69,9 +71,21 @@ namespace undine
                 const Field<dim>             &field,
                 const BoundaryCondition<dim> &condition);
 
+  /// Those that the condition says need not be computed; nothing: all are.
+  template <int dim>
+  std::optional<QuietPlaces<dim>>
+  quiet_places(const Flow<dim>              &flow,
+               const Field<dim>             &source,
+               const BoundaryCondition<dim> &condition)
+  {
+    if (condition.neglected_variation() == 0)
+      return {};
+    return QuietPlaces<dim>(source, flow.width(), condition.neglected_variation());
+  }
+
   /// The field at t + h on what bodies leave of the grid now: `far(trace, index)` of paths that
-  /// keep away from bodies; near them all methods are alike, see NearBodies. `source` is what
-  /// completed() returned with the same condition. Collective.
+  /// keep away from bodies; near them all methods are alike, see NearBodies; quiet places keep
+  /// what they have. `source` is what completed() returned with the same condition. Collective.
   template <int dim, class Far>
   Field<dim>
   carry(const Flow<dim>              &flow,
@@ -83,13 +97,19 @@ namespace undine
     const NearBodies<dim> near(flow, source);
     Field<dim>            carried(source.shared_lattice(), bodies.open_parts);
     const auto           *divided = carried.divided();
+    const auto            quiet   = quiet_places(flow, source, condition);
     for_each_value(carried, [&](double &value, const auto &place, const GridIndex<dim> &index) {
-      const auto trace = flow.trace(place, -flow.dt());
       const bool is_part =
         divided != nullptr && divided->kind(index) != LatticeParts<dim>::Kind::whole;
-      value = is_part || flow.vicinity().is_near(place, trace.foot)
-                ? near.value_at(index, place, trace.foot)
-                : far(trace, index);
+      if (!is_part && quiet && quiet->contains(index))
+        {
+          value = source(index);
+          return;
+        }
+      const auto trace = flow.trace(place, -flow.dt());
+      value            = is_part || flow.vicinity().is_near(place, trace.foot)
+                           ? near.value_at(index, place, trace.foot)
+                           : far(trace, index);
     });
     near.finish(carried, condition);
     return carried;

@@ -35,6 +35,14 @@ namespace undine
     /// create new extrema. That costs accuracy at smooth ones.
     virtual bool
     obeys_maximum_principle() const = 0;
+
+    /// Differences between neighbours that need not be carried, as a share of the field's range
+    /// (QuietPlaces); 0: all are.
+    virtual double
+    neglected_variation() const
+    {
+      return 0;
+    }
   };
 
   /// The velocity along one axis, on sides parallel to that axis.

@@ -74,6 +74,17 @@ namespace undine
       return region_volumes.size();
     }
 
+    /// Of each of them [m^dim].
+    const std::vector<double> &
+    volumes_of_regions() const
+    {
+      return region_volumes;
+    }
+
+    /// The middle of the largest cell or component of each of them. Collective.
+    std::vector<dealii::Point<dim>>
+    places_within() const;
+
     /// What leaves each of them through walls and inflows at `time` [m^dim/s]. Collective.
     std::vector<double>
     held_outflow(const double time) const;

@@ -57,6 +57,7 @@ namespace undine
     Velocity<dim>                     change;       ///< dv/dt of the last stage [m/s^2]
     Field<dim>                        pressure;     ///< reduced pressure p - rho g.x [Pa]
     std::map<std::string, Field<dim>> scalars;      ///< by name, e.g. "smoke", "temperature"
+    std::map<std::string, Field<dim>> scalar_rates; ///< Ds/Dt of the last stage, of those that have
   };
 } // namespace undine
 

@@ -37,7 +37,9 @@ namespace
                                     poissons_ratio),
                         clamp("rims", "1", "set Sides = left, right\nset Components = y"))) +
            section("Effects",
-                   convection() + section("damping", "set Stiffness coefficient = 5e-3"));
+                   convection() + section("damping", "set Stiffness coefficient = 5e-3")) +
+           section("Time", "set Integrator = theta") +
+           section("Coupling", "set Boundary flux = swept");
   }
 
 

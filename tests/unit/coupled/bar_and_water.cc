@@ -7,10 +7,35 @@ namespace
 {
   constexpr double length = .5, column = .8, youngs_modulus = 2e5;
 
+  /// lambda of the first mode, by bisection.
+  double
+  exact_wave_number(const double density)
+  {
+    const double ratio = density * length / (1000 * column);
+    double       lower = 0, upper = M_PI / 2;
+    for (unsigned int n = 0; n < 60; ++n)
+      {
+        const double middle                                 = (lower + upper) / 2;
+        (middle * std::tan(middle) < ratio ? lower : upper) = middle;
+      }
+    return lower;
+  }
+
+
+  /// [1/s]
+  double
+  exact_frequency(const double density)
+  {
+    return exact_wave_number(density) * std::sqrt(youngs_modulus / density) / length;
+  }
+
+
   /// An elastic bar, held at its left end, closes a channel of water that is open on the right. Bar
   /// and water move along x only: without Poisson's effect the water is a mass at the bar's end,
   ///
   ///     lambda tan lambda = rho_s L / (rho_f L_f),    omega = lambda (E / rho_s)^1/2 / L.
+  ///
+  /// It starts in the shape of the first mode, sin(lambda x / L).
   ///
   /// Linear elements: facets are linear, which strains the end of one wide quadratic cell.
   template <int dim>
@@ -44,28 +69,14 @@ namespace
                                     height) +
                           fmt::format("\nset Density = {}\nset Young's modulus = {}\nset "
                                       "Poisson's ratio = 0\nset Material = linear elastic\nset "
-                                      "Initial displacement = 1e-4*x{}",
+                                      "Initial displacement = 1e-4*sin({}*x){}",
                                       density,
                                       youngs_modulus,
+                                      exact_wave_number(density) / length,
                                       plane_or_space<dim>(";0", ";0;0")),
                         clamp("wall", "1", "set Sides = left") + slides("y") +
                           plane_or_space<dim>("", slides("z")))) +
            section("Solid numerics", "set Element degree = 1") + section("Time", integrator);
-  }
-
-
-  /// Of the first mode [1/s], by bisection.
-  double
-  exact_frequency(const double density)
-  {
-    const double ratio = density * length / (1000 * column);
-    double       lower = 0, upper = M_PI / 2;
-    for (unsigned int n = 0; n < 60; ++n)
-      {
-        const double middle                                 = (lower + upper) / 2;
-        (middle * std::tan(middle) < ratio ? lower : upper) = middle;
-      }
-    return lower * std::sqrt(youngs_modulus / density) / length;
   }
 
 
@@ -103,6 +114,28 @@ namespace
     CHECK(std::abs(coarse) < .01);
     CHECK(std::abs(fine) < .005);
   }
+
+
+  /// Damping ratio of the first mode: the logarithm of how much an extreme is less than another,
+  /// per angle in between. The extremes are those of the parabola through three steps.
+  template <int dim>
+  double
+  damping_ratio(const double density, const double dt, const std::string &integrator)
+  {
+    CoupledRun<dim>       run(bar_and_water<dim>(density, dt, integrator));
+    std::vector<double>   extremes;
+    std::array<double, 3> last{};
+    for (unsigned int n = 0; n < 3000 && extremes.size() < 9; ++n)
+      {
+        run.step();
+        last               = {{last[1], last[2], run.column("centre of mass bar x") - length / 2}};
+        const double slope = (last[2] - last[0]) / 2, bend = last[2] - 2 * last[1] + last[0];
+        if (n > 2 && (last[1] - last[0]) * (last[2] - last[1]) <= 0)
+          extremes.push_back(std::abs(last[1] - slope * slope / (2 * bend)));
+      }
+    REQUIRE(extremes.size() == 9);
+    return std::log(extremes.front() / extremes.back()) / (8 * M_PI);
+  }
 } // namespace
 
 
@@ -111,4 +144,20 @@ TEST_CASE("A bar and a column of water swing with their exact frequency", "[coup
   for (const double density : {8000., 1000., 10.})
     check_frequency<2>(density);
   check_frequency<3>(1000.);
+}
+
+
+TEST_CASE("The steps of TR-BDF2 hardly damp what they resolve", "[coupled]")
+{
+  for (const double density : {8000., 1000., 10.})
+    {
+      const double dt      = .5 / exact_frequency(density);
+      const auto   damping = [&](const double step, const std::string &integrator) {
+        return damping_ratio<2>(density, step, "set Integrator = " + integrator);
+      };
+      const double fine = damping(dt / 16, "trapezoid_bdf2");
+      INFO(fmt::format("density {}: {:.2e}", density, fine));
+      CHECK(std::abs(damping(dt, "trapezoid_bdf2") - fine) <= std::max(.2 * std::abs(fine), .002));
+      CHECK(damping(dt, "theta") > .03);
+    }
 }

@@ -5,8 +5,8 @@ using namespace undine_tests;
 
 namespace
 {
-  const std::string swept   = section("Time", "set Integrator = theta") +
-                            section("Coupling", "set Boundary flux = swept");
+  const std::string swept =
+    section("Time", "set Integrator = theta") + section("Coupling", "set Boundary flux = swept");
   const std::string initial = section("Time", "set Integrator = theta");
   const std::string stages  = section("Time", "set Integrator = trapezoid_bdf2");
 
@@ -111,8 +111,8 @@ namespace
     for (unsigned int n = 0; n < std::lround(seconds / dt); ++n)
       {
         const double t = n * dt;
-        held += n == 0 ? (dt - g) * inflow(g) + g * inflow(dt) :
-                         w * (inflow(t) + inflow(t + 2 * g)) + g * inflow(t + dt);
+        held += n == 0 ? (dt - g) * inflow(g) + g * inflow(dt)
+                       : w * (inflow(t) + inflow(t + 2 * g)) + g * inflow(t + dt);
         run.step();
         largest = std::max(largest, std::abs(volume() - held) / first);
       }

@@ -52,7 +52,10 @@ namespace
     TryingRun(const double dt, const unsigned int maximum_cuts, const Judge &allow)
       : options(read_scene_text(
           section("Domain", "set Cells = 4, 4") + section("Fluid", "set Density = 1") +
-          section("Time", fmt::format("set Step = {}\nset Maximum cuts = {}", dt, maximum_cuts))))
+          section("Time",
+                  fmt::format("set Integrator = theta\nset Step = {}\nset Maximum cuts = {}",
+                              dt,
+                              maximum_cuts))))
       , scheme(Registry<Scheme<2>>::instance().make("simultaneous"))
     {
       scheme->add_options(options);

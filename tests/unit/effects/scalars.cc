@@ -133,3 +133,51 @@ TEST_CASE("heated and cooled walls drive a circulation", "[scalars]")
     leaving += temperature(GridIndex<2>{{23, j}}) * 48 / 24;
   CHECK(leaving == Approx(nusselt).epsilon(0.005));
 }
+
+
+TEST_CASE("where no smoke is within reach none is carried, which changes nothing", "[scalars][mpi]")
+{
+  const std::string blob = "set Initial value = 3 + max(0, 1 - 60*((x-.3)^2 + (y-.4)^2))\n";
+  for (const std::string method : {"semi-Lagrangian", "MacCormack", "cubic"})
+    {
+      const auto smoke = [&](const std::string &neglected) {
+        FlowRun<2> run(
+          FluidText{"32, 24",
+                    boundary("in", "left", "inflow", "set Velocity = 1; 0") +
+                      boundary("out", "right", "outflow"),
+                    "1; 0"},
+          section("scalar transport",
+                  "set Method = " + method + "\n" +
+                    section("smoke", blob + "set Neglected variation = " + neglected)));
+        run.run(10, .03);
+        return run.state.scalars.at("smoke");
+      };
+      const auto everywhere = smoke("0");
+      for (const double share : {1e-3, 1e-6})
+        {
+          const auto where_it_is = smoke(fmt::format("{}", share));
+          double     error = 0, untouched = 0;
+          for_each(everywhere.owned(), [&](const GridIndex<2> &cell) {
+            error = std::max(error, std::abs(where_it_is(cell) - everywhere(cell)));
+            untouched += where_it_is(cell) == 3;
+          });
+          error     = dealii::Utilities::MPI::max(error, MPI_COMM_WORLD);
+          untouched = dealii::Utilities::MPI::sum(untouched, MPI_COMM_WORLD);
+          INFO(fmt::format("{} {}: {:.2e} {}", method, share, error, untouched));
+          CHECK(error <= 10 * share);
+          CHECK(untouched > 32 * 24 / 5);
+        }
+    }
+}
+
+
+TEST_CASE("a source that does not change is found once, one that does in every step",
+          "[scalars][mpi]")
+{
+  for (const std::string factor : {"1", "(1+0*t)", "2*t/.5"})
+    {
+      FlowRun<2> run(FluidText{"8, 6"}, heat("set Source = if(x < .5, 2, 0)*" + factor));
+      run.run(5, 0.1);
+      CHECK(total_heat(run) == Approx(.5));
+    }
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_quiet_places_h
+#define undine_fluid_quiet_places_h
+
+#include <undine/fluid/field.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// Where nothing happens to a field that is carried: within reach of a point all its values are
+  /// the same but for a share of the field's range. What the flow brings there is what is there.
+  /// To be safe and fast, neighbours are compared: they differ by less than would add up to that
+  /// share on the longest way between two of these values.
+  template <int dim>
+  class QuietPlaces
+  {
+  public:
+    /// `source`: with `reach` ghost layers; `share` of the field's range that differences may have,
+    /// from 0 to 1. Points next to which bodies divide others are never quiet. Collective.
+    QuietPlaces(const Field<dim> &source, const GridIndex<dim> &reach, double share);
+
+    /// Of an owned point.
+    bool
+    contains(const GridIndex<dim> &index) const
+    {
+      return is_quiet[owned.position(index)] != 0;
+    }
+
+  private:
+    IndexBox<dim>     owned;
+    std::vector<char> is_quiet;
+  };
+} // namespace undine
+
+#endif
