@@ -51,7 +51,7 @@ CASES = {
     "cavity, Re 1000": cavity(1000, 64, 60),
     "heated cavity, Ra 1e3": heated(1e3, 32, 0.01),
     "heated cavity, Ra 1e4": heated(1e4, 32, 0.005),
-    "heated cavity, Ra 1e5": heated(1e5, 48, 0.001),
+    "heated cavity, Ra 1e5": heated(1e5, 48, 0.002),
 }
 
 

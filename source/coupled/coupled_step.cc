@@ -47,7 +47,7 @@ namespace undine
                 fluid.start,
                 fluid.dt,
                 parts.timing,
-                loads_at_rest())
+                loads_besides_pressure())
     , numbers(parts.models.fluid->grid(), parts.geometry.bodies().open_parts)
     , surface(
         moved(make_surface_flux(
@@ -76,14 +76,20 @@ namespace undine
   }
 
 
-  /// What the fluid does to the bodies besides its reduced pressure [N].
+  /// What the fluid does to the bodies besides its reduced pressure [N]. Friction has been found
+  /// before: the fluid has its reaction.
   template <int dim>
   typename CoupledStep<dim>::Vector
-  CoupledStep<dim>::loads_at_rest()
+  CoupledStep<dim>::loads_besides_pressure()
   {
     surfaces.at_rest = parts.geometry.other_forces(fluid.gravity, end_time);
     auto result      = parts.models.solid->vector();
     parts.models.surface->add_to_bodies(result, surfaces.at_rest);
+    if (fluid.friction)
+      {
+        surfaces.friction = fluid.friction->on_nodes;
+        parts.models.surface->add_to_bodies(result, surfaces.friction);
+      }
     return result;
   }
 

@@ -179,7 +179,8 @@ namespace undine
   Columns
   FluidGeometry<dim>::columns(const Field<dim>             &pressure,
                               const dealii::Tensor<1, dim> &gravity,
-                              const double                  time) const
+                              const double                  time,
+                              const Velocities             &friction) const
   {
     PressureForces<dim> forces;
     forces.reduced = pressure_forces(pressure);
@@ -192,6 +193,9 @@ namespace undine
     if (gravity.norm() > 0)
       forces.gravity = gravity_forces(gravity);
     auto columns = pressure_force_columns(surface.surface(), forces);
+    if (!friction.empty())
+      for (const auto &column : body_force_columns("viscous force", surface.surface(), friction))
+        columns.push_back(column);
     columns.push_back({"Cut cells", "1", double(cut_report.cut_cells)});
     columns.push_back({"Flagged cells", "1", double(cut_report.flagged_cells)});
     return columns;

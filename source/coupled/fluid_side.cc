@@ -12,6 +12,7 @@ namespace undine
     , ledger(ledger)
     , timing(timing)
     , uniform_gravity(models.environment().gravity)
+    , surface_friction(models)
   {
     if (models.surface)
       cut = std::make_unique<FluidGeometry<dim>>(models);
@@ -23,6 +24,22 @@ namespace undine
   FluidSide<dim>::bodies() const
   {
     return cut ? cut->bodies() : typename Flow<dim>::Bodies();
+  }
+
+
+  /// Those that the fluid sticks to where there is friction.
+  template <int dim>
+  typename Flow<dim>::Bodies
+  FluidSide<dim>::sticky_bodies(const State<dim> &state, const Stage &stage)
+  {
+    auto result = bodies();
+    if (cut && models.has_friction())
+      {
+        const auto phase       = timing.section("cut cells");
+        result.walls           = surface_friction.walls(*cut);
+        result.wall_velocities = surface_friction.start(state, *cut, stage.length);
+      }
+    return result;
   }
 
 
@@ -111,7 +128,7 @@ namespace undine
                                                   state.clock.time,
                                                   stage,
                                                   timing,
-                                                  bodies());
+                                                  sticky_bodies(state, stage));
     {
       const auto phase = timing.section("transport");
       run_phase(
@@ -142,6 +159,8 @@ namespace undine
                          const double    divergence)
   {
     fluid.finish();
+    if (fluid.friction)
+      surface_friction.end(state, fluid);
     if (cut)
       {
         report.note += cut->news();
@@ -168,7 +187,8 @@ namespace undine
     for (const auto &effect : models.effects)
       append(report.columns, effect->columns(model, state, time));
     if (cut)
-      append(report.columns, cut->columns(state.pressure, uniform_gravity, time));
+      append(report.columns,
+             cut->columns(state.pressure, uniform_gravity, time, surface_friction.forces()));
   }
 
 

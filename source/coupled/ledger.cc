@@ -19,6 +19,7 @@ namespace undine
                                                    "obstacles",
                                                    "interface",
                                                    "fluid at rest",
+                                                   "friction",
                                                    "loads",
                                                    "supports",
                                                    "damping",
@@ -157,6 +158,10 @@ namespace undine
         terms[by_interface].momentum += dt * surfaces.on_bodies[node];
         terms[by_fluid_at_rest].energy += surfaces.at_rest[node] * surfaces.way[node];
         terms[by_fluid_at_rest].momentum += dt * surfaces.at_rest[node];
+        if (surfaces.friction.empty())
+          continue;
+        terms[by_friction].energy += surfaces.friction[node] * surfaces.way[node];
+        terms[by_friction].momentum += dt * surfaces.friction[node];
       }
   }
 
@@ -189,7 +194,7 @@ namespace undine
     if (term == by_obstacles)
       return models.surface && models.surface->surface().n_nodes() > models.surface->n_body_nodes();
     if (term < by_loads)
-      return models.fluid && models.solid;
+      return models.fluid && models.solid && (term != by_friction || models.has_friction());
     return models.solid && (has_stages || term != by_stages);
   }
 

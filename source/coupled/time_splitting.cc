@@ -61,6 +61,11 @@ namespace undine
       auto forces           = models.solid->vector();
       models.surface->add_to_bodies(forces, exchange.on_bodies);
       models.surface->add_to_bodies(forces, exchange.at_rest);
+      if (fluid->friction)
+        {
+          exchange.friction = fluid->friction->on_nodes;
+          models.surface->add_to_bodies(forces, exchange.friction);
+        }
 
       auto       way = state.solid.displacement;
       const auto solid =

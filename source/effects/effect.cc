@@ -57,6 +57,14 @@ namespace undine
 
 
   template <int dim>
+  bool
+  Effect<dim>::sticks_to_surfaces() const
+  {
+    return false;
+  }
+
+
+  template <int dim>
   void
   Effect<dim>::affect(SolidEnvironment<dim> &) const
   {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
+#include <undine/fluid/immersed_friction.h>
 #include <undine/fluid/implicit_diffusion.h>
 #include <undine/fluid/pressure_gradient.h>
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace undine
 {
@@ -31,10 +34,6 @@ namespace undine
         throw options.error("",
                             "viscosity acts on a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
-      if (around.has_obstacles)
-        throw options.error("",
-                            "friction on obstacles is not part of this version",
-                            "Remove the section or the section 'Obstacles'.");
     }
 
     std::string
@@ -64,8 +63,11 @@ namespace undine
       add(velocity, step.dt, gradient);
       set_boundary_velocity(velocity, step.model, step.end);
       for (unsigned int axis = 0; axis < dim; ++axis)
-        step.linear_iterations += solver(step.model, axis).step(velocity[axis], step.end, step.dt);
-      step.pressure_correction = pressure_correction(step.model, velocity);
+        step.linear_iterations +=
+          step.flow.bodies().walls
+            ? among_bodies(step, axis)
+            : solver(step.model, axis).step(velocity[axis], step.end, step.dt);
+      step.pressure_correction = pressure_correction(step.model, velocity, step.flow.bodies());
       step.timing.memory.hold_briefly(this->name,
                                       pressure.memory_consumption() +
                                         undine::memory_consumption(gradient) +
@@ -78,9 +80,16 @@ namespace undine
     {
       std::size_t sum = 0;
       for (const auto &equation : equations)
-        if (equation)
-          sum += equation->memory_consumption();
+        sum += equation ? equation->memory_consumption() : 0;
+      for (const auto &friction : frictions)
+        sum += friction ? friction->memory_consumption() : 0;
       return sum;
+    }
+
+    bool
+    sticks_to_surfaces() const override
+    {
+      return true;
     }
 
     Columns
@@ -99,15 +108,56 @@ namespace undine
     }
 
   private:
-    /// -mu div w in every cell [Pa]. Exchanges ghosts of w.
-    Field<dim>
-    pressure_correction(const FluidModel<dim> &model, Velocity<dim> &velocity) const
+    /// Friction along one axis, also on surfaces. Returns the number of iterations.
+    unsigned int
+    among_bodies(FluidStep<dim> &step, const unsigned int axis) const
     {
+      const auto &bodies   = step.flow.bodies();
+      auto       &friction = frictions[axis];
+      if (!friction || friction->walls() != bodies.walls)
+        friction = std::make_unique<ImmersedFriction<dim>>(
+          step.model, axis, bodies.open_parts, bodies.walls, dynamic_viscosity);
+      const unsigned int n_iterations =
+        friction->step(step.state.velocity[axis], bodies.wall_velocities, step.end, step.dt);
+      const auto &forces = friction->forces();
+      if (!step.friction)
+        step.friction.emplace();
+      const auto copy = [&](auto &to, const auto &from) {
+        to.resize(from.size());
+        for (std::size_t k = 0; k < from.size(); ++k)
+          to[k][axis] = from[k];
+      };
+      copy(step.friction->on_nodes, forces.on_nodes);
+      copy(step.friction->on_boundaries, forces.on_boundaries);
+      return n_iterations;
+    }
+
+
+    /// -mu div w in every cell; in components of divided ones half of that, since there only less
+    /// than 2/dim is sure to converge (Guermond, Minev & Shen 2006) [Pa]. Exchanges ghosts of w.
+    Field<dim>
+    pressure_correction(const FluidModel<dim>            &model,
+                        Velocity<dim>                    &velocity,
+                        const typename Flow<dim>::Bodies &bodies) const
+    {
+      constexpr double share = 0.5, least_fraction = 0.01;
       exchange(velocity);
-      auto correction = divergence(model, velocity);
+      auto        correction = divergence(model, velocity);
+      const auto *divided    = correction.divided();
       for_each(correction.owned(), [&](const GridIndex<dim> &cell) {
-        correction(cell) *= -dynamic_viscosity / model.grid().cell_volume(cell);
+        const bool is_whole = !divided || divided->kind(cell) == LatticeParts<dim>::Kind::whole;
+        correction(cell) *= is_whole ? -dynamic_viscosity / model.grid().cell_volume(cell) : 0.;
       });
+      if (bodies.walls)
+        for (const auto &patch : bodies.walls->patches)
+          correction.parts()[patch.component] += patch.area * bodies.wall_velocities[patch.node];
+      for (std::size_t c = 0; c < correction.parts().size(); ++c)
+        {
+          const auto  &component = divided->all()[c];
+          const double volume =
+            std::max(component.measure, least_fraction * model.grid().cell_volume(component.index));
+          correction.parts()[c] *= -share * dynamic_viscosity / volume;
+        }
       return correction;
     }
 
@@ -132,6 +182,7 @@ namespace undine
     /// Matrices of the last step size: a cache.
     mutable std::array<std::unique_ptr<VelocityCondition<dim>>, dim> conditions;
     mutable std::array<std::unique_ptr<ImplicitDiffusion<dim>>, dim> equations;
+    mutable std::array<std::unique_ptr<ImmersedFriction<dim>>, dim>  frictions;
   };
 
 

@@ -173,7 +173,10 @@ namespace undine
             whole ? (state.velocity[axis](face) - (*carried)[axis](face)) / dt : 0.;
         });
     if (pressure_correction)
-      add(state.pressure, 1., *pressure_correction);
+      {
+        add(state.pressure, 1., *pressure_correction);
+        set_means(state.pressure, model.grid());
+      }
   }
 
 

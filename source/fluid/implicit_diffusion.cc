@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/implicit_diffusion.h>
 
-#include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
-
-#include <fmt/format.h>
 
 #include <utility>
 #include <vector>
@@ -160,7 +157,8 @@ namespace undine
   void
   ImplicitDiffusion<dim>::assemble(const double dt)
   {
-    Row row;
+    auto &matrix = solver.matrix;
+    Row   row;
     if (assembled_dt == 0)
       {
         dealii::TrilinosWrappers::SparsityPattern pattern(
@@ -178,38 +176,22 @@ namespace undine
       matrix.add(row.columns[0], row.columns.size(), row.columns.data(), row.values.data(), false);
     });
     matrix.compress(dealii::VectorOperation::add);
-    set_up_preconditioner(dt);
+    solver.set_up(reach(dt));
     assembled_dt = dt;
   }
 
 
   template <int dim>
-  void
-  ImplicitDiffusion<dim>::set_up_preconditioner(const double dt)
+  double
+  ImplicitDiffusion<dim>::reach(const double dt) const
   {
-    namespace Trilinos = dealii::TrilinosWrappers;
-    double reach       = 0; // h nu / dx^2
+    double result = 0;
     for_each(lattice->owned(), [&](const GridIndex<dim> &index) {
       for (unsigned int d = 0; d < dim; ++d)
-        reach =
-          std::max(reach, dt * diffusivity / std::pow(extent(model.grid(), *lattice, d, index), 2));
+        result = std::max(result,
+                          dt * diffusivity / std::pow(extent(model.grid(), *lattice, d, index), 2));
     });
-    // Friction that reaches over a few cells in a step is cheaper to solve for without a hierarchy.
-    if (dealii::Utilities::MPI::max(reach, model.grid().communicator()) < 30)
-      {
-        auto relaxation = std::make_unique<Trilinos::PreconditionSSOR>();
-        relaxation->initialize(matrix);
-        preconditioner = std::move(relaxation);
-        return;
-      }
-    auto multigrid = std::make_unique<Trilinos::PreconditionAMG>();
-    Trilinos::PreconditionAMG::AdditionalData data;
-    data.elliptic              = true;
-    data.aggregation_threshold = 0.02;
-    data.smoother_type         = "Chebyshev";
-    data.smoother_sweeps       = 2;
-    multigrid->initialize(matrix, data);
-    preconditioner = std::move(multigrid);
+    return dealii::Utilities::MPI::max(result, model.grid().communicator());
   }
 
 
@@ -260,7 +242,7 @@ namespace undine
     if (dt != assembled_dt)
       assemble(dt);
     field.exchange(1);
-    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+    using Vector = DiffusionSolver::Vector;
     Vector     solution(lattice->owned_numbers(), model.grid().communicator());
     Vector     load(solution);
     const auto values = right_side(field, time);
@@ -268,21 +250,9 @@ namespace undine
     std::copy(values.begin(), values.end(), load.begin());
     std::copy(guess.begin(), guess.end(), solution.begin());
 
-    // Tight, so that rank counts agree; a load of zero has the solution zero.
-    dealii::SolverControl    control(1000, std::max(1e-12 * load.l2_norm(), 1e-300));
-    dealii::SolverCG<Vector> solver(control);
-    try
-      {
-        solver.solve(matrix, solution, load, *preconditioner);
-      }
-    catch (const dealii::SolverControl::NoConvergence &failure)
-      {
-        throw SolveError(fmt::format("The fluid's implicit diffusion did not converge in {} "
-                                     "iterations. Try a smaller step.",
-                                     failure.last_step));
-      }
+    const unsigned int n_iterations = solver.solve(solution, load);
     field.set_owned_values({solution.begin(), solution.end()});
-    return control.last_step();
+    return n_iterations;
   }
 
 
@@ -290,10 +260,7 @@ namespace undine
   std::size_t
   ImplicitDiffusion<dim>::memory_consumption() const
   {
-    // deal.II knows the size of a hierarchy's finest matrix, and of relaxation nothing.
-    const auto *multigrid =
-      dynamic_cast<const dealii::TrilinosWrappers::PreconditionAMG *>(preconditioner.get());
-    return matrix.memory_consumption() + (multigrid ? multigrid->memory_consumption() : 0);
+    return solver.memory_consumption();
   }
 
 

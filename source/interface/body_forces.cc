@@ -45,6 +45,18 @@ namespace undine
 
   template <int dim>
   Columns
+  body_force_columns(const std::string                         &name,
+                     const Surface<dim>                        &surface,
+                     const std::vector<dealii::Tensor<1, dim>> &forces)
+  {
+    Columns columns;
+    append(columns, surface, name, sums_over_bodies(surface, forces));
+    return columns;
+  }
+
+
+  template <int dim>
+  Columns
   pressure_force_columns(const Surface<dim> &surface, const PressureForces<dim> &forces)
   {
     Columns    columns;
@@ -69,6 +81,8 @@ namespace undine
 #define INSTANTIATE(dim)                                                                           \
   template std::vector<dealii::Tensor<1, dim>> sums_over_bodies(                                   \
     const Surface<dim> &, const std::vector<dealii::Tensor<1, dim>> &);                            \
+  template Columns body_force_columns(                                                             \
+    const std::string &, const Surface<dim> &, const std::vector<dealii::Tensor<1, dim>> &);       \
   template Columns pressure_force_columns(const Surface<dim> &, const PressureForces<dim> &);
   // clang-format on
   INSTANTIATE(2)

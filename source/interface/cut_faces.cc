@@ -13,14 +13,55 @@ namespace undine
               CutWorkspace<dim>        &work,
               const double              area,
               const dealii::Point<dim> &centroid,
+              const Rims<dim>          &rims,
               const bool                debris)
     {
       const int face = cut.faces.size() - 1;
-      cut.pieces.push_back({face, area, centroid, {{cut.outside, cut.outside}}});
+      cut.pieces.push_back({face, area, centroid, {{cut.outside, cut.outside}}, rims});
       work.debris_piece.push_back(debris);
       if (area <
           -reported_inversion * cut.block.face_area(cut.faces[face].axis, cut.faces[face].index))
         work.face_records[face].flags |= cut_negative_area;
+    }
+
+
+    /// Add an interval of the rim, which lies along one of the rectangle's `axes`, to that of its
+    /// region.
+    void
+    add_to_rim(Rims<3>                           &rims,
+               const PlanarEdge                  &edge,
+               const GridPlanes<3>               &planes,
+               const GridIndex<3>                &corner,
+               const std::array<unsigned int, 2> &axes)
+    {
+      const std::array<double, 2> size{
+        {std::abs(edge.end[0] - edge.start[0]), std::abs(edge.end[1] - edge.start[1])}};
+      const unsigned int along = size[0] > size[1] ? 0 : 1, across = 1 - along;
+      const unsigned int end =
+        edge.start[across] > planes.width(axes[across], corner[axes[across]]) / 2 ? 1 : 0;
+      auto        &rim    = rims[2 * axes[across] + end];
+      const double length = size[along];
+      const double middle = planes.position(axes[along], corner[axes[along]]) +
+                            (edge.start[along] + edge.end[along]) / 2;
+      if (length > 0)
+        rim = {rim.length + length,
+               (rim.length * rim.middle + length * middle) / (rim.length + length)};
+    }
+
+
+    /// The rims of all regions of the planar problem on a face.
+    std::vector<Rims<3>>
+    rims_of_regions(const CutWorkspace<3>             &work,
+                    const GridPlanes<3>               &planes,
+                    const GridIndex<3>                &corner,
+                    const std::array<unsigned int, 2> &axes)
+    {
+      std::vector<Rims<3>> result(work.planar.regions().size());
+      const auto          &record = work.face_records.back();
+      for (int i = record.first_planar; i < record.end_planar; ++i)
+        if (const auto &edge = work.planar_edges[i]; edge.on_rim && edge.region >= 0)
+          add_to_rim(result[edge.region], edge, planes, corner, axes);
+      return result;
     }
   } // namespace
 
@@ -44,7 +85,10 @@ namespace undine
         dealii::Point<2> centroid;
         centroid[face.axis] = cut.block.planes().position(face.axis, face.index[face.axis]);
         centroid[along]     = (start + end) / 2;
-        add_piece(cut, work, end - start, centroid, false);
+        Rims<2> rims;
+        rims[2 * along].length     = interval.from < 0 ? 1 : 0; // a node of the grid
+        rims[2 * along + 1].length = interval.to < 0 ? 1 : 0;
+        add_piece(cut, work, end - start, centroid, rims, false);
       }
   }
 
@@ -71,13 +115,15 @@ namespace undine
         sample_face(cut, work);
         return;
       }
-    for (const auto &region : work.planar.regions())
+    const auto rims = rims_of_regions(work, planes, face.index, axes);
+    for (std::size_t r = 0; r < rims.size(); ++r)
       {
+        const auto      &region = work.planar.regions()[r];
         dealii::Point<3> centroid;
         centroid[face.axis] = planes.position(face.axis, face.index[face.axis]);
         for (unsigned int d = 0; d < 2; ++d)
           centroid[axes[d]] = planes.position(axes[d], face.index[axes[d]]) + region.centroid(d);
-        add_piece(cut, work, region.area, centroid, region.debris);
+        add_piece(cut, work, region.area, centroid, rims[r], region.debris);
       }
   }
 

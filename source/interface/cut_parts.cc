@@ -297,6 +297,7 @@ namespace undine
       const std::size_t                  n     = faces.all().size();
       std::vector<double>                volumes(n);
       std::array<std::vector<double>, 2> components{{volumes, volumes}};
+      result.cut_pieces[axis].assign(n, -1);
       for (std::size_t k = 0; k < n; ++k)
         {
           const auto &face = faces.all()[k].index;
@@ -320,7 +321,8 @@ namespace undine
                                 : c == cut.uncut ? Open::whole
                                                  : Open::outside;
                 }
-              volumes[k] = dual.volumes[p];
+              volumes[k]                 = dual.volumes[p];
+              result.cut_pieces[axis][k] = p;
             }
           for (const int end : {0, 1})
             components[end][k] = joined[end] >= 0

@@ -96,6 +96,29 @@ namespace undine
     /// @}
 
 
+    /// The rims of a piece of which only the area is known, at most what there is.
+    Rims<3>
+    mean_rims(const GridPlanes<3>               &planes,
+              const GridIndex<3>                &corner,
+              const std::array<unsigned int, 2> &axes,
+              const double                       area)
+    {
+      Rims<3>      result;
+      const double share = std::min(
+        1.,
+        area / (planes.width(axes[0], corner[axes[0]]) * planes.width(axes[1], corner[axes[1]])));
+      for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int end = 0; end < 2; ++end)
+          {
+            const unsigned int along  = axes[1 - d];
+            const double       width  = planes.width(along, corner[along]);
+            result[2 * axes[d] + end] = {share * width,
+                                         planes.position(along, corner[along]) + width / 2};
+          }
+      return result;
+    }
+
+
     /// What of a fragment faces fluid and not the inside of another body.
     template <int dim>
     struct Wetted
@@ -200,7 +223,8 @@ namespace undine
         cut.pieces.push_back({static_cast<int>(cut.faces.size()) - 1,
                               region.volume,
                               centroid,
-                              {{cut.outside, cut.outside}}});
+                              {{cut.outside, cut.outside}},
+                              mean_rims(planes, face.index, axes, region.volume)});
         work.debris_piece.push_back(false);
       }
     ++cut.counts.sampled_faces;

@@ -214,6 +214,28 @@ namespace undine
         }
       return selection;
     }
+
+
+    /// Points or vectors in all nodes of the surface, zero if they are not known yet. All ranks
+    /// have all of them: the first one's go to the file.
+    template <int dim, class VectorType>
+    StateArray
+    pack_replicated(const std::string             &name,
+                    const Models<dim>             &models,
+                    const std::vector<VectorType> &vectors)
+    {
+      const bool first =
+        dealii::Utilities::MPI::this_mpi_process(models.fluid->grid().communicator()) == 0;
+      const hsize_t n_nodes = models.surface->surface().n_nodes();
+      StateArray    array{name, {{n_nodes, dim}, {0, 0}, {0, dim}}, {}};
+      if (!first)
+        return array;
+      array.selection.count[0] = n_nodes;
+      for (const auto &vector : vectors)
+        array.values.insert(array.values.end(), vector.begin_raw(), vector.end_raw());
+      array.values.resize(n_nodes * dim, 0.);
+      return array;
+    }
   } // namespace
 
 
@@ -223,18 +245,11 @@ namespace undine
   {
     if (!models.surface || !models.fluid)
       return {};
-    // All ranks have all of it: the first one's goes to the file.
-    const bool first =
-      dealii::Utilities::MPI::this_mpi_process(models.fluid->grid().communicator()) == 0;
-    const hsize_t n_nodes = models.surface->surface().n_nodes();
-    StateArray    array{"surface/positions", {{n_nodes, dim}, {0, 0}, {0, dim}}, {}};
-    if (first)
-      {
-        array.selection.count[0] = n_nodes;
-        for (const auto &position : state.surface_positions)
-          array.values.insert(array.values.end(), position.begin_raw(), position.end_raw());
-      }
-    return {array};
+    std::vector<StateArray> arrays{
+      pack_replicated("surface/positions", models, state.surface_positions)};
+    if (models.solid && models.has_friction())
+      arrays.push_back(pack_replicated("surface/other forces", models, state.other_forces));
+    return arrays;
   }
 
 
@@ -246,11 +261,16 @@ namespace undine
   {
     if (arrays.empty())
       return;
-    const auto values =
-      dealii::Utilities::MPI::broadcast(models.fluid->grid().communicator(), arrays[0].values);
-    state.surface_positions.resize(values.size() / dim);
-    for (std::size_t k = 0; k < values.size(); ++k)
-      state.surface_positions[k / dim][k % dim] = values[k];
+    const auto unpack_replicated = [&](auto &vectors, const StateArray &array) {
+      const auto values =
+        dealii::Utilities::MPI::broadcast(models.fluid->grid().communicator(), array.values);
+      vectors.resize(values.size() / dim);
+      for (std::size_t k = 0; k < values.size(); ++k)
+        vectors[k / dim][k % dim] = values[k];
+    };
+    unpack_replicated(state.surface_positions, arrays[0]);
+    if (arrays.size() > 1)
+      unpack_replicated(state.other_forces, arrays[1]);
     const auto open_parts = geometry_of(models, state)->cut_parts().open;
     for_each_field<dim>(state.fluid, [&](const std::string &, Field<dim> &field) {
       field = Field<dim>(field.shared_lattice(), open_parts);

@@ -70,7 +70,7 @@ namespace undine
     void
     end(SolidReport<dim> &report);
     Vector
-    loads_at_rest();
+    loads_besides_pressure();
 
     const Parts                             parts;
     const FluidStep<dim>                   &fluid;
@@ -78,7 +78,7 @@ namespace undine
     const NewtonOptions                    &newton;
     const double                            end_time;
     const SolidState                        old_solid;
-    SurfaceExchange<dim>                    surfaces; ///< only what acts at rest
+    SurfaceExchange<dim>                    surfaces; ///< only what is known beforehand
     SolidEquations<dim>                     equations;
     const PressureNumbers<dim>              numbers;
     const std::unique_ptr<SurfaceFlux<dim>> surface;

@@ -102,10 +102,13 @@ namespace undine
     Velocities
     other_forces(const dealii::Tensor<1, dim> &gravity, double time) const;
 
-    /// Forces of the pressure at `time` on each body [N], with g also their parts; and how the
-    /// cutting went. Collective.
+    /// Forces of the pressure at `time` on each body [N], with g also their parts; those of
+    /// friction in the nodes, if given; and how the cutting went. Collective.
     Columns
-    columns(const Field<dim> &pressure, const dealii::Tensor<1, dim> &gravity, double time) const;
+    columns(const Field<dim>             &pressure,
+            const dealii::Tensor<1, dim> &gravity,
+            double                        time,
+            const Velocities             &friction = {}) const;
 
     /// What is wrong with the surfaces, where; empty if nothing is, or if accept() has been called
     /// for the same since.

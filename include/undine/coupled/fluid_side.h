@@ -8,6 +8,7 @@
 #include <undine/coupled/models.h>
 #include <undine/coupled/report.h>
 #include <undine/coupled/state.h>
+#include <undine/coupled/surface_friction.h>
 #include <undine/fluid/fluid_step.h>
 #include <undine/fluid/projection.h>
 
@@ -62,6 +63,8 @@ namespace undine
     place_surfaces(const State<dim> &state, const Stage &stage);
     typename Flow<dim>::Bodies
     bodies() const;
+    typename Flow<dim>::Bodies
+    sticky_bodies(const State<dim> &state, const Stage &stage);
     void
     add_columns(Report &report, const FluidState<dim> &state, double divergence, double time) const;
 
@@ -71,6 +74,7 @@ namespace undine
     TimingTree                         &timing;
     const dealii::Tensor<1, dim>        uniform_gravity; ///< [m/s^2]
     std::unique_ptr<FluidGeometry<dim>> cut;
+    SurfaceFriction<dim>                surface_friction;
   };
 } // namespace undine
 

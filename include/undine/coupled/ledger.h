@@ -26,6 +26,7 @@ namespace undine
     Vectors velocities; ///< w, with which the surfaces pushed the fluid: B w [m/s]
     Vectors on_bodies;  ///< J p that the bodies felt [N]
     Vectors at_rest;    ///< what the fluid did to bodies besides: weight, void regions [N]
+    Vectors friction;   ///< what friction did to surfaces [N]; empty without
     Vectors way;        ///< d^{n+1} - d^n of bodies [m]
   };
 
@@ -114,7 +115,8 @@ namespace undine
       by_obstacles,
       by_interface, ///< what bodies get less what the fluid gives
       by_fluid_at_rest,
-      // bodies
+      by_friction, ///< what bodies get; the fluid gives it by diffusion
+                   // bodies
       by_loads,
       by_supports,
       by_damping,

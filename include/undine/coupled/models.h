@@ -10,6 +10,7 @@
 #include <undine/interface/void_regions.h>
 #include <undine/solid/solid_model.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace undine
@@ -37,6 +38,15 @@ namespace undine
       if (particles)
         return particles->communicator();
       return solid ? solid->communicator() : fluid->grid().communicator();
+    }
+
+    /// Does the fluid stick to surfaces?
+    bool
+    has_friction() const
+    {
+      return std::any_of(effects.begin(), effects.end(), [](const auto &effect) {
+        return effect->sticks_to_surfaces();
+      });
     }
 
     /// What the effects do to the bodies.

@@ -41,6 +41,9 @@ namespace undine
     /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].
     std::vector<dealii::Point<dim>> surface_positions;
 
+    /// What moved the nodes of bodies besides friction in the last stage (SurfaceFriction) [N].
+    std::vector<dealii::Tensor<1, dim>> other_forces;
+
     StepHistory<dim> history;
   };
 } // namespace undine

@@ -78,6 +78,10 @@ namespace undine
     virtual std::size_t
     memory_consumption(const FluidState<dim> &state) const;
 
+    /// Does it need to know where the planes of the grid meet the surfaces in the fluid?
+    virtual bool
+    sticks_to_surfaces() const;
+
     /// Say what the effect does to the bodies.
     virtual void
     affect(SolidEnvironment<dim> &environment) const;

@@ -4,10 +4,12 @@
 
 #include <undine/fluid/boundary_condition.h>
 #include <undine/fluid/fluid_model.h>
+#include <undine/fluid/sticking_walls.h>
 #include <undine/fluid/visible_samples.h>
 
 #include <array>
 #include <memory>
+#include <vector>
 
 namespace undine
 {
@@ -31,6 +33,9 @@ namespace undine
       const Obstruction<dim> *obstruction = nullptr;
       /// What they leave of the grid now, and of the fields that are carried; nullptr: everything.
       std::shared_ptr<const OpenParts<dim>> open_parts;
+      /// What the fluid sticks to, and how the nodes there move [m/s]; nullptr: nothing.
+      std::shared_ptr<const StickingWalls<dim>> walls           = nullptr;
+      std::vector<dealii::Tensor<1, dim>>       wall_velocities = {};
     };
 
     /// `velocity` at `time` [s], for steps of length dt [s]. It may belong to an earlier place of

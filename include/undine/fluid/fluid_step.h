@@ -84,6 +84,7 @@ namespace undine
     /// What effects leave for finish(). @{
     std::optional<Velocity<dim>> carried;             ///< v' [m/s], by convection
     std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
+    std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces
     /// @}
 
     /// For the ledger: the work of the effect that has just acted, on this rank, by the effect's

@@ -3,9 +3,7 @@
 #define undine_fluid_implicit_diffusion_h
 
 #include <undine/fluid/boundary_condition.h>
-
-#include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <undine/fluid/diffusion_solver.h>
 
 #include <memory>
 #include <vector>
@@ -52,22 +50,21 @@ namespace undine
     void
     assemble(const double dt);
 
-    /// Relaxation, or multigrid where a step reaches over many cells.
-    void
-    set_up_preconditioner(const double dt);
+    /// Largest h nu / dx^2.
+    double
+    reach(const double dt) const;
 
     /// V s* + h nu k_b s_b, in the order of Field::owned_values(). One ghost layer must be up to
     /// date.
     std::vector<double>
     right_side(const Field<dim> &field, const double time) const;
 
-    const FluidModel<dim>                                      &model;
-    std::shared_ptr<const Lattice<dim>>                         lattice;
-    const BoundaryCondition<dim>                               &condition;
-    double                                                      diffusivity;
-    double                                                      assembled_dt = 0; ///< [s]
-    dealii::TrilinosWrappers::SparseMatrix                      matrix;
-    std::unique_ptr<dealii::TrilinosWrappers::PreconditionBase> preconditioner;
+    const FluidModel<dim>              &model;
+    std::shared_ptr<const Lattice<dim>> lattice;
+    const BoundaryCondition<dim>       &condition;
+    double                              diffusivity;
+    double                              assembled_dt = 0; ///< [s]
+    DiffusionSolver                     solver;
   };
 } // namespace undine
 

@@ -5,6 +5,7 @@
 #include <undine/base/core/column.h>
 #include <undine/interface/surface.h>
 
+#include <string>
 #include <vector>
 
 namespace undine
@@ -21,6 +22,13 @@ namespace undine
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   sums_over_bodies(const Surface<dim> &surface, const std::vector<dealii::Tensor<1, dim>> &values);
+
+  /// For each body and axis the sum of forces in the nodes, "NAME ball x" [N].
+  template <int dim>
+  Columns
+  body_force_columns(const std::string                         &name,
+                     const Surface<dim>                        &surface,
+                     const std::vector<dealii::Tensor<1, dim>> &forces);
 
   /// For each body and axis the force of the fluid's pressure on it, "pressure force ball x" [N],
   /// and with gravity its parts: "reduced pressure force ball x" and "gravity load ball x".

@@ -2,6 +2,7 @@
 #ifndef undine_interface_cut_cells_h
 #define undine_interface_cut_cells_h
 
+#include <undine/fluid/sticking_walls.h>
 #include <undine/interface/grid_planes.h>
 #include <undine/interface/keyed_lists.h>
 #include <undine/interface/node_windings.h>
@@ -66,6 +67,7 @@ namespace undine
       dealii::Point<dim> centroid; ///< [m]
       /// Below and above the face: a component, `uncut` or `outside`.
       std::array<int, 2> components;
+      Rims<dim>          rims;
     };
 
     /// The part of a facet in one cell. For functions f, g linear on the facet with values f_i, g_j

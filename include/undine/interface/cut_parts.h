@@ -6,6 +6,7 @@
 #include <undine/fluid/open_parts.h>
 #include <undine/interface/cut_cells.h>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -50,6 +51,10 @@ namespace undine
     /// The inverse: number in open->cells of each of CutCells::components; -1 if it is void, or if
     /// the fluid knows less of the grid than the block.
     std::vector<int> open_components;
+
+    /// [axis][part of open->faces]: number in CutCells::pieces; -1 for those that other ranks own
+    /// and on periodic sides.
+    std::array<std::vector<int>, dim> cut_pieces;
 
     /// Values of the components of open->cells, ordered as CutCells::components; what is unknown
     /// there is zero.

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_node_masses_h
+#define undine_coupled_node_masses_h
+
+#include <undine/coupled/models.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// The mass that each node of the bodies' surfaces carries along each axis: the sum of its row of
+  /// the mass matrix [kg]; infinite where the displacement is prescribed, and without inertia.
+  /// Empty without bodies. Collective.
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  node_masses(const Models<dim> &models);
+} // namespace undine
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/node_masses.h>
+#include <undine/solid/mass_matrix.h>
+
+#include <limits>
+
+namespace undine
+{
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  node_masses(const Models<dim> &models)
+  {
+    if (!models.solid)
+      return {};
+    const auto &solid = *models.solid;
+    auto        ones = solid.vector(), sums = solid.vector();
+    ones = 1.;
+    mass_matrix(solid).vmult(sums, ones);
+    if (solid.numerics().integrator->coefficients(1.).mass == 0) // static
+      sums = std::numeric_limits<double>::infinity();
+    for (const auto &fixed : solid.fixed())
+      sums(fixed.dof) = std::numeric_limits<double>::infinity();
+    sums.compress(dealii::VectorOperation::insert);
+    auto result = models.surface->with_bodies(
+      sums, std::vector<dealii::Tensor<1, dim>>(models.surface->surface().n_nodes()));
+    result.resize(models.surface->n_body_nodes());
+    return result;
+  }
+
+
+  template std::vector<dealii::Tensor<1, 2>>
+  node_masses(const Models<2> &);
+  template std::vector<dealii::Tensor<1, 3>>
+  node_masses(const Models<3> &);
+} // namespace undine

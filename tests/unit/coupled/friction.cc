@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/fluid_side.h>
+#include <undine/interface/body_forces.h>
+
+#include <coupled/coupled_run.h>
+
+using namespace undine_tests;
+
+namespace
+{
+  /// A unit box, on all sides of which the velocity is given.
+  template <int dim>
+  std::string
+  given_on_all_sides(const unsigned int n, const double density, const std::string &velocity)
+  {
+    std::string cells;
+    for (unsigned int d = 0; d < dim; ++d)
+      cells += (d == 0 ? "" : ", ") + std::to_string(n);
+    return section("Domain", "set Cells = " + cells) +
+           section(
+             "Fluid",
+             fmt::format("set Density = {}\nset Initial velocity = {}\n", density, velocity) +
+               section("Boundaries",
+                       boundary("all", every_side<dim>(), "inflow", "set Velocity = " + velocity)));
+  }
+
+
+  std::string
+  number(const double value)
+  {
+    return fmt::format("({:.17g})", value);
+  }
+
+
+  /// A disc of radius .2 that turns at 1 rad/s, as far as friction sees, in the flow that it drags
+  /// along in an infinite fluid: v = r^2 w / |x|^2, without pressure.
+  struct TurningDisc
+  {
+    static constexpr double radius = .2, viscosity = 50;
+
+    TurningDisc(const unsigned int n, const double shift)
+      : centre(.5 + shift, .5 + .7 * shift)
+      , run(fluid(n),
+            obstacle("disc",
+                     "ball",
+                     fmt::format("set Centre = {:.17g}, {:.17g}\nset Radius = {}\nset Refinements "
+                                 "= 8\nset Displacement = {}",
+                                 centre[0],
+                                 centre[1],
+                                 radius,
+                                 turning(number(speed) + "*t"))),
+            undine_tests::viscosity(viscosity),
+            1)
+    {
+      for (unsigned int k = 0; k < 3; ++k)
+        run.step();
+    }
+
+    std::string
+    turning(const std::string &factor) const
+    {
+      const auto x = "(x-" + number(centre[0]) + ")", y = "(y-" + number(centre[1]) + ")";
+      return "-" + factor + "*" + y + ";" + factor + "*" + x;
+    }
+
+    std::string
+    fluid(const unsigned int n) const
+    {
+      const auto square = "((x-" + number(centre[0]) + ")^2+(y-" + number(centre[1]) + ")^2)";
+      return given_on_all_sides<2>(
+        n, 1, turning(number(speed * radius * radius) + "/max(1e-3," + square + ")"));
+    }
+
+    double
+    exact(const dealii::Point<2> &place, const unsigned int axis) const
+    {
+      const auto arm = place - centre;
+      return (axis == 0 ? -arm[1] : arm[0]) * speed * radius * radius / arm.norm_square();
+    }
+
+    /// Largest and root mean square error of the velocity, relative to that of the rim.
+    std::pair<double, double>
+    errors() const
+    {
+      double largest = 0, sum = 0, n = 0;
+      for (unsigned int axis = 0; axis < 2; ++axis)
+        for_each_value(
+          run.state.fluid.velocity[axis], [&](const double value, const auto &place, const auto &) {
+            if ((place - centre).norm() < radius)
+              return;
+            const double error = std::abs(value - exact(place, axis)) / (speed * radius);
+            largest            = std::max(largest, error);
+            sum += error * error;
+            n += 1;
+          });
+      return {largest, std::sqrt(sum / n)};
+    }
+
+    static constexpr double speed = 5e-8;
+    const dealii::Point<2>  centre;
+    ObstacleRun<2>          run;
+  };
+
+
+  /// A closed box with a fixed and a moving body, in which the fluid swirls.
+  template <int dim>
+  std::string
+  swirl_among_bodies()
+  {
+    const std::string swirl =
+      plane_or_space<dim>("sin(6*y)+x; cos(5*x)*y", "sin(6*y)+x; cos(5*x)*z; x*y");
+    return section("Domain", plane_or_space<dim>("set Cells = 17, 13", "set Cells = 9, 8, 7")) +
+           section("Fluid",
+                   "set Density = 700\nset Initial velocity = " + swirl + "\n" +
+                     section("Boundaries", boundary("walls", every_side<dim>(), "no-slip wall")));
+  }
+
+
+  template <int dim>
+  void
+  check_momentum()
+  {
+    const std::string bodies =
+      obstacle("disc",
+               "ball",
+               plane_or_space<dim>("set Centre = .31, .4", "set Centre = .31, .4, .52") +
+                 "\nset Radius = .17") +
+      obstacle("bar",
+               "box",
+               plane_or_space<dim>("set Centre = .7, .6\nset Size = .05, .4\nset Rotation = 20\n"
+                                   "set Displacement = .3*sin(t); .1*t",
+                                   "set Centre = .7, .6, .5\nset Size = .05, .4, .3\nset Rotation "
+                                   "= 20, 10, 40\nset Displacement = .3*sin(t); .1*t; 0"));
+    const Options options(read_scene_text(swirl_among_bodies<dim>() + section("Obstacles", bodies) +
+                                          section("Effects", viscosity(30))));
+    const auto    models = make_models<dim>(options);
+    Ledger<dim>   ledger(models, true);
+    TimingTree    timing;
+    FluidAlone<dim> scheme(models, ledger, timing);
+    State<dim>      state;
+    Report          report;
+    const double    dt = .01;
+    scheme.initialize(state, dt, report);
+    FluidSide<dim> side(models, ledger, timing);
+    const auto     fluid = side.predict(state, single_stage(dt));
+    REQUIRE(fluid->friction);
+    dealii::Tensor<1, dim> on_nodes, on_sides;
+    for (const auto &force : fluid->friction->on_nodes)
+      on_nodes += force;
+    for (const auto &force : fluid->friction->on_boundaries)
+      on_sides += force;
+    const auto columns = ledger.columns();
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      for (const auto &column : columns)
+        if (column.name == std::string("momentum by diffusion ") + "xyz"[axis])
+          {
+            INFO("axis " << axis << " " << column.value << " " << on_nodes << " " << on_sides);
+            CHECK(std::abs(on_nodes[axis]) > 1e-3);
+            CHECK(std::abs(column.value + dt * (on_nodes[axis] + on_sides[axis])) <=
+                  1e-9 * dt * (on_nodes.norm() + on_sides.norm()));
+          }
+  }
+
+
+  /// Between two long boxes, tilted and not in line with the grid; the velocity at both ends is
+  /// given.
+  struct TiltedChannel
+  {
+    static constexpr double angle = .35, width = .4, fastest = 1e-3, viscosity = 20;
+
+    struct Errors
+    {
+      double velocity; ///< largest, of the fastest
+      double force;    ///< of the plates' friction in the middle
+    };
+
+    explicit TiltedChannel(const unsigned int n)
+      : run(fluid(n),
+            plate("lower", -1) + plate("upper", 1),
+            undine_tests::viscosity(viscosity),
+            .005)
+    {
+      for (unsigned int k = 0; k < 50; ++k)
+        run.step();
+    }
+
+    static std::string
+    plate(const std::string &name, const int side)
+    {
+      const double away = side * (width / 2 + .5);
+      return obstacle(name,
+                      "box",
+                      fmt::format("set Centre = {:.17g}, {:.17g}\nset Size = 4, 1\nset Rotation = "
+                                  "{:.17g}\nset Cells = 8, 1",
+                                  .5 - away * std::sin(angle),
+                                  .5 + away * std::cos(angle),
+                                  angle * 180 / M_PI));
+    }
+
+    static std::string
+    fluid(const unsigned int n)
+    {
+      const auto across =
+        fmt::format("(-{:.17g}*(x-.5)+{:.17g}*(y-.5))", std::sin(angle), std::cos(angle));
+      const auto speed = fmt::format("max(0,{:.17g}*(1-({}/{})^2))", fastest, across, width / 2);
+      const auto velocity =
+        fmt::format("{:.17g}*{};{:.17g}*{}", std::cos(angle), speed, std::sin(angle), speed);
+      return section("Domain", fmt::format("set Cells = {}, {}", n, n)) +
+             section(
+               "Fluid",
+               "set Density = 1\nset Initial velocity = " + velocity + "\n" +
+                 section("Boundaries",
+                         boundary("ends", "left, right", "inflow", "set Velocity = " + velocity)));
+    }
+
+    static double
+    gradient()
+    {
+      return 8 * viscosity * fastest / (width * width);
+    }
+
+    Errors
+    errors() const
+    {
+      Errors     result{0, 0};
+      const auto arm = [](const dealii::Point<2> &x) {
+        return dealii::Tensor<1, 2>(
+          {std::cos(angle) * (x[0] - .5) + std::sin(angle) * (x[1] - .5),
+           -std::sin(angle) * (x[0] - .5) + std::cos(angle) * (x[1] - .5)});
+      };
+      for (unsigned int axis = 0; axis < 2; ++axis)
+        for_each_value(run.state.fluid.velocity[axis],
+                       [&](const double value, const dealii::Point<2> &place, const auto &) {
+                         const double s = arm(place)[0], n = arm(place)[1];
+                         if (std::abs(s) > .25 || std::abs(n) > width / 2)
+                           return;
+                         const double speed = fastest * (1 - std::pow(2 * n / width, 2));
+                         const double exact =
+                           speed * (axis == 0 ? std::cos(angle) : std::sin(angle));
+                         result.velocity =
+                           std::max(result.velocity, std::abs(value - exact) / fastest);
+                       });
+      const auto friction =
+        run.column_vector("viscous force lower") + run.column_vector("viscous force upper");
+      // Friction holds the drop of pressure along the channel.
+      const double length = 1 / std::cos(angle);
+      const double along  = std::cos(angle) * friction[0] + std::sin(angle) * friction[1];
+      result.force        = std::abs(along / (gradient() * length * width) - 1);
+      return result;
+    }
+
+    ObstacleRun<2> run;
+  };
+
+
+  /// The flow in a box after friction with a bar that moves through it along x.
+  Velocity<2>
+  stirred(const double value)
+  {
+    ObstacleRun<2> run(
+      section("Domain", "set Cells = 20, 20") +
+        section("Fluid",
+                "set Density = 1\n" +
+                  section("Boundaries",
+                          boundary("top", "top", "outflow") +
+                            boundary("walls", "left, right, bottom", "no-slip wall"))),
+      obstacle("bar",
+               "box",
+               "set Centre = .51, .43\nset Size = .05, .3\nset Rotation = "
+               "20\nset Displacement = t; 0"),
+      viscosity(value),
+      .01);
+    FluidSide<2> side(run.models, run.ledger, run.timing);
+    run.state.fluid.velocity =
+      run.models.fluid->initial_state(run.state.fluid.pressure.open_parts()).velocity;
+    run.state.fluid.pressure =
+      Field<2>(run.models.fluid->grid().cells(), run.state.fluid.pressure.open_parts());
+    side.predict(run.state, single_stage(.01));
+    return run.state.fluid.velocity;
+  }
+
+
+  double
+  order(const double coarse, const double fine)
+  {
+    return std::log2(coarse / fine);
+  }
+} // namespace
+
+
+TEST_CASE("Friction leaves a linear flow alone that bodies move along with", "[friction][mpi]")
+{
+  // A shear flow along s, v = s (n.x), past a body that is sheared alike.
+  for (const double angle : {0., .3, .9, 2.})
+    for (const char *shape :
+         {"ball\nset Centre = .47, .52\nset Radius = .23",
+          "box\nset Centre = .52, .49\nset Size = .4, .03\nset Rotation = 33\nset Cells = 7, 1",
+          "box\nset Lower corner = .25, .375\nset Upper corner = .5, .625"})
+      {
+        INFO(shape << ", " << angle);
+        const double      c = std::cos(angle), s = std::sin(angle);
+        const auto        shear  = "(" + number(-s) + "*x+" + number(c) + "*y)";
+        const auto        linear = number(c) + "*" + shear + ";" + number(s) + "*" + shear;
+        const auto        moving = "t*" + number(c) + "*" + shear + ";t*" + number(s) + "*" + shear;
+        const std::string text   = shape;
+        ObstacleRun<2>    run(
+          given_on_all_sides<2>(16, 3, linear),
+          section("body", "set Shape = " + text + "\nset Displacement = " + moving),
+          viscosity(10),
+          .01);
+        run.step();
+        const double error = largest_on_faces(
+          run.state.fluid.velocity, [&](const double v, const auto &x, const int i) {
+            return std::abs(v - (i == 0 ? c : s) * (-s * x[0] + c * x[1]));
+          });
+        // What lies on planes of the grid leaves cells without volume, which count as thin ones.
+        CHECK(error <= (text.find("corner") == text.npos ? 1e-9 : 2e-4));
+      }
+}
+
+
+TEST_CASE("The flow around a turning disc converges with second order", "[friction]")
+{
+  double coarse = 0, fine = 0, largest = 0;
+  for (const double shift : {0., .013, .027})
+    {
+      const auto on_coarse = TurningDisc(20, shift).errors(),
+                 on_fine   = TurningDisc(40, shift).errors();
+      UNSCOPED_INFO(on_coarse.first << " " << on_fine.first << ", " << on_coarse.second << " "
+                                    << on_fine.second);
+      coarse += on_coarse.second;
+      fine += on_fine.second;
+      largest = std::max(largest, on_fine.first);
+    }
+  CHECK(order(coarse, fine) >= 1.6);
+  CHECK(largest <= .02);
+}
+
+
+TEST_CASE("What friction takes from the fluid it gives to surfaces and sides", "[friction][mpi]")
+{
+  SECTION("2D")
+  {
+    check_momentum<2>();
+  }
+  SECTION("3D")
+  {
+    check_momentum<3>();
+  }
+}
+
+
+TEST_CASE("Fluid between tilted plates flows as in a parabola", "[friction]")
+{
+  const auto coarse = TiltedChannel(24).errors(), fine = TiltedChannel(48).errors();
+  UNSCOPED_INFO(coarse.velocity << " " << fine.velocity << ", " << coarse.force << " "
+                                << fine.force);
+  CHECK(order(coarse.velocity, fine.velocity) >= 1.3);
+  CHECK(order(coarse.force, fine.force) >= 1.3);
+  CHECK(fine.velocity <= .002);
+  CHECK(fine.force <= .006);
+}
+
+
+TEST_CASE("Friction is bounded at any viscosity", "[friction]")
+{
+  // The fluid was at rest.
+  const auto fastest = [](const double viscosity) {
+    return largest_on_faces(stirred(viscosity),
+                            [](const double v, const auto &, const int) { return std::abs(v); });
+  };
+  CHECK(fastest(1e-14) <= 1e-9);
+  // What sticks to the bar is as fast, nothing is faster.
+  CHECK(fastest(1e-1) >= .9);
+  CHECK(fastest(1e-1) <= 1.001);
+  CHECK(fastest(1e6) >= .9);
+  CHECK(fastest(1e6) <= 1.001);
+}
