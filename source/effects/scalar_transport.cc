@@ -108,6 +108,13 @@ namespace undine
             values.parts()[k] += length * source.value(divided->all()[k].place, time);
       }
 
+      /// [bytes]
+      std::size_t
+      memory_of_sources() const
+      {
+        return known_sources ? known_sources->capacity() * sizeof(known_sources->front()) : 0;
+      }
+
       /// Does anything change it besides the flow?
       bool
       changes() const
@@ -266,6 +273,8 @@ namespace undine
           step.timing.memory.hold_briefly(this->name, values.memory_consumption());
           if (field->changes() && step.stage.keeps_rates)
             field->start(values, step.state.scalar_rates.at(field->name), step.stage);
+          if (field->next)
+            step.timing.memory.hold_briefly(this->name, 2 * values.memory_consumption());
           values = method->advect(step.flow, values, *field);
           if (!field->changes())
             continue;
@@ -289,6 +298,7 @@ namespace undine
             sum += rates->second.memory_consumption();
           if (field->equation)
             sum += field->equation->memory_consumption();
+          sum += field->memory_of_sources();
         }
       return sum;
     }
