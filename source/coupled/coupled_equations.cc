@@ -97,7 +97,11 @@ namespace undine
     residual *= -1.;
     // No better than Newton's method needs it.
     const double enough = 0.01 * model.numerics().newton.relative_tolerance / last_norm;
-    return solver.solve(system, residual, solid.displacement(x.block(0)), enough);
+    auto         change = solver.solve(system, residual, solid.displacement(x.block(0)), enough);
+    const double part   = solid.free_part(x.block(0), change.block(0));
+    if (part < 1)
+      change *= part;
+    return change;
   }
 
 
