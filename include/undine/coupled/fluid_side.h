@@ -49,10 +49,12 @@ namespace undine
     const dealii::Tensor<1, dim> &
     gravity() const
     {
-      return uniform_gravity;
+      return environment.gravity;
     }
 
   private:
+    typename FluidGeometry<dim>::Positions
+    expected_places(const State<dim> &state, const Stage &stage, double time) const;
     void
     place_surfaces(const State<dim> &state, const Stage &stage);
     typename Flow<dim>::Bodies
@@ -64,7 +66,7 @@ namespace undine
     const FluidModel<dim>              &model;
     Ledger<dim>                        &ledger;
     TimingTree                         &timing;
-    const dealii::Tensor<1, dim>        uniform_gravity; ///< [m/s^2]
+    const SolidEnvironment<dim>         environment;
     std::unique_ptr<FluidGeometry<dim>> cut;
   };
 } // namespace undine
