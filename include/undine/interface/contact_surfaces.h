@@ -74,7 +74,8 @@ namespace undine
       return surfaces_of_nodes[node];
     }
 
-    /// A share of the facets around it, at rest [m^(dim-1)]; of obstacles no more than bodies have.
+    /// Integral of its shape function over the boundary at rest [m^(dim-1)]; of obstacles its share
+    /// of the facets, no more than nodes of bodies have.
     double
     area(const unsigned int node) const
     {
@@ -108,7 +109,7 @@ namespace undine
     void
     add_domain_walls(const FluidModel<dim> &fluid);
     void
-    measure(const Places &rest);
+    measure(const SolidModel<dim> &solid, const Places &rest);
     void
     find_held(const SolidModel<dim> &solid, const Places &rest);
     void
