@@ -97,10 +97,13 @@ namespace undine
     residual *= -1.;
     // No better than Newton's method needs it.
     const double enough = 0.01 * model.numerics().newton.relative_tolerance / last_norm;
-    const auto   result = solver.solve(system, residual, solid.displacement(x.block(0)), enough);
+    auto         result = solver.solve(system, residual, solid.displacement(x.block(0)), enough);
     timing.memory.hold_briefly("two-way coupling",
                                surface.matrix().memory_consumption() +
                                  fluid.matrix().memory_consumption() + solver.memory_consumption());
+    const double part = solid.free_part(x.block(0), result.block(0));
+    if (part < 1)
+      result *= part;
     return result;
   }
 

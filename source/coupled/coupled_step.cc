@@ -47,7 +47,8 @@ namespace undine
                 fluid.start,
                 fluid.dt,
                 parts.timing,
-                loads_besides_pressure())
+                loads_besides_pressure(),
+                state.contact)
     , numbers(parts.models.fluid->grid(), parts.geometry.bodies().open_parts)
     , surface(
         moved(make_surface_flux(
@@ -161,7 +162,7 @@ namespace undine
   NewtonReport
   CoupledStep<dim>::solve_from(const Vector velocity, const Vector pressure)
   {
-    x.block(0) = velocity;
+    x.block(0) = equations.kept_apart(velocity);
     x.block(1) = pressure;
     pressures.closed_regions().ground(x.block(1));
     problem.start();
@@ -202,7 +203,8 @@ namespace undine
     state.fluid.pressure      = pressure;
     pressures.closed_regions().remove_means(state.fluid.pressure);
     set_means(state.fluid.pressure, parts.models.fluid->grid());
-    state.solid = equations.end_state(velocity);
+    report.contact_velocity = equations.contact_velocity(velocity);
+    state.solid             = equations.end_state(velocity, report.contact_velocity);
   }
 
 

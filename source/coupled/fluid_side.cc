@@ -11,7 +11,7 @@ namespace undine
     , model(*models.fluid)
     , ledger(ledger)
     , timing(timing)
-    , uniform_gravity(models.environment().gravity)
+    , environment(models.environment())
     , surface_friction(models)
   {
     if (models.surface)
@@ -43,6 +43,27 @@ namespace undine
   }
 
 
+  /// Where the surfaces push the fluid in this stage, at `time` [s]. Bodies get there only as far
+  /// as they do not run into each other or into walls.
+  template <int dim>
+  typename FluidGeometry<dim>::Positions
+  FluidSide<dim>::expected_places(const State<dim> &state,
+                                  const Stage      &stage,
+                                  const double      time) const
+  {
+    const auto &contact = state.contact;
+    if (!environment.contact || contact.place.size() == 0)
+      return models.surface->positions(state.solid, time, stage.ahead());
+    SolidState bodies = state.solid;
+    bodies.displacement.add(stage.ahead(), state.solid.velocity);
+    const double part =
+      environment.contact->free_part({contact.place, contact.time}, {bodies.displacement, time});
+    if (part < 1)
+      bodies.displacement.sadd(part, 1 - part, contact.place);
+    return models.surface->positions(bodies, time);
+  }
+
+
   template <int dim>
   void
   FluidSide<dim>::place_surfaces(const State<dim> &state, const Stage &stage)
@@ -51,7 +72,7 @@ namespace undine
       return;
     const auto   phase = timing.section("cut cells");
     const double time  = state.clock.time + stage.start() + stage.ahead();
-    const auto   now   = models.surface->positions(state.solid, time, stage.ahead());
+    const auto   now   = expected_places(state, stage, time);
     cut->place(state.surface_positions.empty() ? now : state.surface_positions,
                now,
                stage.keeps_rates ? models.surface->velocities_at(state.solid, time, stage.length)
@@ -124,7 +145,7 @@ namespace undine
     auto fluid = std::make_unique<FluidStep<dim>>(model,
                                                   state.fluid,
                                                   state.next_velocity,
-                                                  uniform_gravity,
+                                                  environment.gravity,
                                                   state.clock.time,
                                                   stage,
                                                   timing,
@@ -188,7 +209,7 @@ namespace undine
       append(report.columns, effect->columns(model, state, time));
     if (cut)
       append(report.columns,
-             cut->columns(state.pressure, uniform_gravity, time, surface_friction.forces()));
+             cut->columns(state.pressure, environment.gravity, time, surface_friction.forces()));
   }
 
 

@@ -23,6 +23,7 @@ namespace undine
                                                    "loads",
                                                    "supports",
                                                    "damping",
+                                                   "contact",
                                                    "inertia",
                                                    "elasticity",
                                                    "earlier stages"};
@@ -33,6 +34,7 @@ namespace undine
     : models(models)
     , on(is_on)
     , has_stages(has_stages)
+    , has_contact(models.have_contact())
     , by_effect(models.effects.size())
   {
   }
@@ -170,12 +172,13 @@ namespace undine
   void
   Ledger<dim>::add(const SolidBalance<dim> &solid, const double dt)
   {
-    gain.energy += solid.kinetic + solid.elastic;
+    gain.energy += solid.kinetic + solid.elastic + solid.contact_energy;
     gain.momentum += solid.momentum;
-    energy += std::abs(solid.kinetic) + std::abs(solid.elastic);
+    energy += std::abs(solid.kinetic) + std::abs(solid.elastic) + std::abs(solid.contact_energy);
     terms[by_loads]             = {solid.loads, dt * solid.loads_force};
     terms[by_supports]          = {solid.supports, dt * solid.supports_force};
     terms[by_damping]           = {-solid.damping, dt * solid.damping_force};
+    terms[by_contact]           = {solid.contact + solid.contact_energy, dt * solid.contact_force};
     terms[by_inertia]           = {-solid.inertia_loss, -solid.inertia_gap};
     terms[by_elasticity].energy = -solid.elastic_loss;
     for (unsigned int e = 0; e < models.effects.size(); ++e)
@@ -195,7 +198,7 @@ namespace undine
       return models.surface && models.surface->surface().n_nodes() > models.surface->n_body_nodes();
     if (term < by_loads)
       return models.fluid && models.solid && (term != by_friction || models.has_friction());
-    return models.solid && (has_stages || term != by_stages);
+    return models.solid && (has_stages || term != by_stages) && (has_contact || term != by_contact);
   }
 
 

@@ -71,8 +71,13 @@ namespace undine
     auto forces             = models.solid->vector();
     models.surface->add_to_bodies(forces, half.exchange.on_bodies);
     models.surface->add_to_bodies(forces, half.exchange.at_rest);
+    if (half.fluid->friction)
+      {
+        half.exchange.friction = half.fluid->friction->on_nodes;
+        models.surface->add_to_bodies(forces, half.exchange.friction);
+      }
 
-    start_stage(state, stage, solid_step, ledger);
+    start_stage(state, stage, solid_step, environment, ledger);
     advance_bodies(half, state, stage, forces);
     half.exchange.velocities = geometry.surface_velocities();
     return half;
@@ -84,7 +89,7 @@ namespace undine
   OneWay<dim>::body_then_fluid(State<dim> &state, const Stage &stage)
   {
     Half half;
-    start_stage(state, stage, solid_step, ledger);
+    start_stage(state, stage, solid_step, environment, ledger);
     half.fluid = fluid_side.predict(state, stage);
     advance_bodies(half, state, stage, {});
     half.exchange.on_bodies  = Vectors(models.surface->surface().n_nodes());
@@ -104,11 +109,11 @@ namespace undine
                               const Stage                            &stage,
                               const typename SolidModel<dim>::Vector &forces)
   {
-    auto way = state.solid.displacement;
-    half.solid =
-      solid_step.step(state.solid, environment, half.fluid->start, half.fluid->dt, timing, forces);
+    auto way   = state.solid.displacement;
+    half.solid = solid_step.step(
+      state.solid, environment, half.fluid->start, half.fluid->dt, timing, forces, state.contact);
     way.sadd(-1, 1, state.solid.displacement);
-    end_stage(state, stage);
+    end_stage(state, stage, half.solid);
     half.exchange.way =
       models.surface->with_bodies(way, Vectors(models.surface->surface().n_nodes()));
   }

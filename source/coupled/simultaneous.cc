@@ -53,7 +53,7 @@ namespace undine
     void
     step(State<dim> &state, const Stage &stage, Report &report) override
     {
-      start_stage(state, stage, solid_step, ledger);
+      start_stage(state, stage, solid_step, environment, ledger);
       const auto       fluid = fluid_side.predict(state, stage);
       CoupledStep<dim> coupled({models,
                                 solid_step.mass(),
@@ -66,7 +66,7 @@ namespace undine
                                state,
                                settings.boundary_flux);
       const auto       solid = coupled.solve();
-      end_stage(state, stage);
+      end_stage(state, stage, solid);
       if (stage.is_last)
         balance(coupled, solid, stage.length);
       report.newton_iterations += solid.newton.iterations;

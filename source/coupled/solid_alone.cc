@@ -35,10 +35,10 @@ namespace undine
   SolidAlone<dim>::step(State<dim> &state, const Stage &stage, Report &report)
   {
     const double time = state.clock.time;
-    start_stage(state, stage, solid_step, ledger);
-    const auto solid =
-      solid_step.step(state.solid, environment, time + stage.start(), stage.length, timing);
-    end_stage(state, stage);
+    start_stage(state, stage, solid_step, environment, ledger);
+    const auto solid = solid_step.step(
+      state.solid, environment, time + stage.start(), stage.length, timing, {}, state.contact);
+    end_stage(state, stage, solid);
     if (solid.balance && stage.is_last)
       ledger.add(*solid.balance, stage.length);
     report.newton_iterations += solid.newton.iterations;

@@ -53,7 +53,7 @@ namespace undine
         // J p^n, where the grid was cut when p^n was computed.
         exchange.on_bodies = geometry_of(models, state)->pressure_forces(state.fluid.pressure);
       }
-      start_stage(state, stage, solid_step, ledger);
+      start_stage(state, stage, solid_step, environment, ledger);
       const auto   fluid    = fluid_side.predict(state, stage);
       const auto  &geometry = *fluid_side.geometry();
       const double end      = fluid->end;
@@ -67,11 +67,11 @@ namespace undine
           models.surface->add_to_bodies(forces, exchange.friction);
         }
 
-      auto       way = state.solid.displacement;
-      const auto solid =
-        solid_step.step(state.solid, environment, fluid->start, fluid->dt, timing, forces);
+      auto       way   = state.solid.displacement;
+      const auto solid = solid_step.step(
+        state.solid, environment, fluid->start, fluid->dt, timing, forces, state.contact);
       way.sadd(-1, 1, state.solid.displacement);
-      end_stage(state, stage);
+      end_stage(state, stage, solid);
       exchange.way         = models.surface->with_bodies(way, still());
       exchange.velocities  = node_velocities(state, exchange.way, fluid->dt);
       const auto projected = project(state, *fluid, exchange.velocities);

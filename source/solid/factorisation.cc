@@ -65,7 +65,7 @@ namespace undine
   void
   Factorisation::factorise(const Matrix &A)
   {
-    const bool is_new = solver == nullptr;
+    const bool is_new = solver == nullptr || !same_pattern(matrix, A);
     if (is_new)
       analyse(A);
     matrix = 0;

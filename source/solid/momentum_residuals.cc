@@ -28,6 +28,9 @@ namespace undine
                    pressure_loads(model,
                                   stage_displacement(displacement(velocity), stage.position),
                                   time + stage.position * dt));
+    const Vector pushes = contact_forces(displacement(velocity));
+    if (pushes.size() > 0)
+      defect.add(-1., pushes);
     // Where nothing acts, rounding is no lack of balance.
     const double        tolerance = model.numerics().newton.relative_tolerance;
     const double        size      = std::max(scale(), rounding() / tolerance);

@@ -72,6 +72,7 @@ namespace undine
     result.supports_force = sum(model, reactions);
     balance_inertia(result, velocity, way);
     balance_elasticity(result, end, way);
+    balance_contact(result, end, way);
 
     result.damping       = damping * way / weight;
     result.loads         = loads * way / weight;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/solid/cell_forces.h>
+#include <undine/solid/contact.h>
 #include <undine/solid/internal_forces.h>
 #include <undine/solid/loads.h>
 #include <undine/solid/solid_columns.h>
@@ -247,6 +248,9 @@ namespace undine
                        "N",
                        supports[b][boundary]);
       }
+    if (environment.contact)
+      for (const auto &column : environment.contact->columns(state.displacement, time))
+        columns.push_back(column);
     return columns;
   }
 

@@ -20,7 +20,8 @@ namespace undine
                                       const double                 time,
                                       const double                 dt,
                                       TimingTree                  &timing,
-                                      const Vector                &nodal_forces)
+                                      const Vector                &nodal_forces,
+                                      const ContactStart          &contact_start)
     : model(model)
     , mass(mass)
     , old_state(old_state)
@@ -29,6 +30,8 @@ namespace undine
     , dt(dt)
     , timing(timing)
     , nodal_forces(nodal_forces)
+    , contact(environment.contact.get())
+    , contact_start(contact_start)
     , coefficients(model.numerics().integrator->coefficients(dt))
     , has_pressure(has_pressure_loads(model))
     , own_rounding(rounding_of_forces(
@@ -262,6 +265,12 @@ namespace undine
     for (const auto &stage : coefficients.stages)
       if (stage.position > 0)
         add_stage(result, stage, stage_displacement(end, stage.position));
+    const Vector pushes = contact_forces(end);
+    if (pushes.size() > 0)
+      {
+        note_size(pushes, 1);
+        result.add(-1., pushes);
+      }
     return result;
   }
 
@@ -280,7 +289,8 @@ namespace undine
   typename SolidEquations<dim>::Matrix
   SolidEquations<dim>::jacobian(const Vector &velocity) const
   {
-    Matrix result = full_jacobian(displacement(velocity));
+    const Vector end    = displacement(velocity);
+    Matrix       result = full_jacobian(end, end);
     fix_rows_and_columns(result, model.all_fixed());
     return result;
   }
@@ -306,7 +316,7 @@ namespace undine
   {
     Vector jump = prescribed_increment();
     jump *= -1 / coefficients.displacement;
-    LinearSystem system{full_jacobian(old_state.displacement), model.vector()};
+    LinearSystem system{full_jacobian(old_state.displacement, last_place()), model.vector()};
     system.matrix.vmult(system.right_side, jump);
     clear_fixed(system.right_side, model);
     fix_rows_and_columns(system.matrix, model.all_fixed());
@@ -316,7 +326,7 @@ namespace undine
 
   template <int dim>
   typename SolidEquations<dim>::Matrix
-  SolidEquations<dim>::full_jacobian(const Vector &end) const
+  SolidEquations<dim>::full_jacobian(const Vector &end, const Vector &in_contact) const
   {
     const auto timed  = timing.section("assemble tangent");
     Matrix     result = model.matrix();
@@ -334,32 +344,11 @@ namespace undine
       add_matrix(result, mass_factor, mass);
     if (damping_stiffness.m() > 0)
       add_matrix(result, coefficients.damping * environment.stiffness_damping, damping_stiffness);
+    if (contact)
+      contact->add_stiffness(
+        result, contact_start.weight * coefficients.displacement, in_contact, time + dt);
     timing.memory.hold_briefly("deformable bodies", result.memory_consumption());
     return result;
-  }
-
-
-  template <int dim>
-  SolidState
-  SolidEquations<dim>::end_state(const Vector &velocity) const
-  {
-    SolidState state;
-    state.displacement = displacement(velocity);
-    state.velocity     = velocity;
-    state.acceleration = model.vector();
-    state.acceleration.add(
-      coefficients.acceleration, velocity, coefficients.acceleration_velocity, old_state.velocity);
-    const auto &integrator = *model.numerics().integrator;
-    if (integrator.uses_acceleration())
-      {
-        state.acceleration.add(coefficients.acceleration_acceleration, old_state.acceleration);
-        if (nodal_forces.size() > 0)
-          state.acceleration.add(-coefficients.acceleration * dt,
-                                 solve_mass(model, mass, nodal_forces, model.vector()));
-        prescribe_acceleration(
-          state.acceleration, model, time + (1 + integrator.acceleration_shift()) * dt, dt);
-      }
-    return state;
   }
 
 

@@ -52,7 +52,12 @@ namespace undine
         residual *= -1.;
         // A hundredth of what Newton's method stops at.
         const double negligible = 0.01 * tolerance * scale();
-        return solver.solve(jacobian, residual, equations.displacement(velocity), negligible);
+        auto         change =
+          solver.solve(jacobian, residual, equations.displacement(velocity), negligible);
+        const double part = equations.free_part(velocity, change);
+        if (part < 1)
+          change *= part;
+        return change;
       }
 
       /// The change of u by which the bodies follow prescribed motions, from d^n.
@@ -191,7 +196,8 @@ namespace undine
       const bool rest_first = equations.is_static() || options.fixed_iterations > 0;
       try
         {
-          velocity = rest_first ? resting_guess(problem, equations) : equations.guess();
+          velocity = equations.kept_apart(rest_first ? resting_guess(problem, equations)
+                                                     : equations.guess());
           return solve_newton(problem, velocity, options);
         }
       catch (const SolveError &)
@@ -199,7 +205,8 @@ namespace undine
           if (options.fixed_iterations > 0)
             throw;
         }
-      velocity = rest_first ? equations.guess() : resting_guess(problem, equations);
+      velocity =
+        equations.kept_apart(rest_first ? equations.guess() : resting_guess(problem, equations));
       return solve_newton(problem, velocity, options);
     }
   } // namespace
@@ -265,6 +272,8 @@ namespace undine
     SolidState state{model.vector(), model.vector(), model.vector()};
     set_initial(state, model);
     assert_not_inverted(state.displacement, model);
+    if (environment.contact)
+      environment.contact->check_start(state.displacement, time);
     prescribe_velocity(state.velocity, model, time, dt);
     if (model.numerics().integrator->uses_acceleration())
       {
@@ -287,11 +296,12 @@ namespace undine
                        const double                 time,
                        const double                 dt,
                        TimingTree                  &timing,
-                       const Vector                &nodal_forces)
+                       const Vector                &nodal_forces,
+                       const ContactStart          &contact)
   {
     const auto          timed = timing.section("solid");
     SolidEquations<dim> equations(
-      model, mass_matrix, state, environment, time, dt, timing, nodal_forces);
+      model, mass_matrix, state, environment, time, dt, timing, nodal_forces, contact);
     StepProblem<dim> problem(equations, solver, model.numerics().newton.relative_tolerance, timing);
     auto             velocity = model.vector();
 
@@ -302,7 +312,8 @@ namespace undine
     report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
     if (keeps_balance)
       report.balance = equations.balance(velocity, report.reactions);
-    state = equations.end_state(velocity);
+    report.contact_velocity = equations.contact_velocity(velocity);
+    state                   = equations.end_state(velocity, report.contact_velocity);
     return report;
   }
 

@@ -6,6 +6,7 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace undine
@@ -53,6 +54,19 @@ namespace undine
                 dealii::ExcMessage("The matrices differ in their sparsity patterns."));
     for (int entry = 0; entry < to.epetra.NumMyNonzeros(); ++entry)
       to.values[entry] += factor * from.values[entry];
+  }
+
+
+  bool
+  same_pattern(const Matrix &A, const Matrix &B)
+  {
+    const Rows a(A), b(B);
+    const int  n_rows = a.epetra.NumMyRows();
+    bool       same =
+      n_rows == b.epetra.NumMyRows() && std::equal(a.starts, a.starts + n_rows + 1, b.starts);
+    for (int entry = 0; same && entry < a.epetra.NumMyNonzeros(); ++entry)
+      same = a.epetra.GCID(a.columns[entry]) == b.epetra.GCID(b.columns[entry]);
+    return dealii::Utilities::MPI::min(int(same), A.get_mpi_communicator()) > 0;
   }
 
 

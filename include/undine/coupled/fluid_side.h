@@ -50,7 +50,7 @@ namespace undine
     const dealii::Tensor<1, dim> &
     gravity() const
     {
-      return uniform_gravity;
+      return environment.gravity;
     }
 
   private:
@@ -59,6 +59,8 @@ namespace undine
     run_phase(FluidStep<dim> &fluid, typename Ledger<dim>::Phase phase, const Action &act);
     void
     count_memory(const FluidState<dim> &state);
+    typename FluidGeometry<dim>::Positions
+    expected_places(const State<dim> &state, const Stage &stage, double time) const;
     void
     place_surfaces(const State<dim> &state, const Stage &stage);
     typename Flow<dim>::Bodies
@@ -72,7 +74,7 @@ namespace undine
     const FluidModel<dim>              &model;
     Ledger<dim>                        &ledger;
     TimingTree                         &timing;
-    const dealii::Tensor<1, dim>        uniform_gravity; ///< [m/s^2]
+    const SolidEnvironment<dim>         environment;
     std::unique_ptr<FluidGeometry<dim>> cut;
     SurfaceFriction<dim>                surface_friction;
   };

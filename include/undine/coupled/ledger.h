@@ -120,6 +120,7 @@ namespace undine
       by_loads,
       by_supports,
       by_damping,
+      by_contact,    ///< in energy the integrator's: work and gain of the potential
       by_inertia,    ///< of the integrator
       by_elasticity, ///< of the integrator
       by_stages,     ///< the earlier ones
@@ -148,6 +149,7 @@ namespace undine
     const Models<dim>          &models;
     const bool                  on;
     const bool                  has_stages;
+    const bool                  has_contact;
     Amount                      fluid;  ///< what it has, as far as the step has come
     Amount                      bodies; ///< what they had at t^n
     Amount                      gain;

@@ -6,6 +6,7 @@
 #include <undine/coupled/particle_model.h>
 #include <undine/effects/effect.h>
 #include <undine/fluid/fluid_model.h>
+#include <undine/interface/body_contact.h>
 #include <undine/interface/immersed_surface.h>
 #include <undine/interface/void_regions.h>
 #include <undine/solid/solid_model.h>
@@ -49,14 +50,26 @@ namespace undine
       });
     }
 
-    /// What the effects do to the bodies.
+    /// What the effects do to the bodies. Collective.
     SolidEnvironment<dim>
     environment() const
     {
       SolidEnvironment<dim> result;
       for (const auto &effect : effects)
         effect->affect(result);
+      if (solid && result.contact_settings)
+        result.contact = std::make_shared<const BodyContact<dim>>(
+          *result.contact_settings, *solid, fluid.get(), surface ? &surface->obstacles() : nullptr);
       return result;
+    }
+
+    bool
+    have_contact() const
+    {
+      SolidEnvironment<dim> result;
+      for (const auto &effect : effects)
+        effect->affect(result);
+      return result.contact_settings.has_value();
     }
   };
 } // namespace undine

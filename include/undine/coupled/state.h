@@ -6,6 +6,7 @@
 #include <undine/coupled/step_history.h>
 #include <undine/fluid/fluid_state.h>
 #include <undine/particles/particle_state.h>
+#include <undine/solid/contact.h>
 #include <undine/solid/solid_state.h>
 
 #include <deal.II/base/point.h>
@@ -36,6 +37,7 @@ namespace undine
     StageStart                            next;          ///< of the stage that follows
     Velocity<dim>                         next_velocity; ///< the same for the fluid [m/s]
     dealii::TrilinosWrappers::MPI::Vector way;           ///< of the bodies, t^n to this start [m]
+    ContactStart                          contact;       ///< of the bodies in this stage
     /// @}
 
     /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].

@@ -12,9 +12,9 @@
 
 namespace undine
 {
-  /// Sparse factors of one matrix after the other, all of one sparsity pattern, whose analysis is
-  /// done once (MUMPS or KLU through Amesos). All functions are collective and throw SolveError on
-  /// all ranks if the matrix is singular or has entries that are no numbers.
+  /// Sparse factors of one matrix after the other (MUMPS or KLU through Amesos); the analysis is
+  /// done once for all that follow with the same sparsity pattern. All functions are collective and
+  /// throw SolveError on all ranks if the matrix is singular or has entries that are no numbers.
   class Factorisation
   {
   public:

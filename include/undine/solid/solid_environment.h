@@ -3,14 +3,21 @@
 #define undine_solid_solid_environment_h
 
 #include <undine/base/options/expression.h>
+#include <undine/solid/contact_settings.h>
 
 #include <deal.II/base/tensor.h>
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace undine
 {
+  template <int dim>
+  class Contact;
+
+
   /// A force on a body that an effect calls for, as a function of the place at rest and the time.
   template <int dim>
   struct VolumeForce
@@ -29,6 +36,9 @@ namespace undine
     double                        mass_damping      = 0; ///< alpha, C = alpha M + eta K' [1/s]
     double                        stiffness_damping = 0; ///< eta, C = alpha M + eta K' [s]
     std::vector<VolumeForce<dim>> forces;                ///< in order of their effects
+
+    std::optional<ContactSettings<dim>> contact_settings; ///< none: bodies do not feel each other
+    std::shared_ptr<const Contact<dim>> contact;          ///< by these settings, for this scene
   };
 } // namespace undine
 

@@ -3,6 +3,7 @@
 #define undine_solid_solid_equations_h
 
 #include <undine/base/core/timing.h>
+#include <undine/solid/contact.h>
 #include <undine/solid/solid_balance.h>
 #include <undine/solid/solid_environment.h>
 #include <undine/solid/solid_model.h>
@@ -24,8 +25,10 @@ namespace undine
     using Matrix = typename SolidModel<dim>::Matrix;
 
     /// From `old_state` at `time` [s] over `dt` [s]. `mass` is mass_matrix(model). `nodal_forces`
-    /// [N] act during the whole step and enter the momentum once, as J p does; empty: none. The
-    /// other references must outlive the equations. Collective. Throws SolveError.
+    /// [N] act during the whole step and enter the momentum once, as J p does; empty: none. Forces
+    /// of contact (`environment`), at the end of the step, count alike, `contact.weight` times. The
+    /// references to model, mass, state, environment and timing must outlive the equations.
+    /// Collective. Throws SolveError.
     SolidEquations(const SolidModel<dim>       &model,
                    const Matrix                &mass,
                    const SolidState            &old_state,
@@ -33,7 +36,8 @@ namespace undine
                    double                       time,
                    double                       dt,
                    TimingTree                  &timing,
-                   const Vector                &nodal_forces = {});
+                   const Vector                &nodal_forces = {},
+                   const ContactStart          &contact      = {});
 
     /// A first u [m/s]: u^n with prescribed velocities in place.
     Vector
@@ -44,6 +48,15 @@ namespace undine
     /// with the change of u that motion_predictor() gives.
     Vector
     guess_at_rest() const;
+
+    /// The u nearest to `guess` on the way from the last place of the bodies at which nothing
+    /// closes a gap (Contact). Throws SolveError if supports or obstacles alone close one.
+    Vector
+    kept_apart(const Vector &guess) const;
+
+    /// The part of `correction` that can be added to u without closing a gap [1].
+    double
+    free_part(const Vector &velocity, const Vector &correction) const;
 
     struct LinearSystem
     {
@@ -77,8 +90,8 @@ namespace undine
     reactions(const Vector &velocity);
 
     /// For each body |sum over its degrees of freedom of M (m u + m_u u^n + m_a a^n) +
-    /// alpha M (c u + c_u u^n) - loads - supports| / scale [1]: the balance of linear momentum, in
-    /// which inner forces cancel. `reactions` are those of the same u.
+    /// alpha M (c u + c_u u^n) - loads - contact - supports| / scale [1]: the balance of linear
+    /// momentum, in which inner forces cancel. `reactions` are those of the same u.
     std::vector<double>
     momentum_residuals(const Vector &velocity, const Vector &reactions) const;
 
@@ -106,9 +119,15 @@ namespace undine
       return coefficients.displacement;
     }
 
-    /// The state at the end of the step.
+    /// What forces of contact add to the velocity in the step [m/s]; empty if there are none or if
+    /// nobody needs it. Collective.
+    Vector
+    contact_velocity(const Vector &velocity) const;
+
+    /// The state at the end of the step, given contact_velocity(), which is no part of the
+    /// acceleration.
     SolidState
-    end_state(const Vector &velocity) const;
+    end_state(const Vector &velocity, const Vector &contact_velocity) const;
 
     /// Does the step leave out inertia?
     bool
@@ -141,8 +160,16 @@ namespace undine
     balance_inertia(SolidBalance<dim> &result, const Vector &velocity, const Vector &way) const;
     void
     balance_elasticity(SolidBalance<dim> &result, const Vector &end, const Vector &way) const;
+    void
+    balance_contact(SolidBalance<dim> &result, const Vector &end, const Vector &way) const;
     Matrix
-    full_jacobian(const Vector &end_displacement) const;
+    full_jacobian(const Vector &end_displacement, const Vector &in_contact) const;
+    Vector
+    contact_forces(const Vector &end_displacement) const;
+    const Vector &
+    last_place() const;
+    double
+    last_time() const;
     Vector
     prescribed_increment() const;
     void
@@ -160,6 +187,8 @@ namespace undine
     const double                 dt;
     TimingTree                  &timing;
     Vector                       nodal_forces;
+    const Contact<dim> *const    contact; ///< nullptr: none
+    const ContactStart           contact_start;
     const StepCoefficients       coefficients;
     const bool                   has_pressure;
     Matrix                       damping_stiffness; ///< K'(d^n + r h u^n); empty without damping

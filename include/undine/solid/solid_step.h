@@ -4,6 +4,7 @@
 
 #include <undine/base/core/newton.h>
 #include <undine/base/core/timing.h>
+#include <undine/solid/contact.h>
 #include <undine/solid/solid_balance.h>
 #include <undine/solid/solid_environment.h>
 #include <undine/solid/solid_model.h>
@@ -32,6 +33,9 @@ namespace undine
     /// Only if asked for, see SolidStep::keep_balance().
     std::optional<SolidBalance<dim>> balance;
 
+    /// SolidEquations::contact_velocity() [m/s].
+    dealii::TrilinosWrappers::MPI::Vector contact_velocity;
+
     /// What was unusual: "the tangent is indefinite: solved directly". Empty if nothing was.
     std::string note;
   };
@@ -58,7 +62,8 @@ namespace undine
     initialize(const SolidEnvironment<dim> &environment, double time, double dt) const;
 
     /// From `time` to `time + dt` [s]. `nodal_forces` [N], if not empty, act during the whole step
-    /// (SolidEquations). Collective. Throws SolveError; the state is then unchanged.
+    /// (SolidEquations, also for `contact`). Collective. Throws SolveError; the state is then
+    /// unchanged.
     ///
     ///  1. guess u^{n+1} = u^n
     ///  2. Newton: assemble residual and tangent, solve, line search
@@ -70,7 +75,8 @@ namespace undine
          double                       time,
          double                       dt,
          TimingTree                  &timing,
-         const Vector                &nodal_forces = {});
+         const Vector                &nodal_forces = {},
+         const ContactStart          &contact      = {});
 
     /// Of a state. Collective.
     SolidAmounts<dim>

@@ -13,6 +13,11 @@ namespace undine
              double                                        factor,
              const dealii::TrilinosWrappers::SparseMatrix &B);
 
+  /// Have A and B the same entries, on all ranks? Collective.
+  bool
+  same_pattern(const dealii::TrilinosWrappers::SparseMatrix &A,
+               const dealii::TrilinosWrappers::SparseMatrix &B);
+
   /// Replace rows and columns of the `fixed` degrees of freedom, given for all ranks, by those of
   /// the identity times the mean size of A's diagonal. Collective.
   void

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_interface_body_contact_h
+#define undine_interface_body_contact_h
+
+#include <undine/interface/contact_terms.h>
+#include <undine/solid/contact.h>
+
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// Frictionless contact of bodies with each other, with obstacles and with plane walls, by a
+  /// barrier: the potential of a node of area A at the distance d from another surface is
+  ///
+  ///     E = k A D b(d / D),   b(s) = -(s - 1)^2 ln s for s < 1, else 0                     (S16)
+  ///
+  /// with the gap D and the stiffness k of the scene [after Li, Ferguson, Schneider, Langlois,
+  /// Zorin, Panozzo, Jiang, Kaufman, ACM Trans. Graph. 39 (2020)]. d is the distance to the nearest
+  /// point of a facet, on whose nodes the opposite force is distributed by that point's weights:
+  /// forces and moments between bodies cancel, whatever the step. In 3D nodes meet facets, edges
+  /// do not meet edges. A body does not meet itself.
+  template <int dim>
+  class BodyContact : public Contact<dim>
+  {
+  public:
+    using Vector = typename Contact<dim>::Vector;
+    using Matrix = typename Contact<dim>::Matrix;
+    using Place  = typename Contact<dim>::Place;
+
+    /// `fluid` and `obstacles`: nullptr if there are none. All references must outlive it.
+    /// Collective. Throws InputError.
+    BodyContact(const ContactSettings<dim> &settings,
+                const SolidModel<dim>      &solid,
+                const FluidModel<dim>      *fluid,
+                const Obstacles<dim>       *obstacles);
+
+    /// D [m].
+    double
+    gap() const
+    {
+      return settings.gap;
+    }
+
+    double
+    energy(const Vector &displacement, double time) const override;
+    Vector
+    forces(const Vector &displacement, double time) const override;
+    void
+    add_stiffness(Matrix &A, double factor, const Vector &displacement, double time) const override;
+    double
+    free_part(const Place &from, const Place &to) const override;
+    void
+    check_start(const Vector &displacement, double time) const override;
+    Columns
+    columns(const Vector &displacement, double time) const override;
+
+  private:
+    using Places = typename ContactSurfaces<dim>::Places;
+    using Terms  = std::vector<ContactTerm<dim>>;
+    using Forces = std::vector<dealii::Tensor<1, dim>>;
+    using Index  = dealii::types::global_dof_index;
+
+    Terms
+    terms(const Places &places) const;
+    double
+    energy(const Terms &terms) const;
+    Forces
+    nodal_forces(const Terms &terms) const;
+    void
+    make_room(Matrix &A, const Terms &terms) const;
+
+    const SolidModel<dim>     &solid;
+    ContactSettings<dim>       settings;
+    const ContactSurfaces<dim> surfaces;
+
+    /// The pattern of the tangent with the pairs of nodes in contact, kept as long as these are the
+    /// same.
+    mutable std::vector<std::pair<unsigned int, unsigned int>> pairs;
+    mutable dealii::TrilinosWrappers::SparsityPattern          pattern;
+  };
+} // namespace undine
+
+#endif

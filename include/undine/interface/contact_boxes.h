@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_interface_contact_boxes_h
+#define undine_interface_contact_boxes_h
+
+#include <undine/interface/contact_surfaces.h>
+
+#include <functional>
+
+namespace undine
+{
+  /// Calls action(node, facet) for nodes and facets of surfaces that meet each other, whose boxes
+  /// around the straight ways `from` ... `to` come as near as `distance` [m]: in ascending order of
+  /// nodes, then facets. Surfaces whose boxes are far from all others cost nothing but these; in
+  /// what is left facets are found by an R-tree.
+  template <int dim>
+  void
+  for_each_near_pair(const ContactSurfaces<dim>                            &surfaces,
+                     const typename ContactSurfaces<dim>::Places           &from,
+                     const typename ContactSurfaces<dim>::Places           &to,
+                     double                                                 distance,
+                     const std::function<void(unsigned int, unsigned int)> &action);
+} // namespace undine
+
+#endif
