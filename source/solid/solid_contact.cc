@@ -29,7 +29,8 @@ namespace undine
   {
     if (!contact)
       return {};
-    Vector result = contact->forces(end, time + dt);
+    const auto timed  = timing.section("contact");
+    Vector     result = contact->forces(end, time + dt);
     if (result.size() > 0)
       result *= contact_start.weight;
     return result;
@@ -42,6 +43,7 @@ namespace undine
   {
     if (!contact)
       return guess;
+    const auto timed = timing.section("contact");
     // The velocity that leads to the last place, but for supports, which are where they must be.
     Vector still = guess_at_rest();
     still.add(1 / coefficients.displacement, last_place());
@@ -66,7 +68,8 @@ namespace undine
   {
     if (!contact)
       return 1;
-    Vector end = velocity;
+    const auto timed = timing.section("contact");
+    Vector     end   = velocity;
     end.add(1., correction);
     return contact->free_part({displacement(velocity), time + dt}, {displacement(end), time + dt});
   }
@@ -96,6 +99,7 @@ namespace undine
   {
     if (!contact)
       return;
+    const auto   timed    = timing.section("contact");
     const double before   = contact_start.old_energy ? *contact_start.old_energy
                                                      : contact->energy(last_place(), last_time());
     result.contact_energy = contact->energy(end, time + dt) - before;

@@ -345,8 +345,11 @@ namespace undine
     if (damping_stiffness.m() > 0)
       add_matrix(result, coefficients.damping * environment.stiffness_damping, damping_stiffness);
     if (contact)
-      contact->add_stiffness(
-        result, contact_start.weight * coefficients.displacement, in_contact, time + dt);
+      {
+        const auto timed = timing.section("contact");
+        contact->add_stiffness(
+          result, contact_start.weight * coefficients.displacement, in_contact, time + dt);
+      }
     timing.memory.hold_briefly("deformable bodies", result.memory_consumption());
     return result;
   }

@@ -169,6 +169,15 @@ namespace undine_tests
                             return -2 * 0.5 * way_of_block(before, after).norm_square() /
                                    after.report.dt;
                           }};
+    samples["contact"] = {
+      flying_block(),
+      "",
+      "set Gap = 0.05\n" +
+        section("Walls", section("right", "set Point = 1.04, 0\nset Normal = -1, 0")),
+      "",
+      [](const auto &, const auto &after) {
+        return rest_of_gain(after, {"inertia", "elasticity", "loads", "supports"});
+      }};
   }
 
 
