@@ -280,6 +280,27 @@ namespace
   }
 
 
+  /// A free sheet in a cavity of side 1 whose lid begins to move with .1 m/s.
+  std::string
+  sheet_in_cavity(const std::string &integrator, const double density)
+  {
+    return section("Time", "set Step = .01\nset Integrator = " + integrator) +
+           section("Output", "set Ledger = true") + section("Domain", "set Cells = 24, 24") +
+           section("Fluid",
+                   "set Density = 1000\n" +
+                     section("Boundaries",
+                             boundary("lid", "top", "moving wall", "set Velocity = .1; 0") +
+                               boundary("walls", "left, right, bottom", "no-slip wall"))) +
+           section("Bodies",
+                   body("sheet",
+                        fmt::format("set Lower corner = .3, .52\nset Upper corner = .7, .55\nset "
+                                    "Cells = 12, 1\nset Density = {}\nset Young's modulus = "
+                                    "1e4\nset Poisson's ratio = .3",
+                                    density))) +
+           section("Effects", convection() + viscosity(10));
+  }
+
+
   double
   order(const double coarse, const double fine)
   {
@@ -375,4 +396,25 @@ TEST_CASE("Friction is bounded at any viscosity", "[friction]")
   CHECK(fastest(1e-1) <= 1.001);
   CHECK(fastest(1e6) >= .9);
   CHECK(fastest(1e6) <= 1.001);
+}
+
+
+TEST_CASE("Friction drags sheets along, also light ones, and does not shake them", "[friction]")
+{
+  for (const char *integrator : {"theta", "trapezoid_bdf2"})
+    for (const double density : {1000., 10.})
+      {
+        INFO(integrator << ", " << density);
+        CoupledRun<2> run(sheet_in_cavity(integrator, density));
+        for (unsigned int n = 0; n < 20; ++n)
+          {
+            run.step();
+            CHECK(run.column("max speed sheet") <= .05);
+            CHECK(run.column("energy closure") <= 1e-9);
+            CHECK(run.column("momentum closure") <= 1e-9);
+          }
+        // Against the lid, with what flows back below it.
+        CHECK(run.column("solid momentum x") < 0);
+        CHECK(run.column("max speed sheet") >= .001);
+      }
 }

@@ -37,7 +37,8 @@ namespace
                  "set Lower corner = .5, 0\nset Upper corner = .53, .6\nset Cells = 1, 5",
                  "set Lower corner = .5, 0, .2\nset Upper corner = .53, .6, .7\nset "
                  "Cells = 1, 3, 2") +
-                 "\nset Density = " + density_of_sheet + "\nset Young's modulus = 1e5\nset Poisson's ratio = .3",
+                 "\nset Density = " + density_of_sheet +
+                 "\nset Young's modulus = 1e5\nset Poisson's ratio = .3",
                clamp("foot", "1", "set Sides = bottom") +
                  section("tip", "set Kind = traction\nset Sides = top\nset Traction = " + load))) +
            section(
@@ -71,15 +72,14 @@ namespace
         CHECK(run.column("momentum closure") <= 1e-9);
       }
     // Terms that must be there, so that the sums mean something.
-    for (const auto &term :
-         {"transport",
-          "diffusion",
-          "sides",
-          "obstacles",
-          "fluid at rest",
-          "friction",
-          "loads",
-          "damping"})
+    for (const auto &term : {"transport",
+                             "diffusion",
+                             "sides",
+                             "obstacles",
+                             "fluid at rest",
+                             "friction",
+                             "loads",
+                             "damping"})
       CHECK(std::abs(run.column(std::string("energy by ") + term)) > 1e-6);
     CHECK(run.column("energy by projection") < 0);
     CHECK(std::abs(run.column("momentum by supports x")) > 1e-6);
