@@ -16,6 +16,7 @@ namespace undine
     auto        ones = solid.vector(), sums = solid.vector();
     ones = 1.;
     mass_matrix(solid).vmult(sums, ones);
+    sums *= 1. / 3; // to the shortest waves along an edge M is as heavy as that
     if (solid.numerics().integrator->coefficients(1.).mass == 0) // static
       sums = std::numeric_limits<double>::infinity();
     for (const auto &fixed : solid.fixed())

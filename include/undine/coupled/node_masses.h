@@ -8,9 +8,9 @@
 
 namespace undine
 {
-  /// The mass that each node of the bodies' surfaces carries along each axis: the sum of its row of
-  /// the mass matrix [kg]; infinite where the displacement is prescribed, and without inertia.
-  /// Empty without bodies. Collective.
+  /// A mass that no motion of a node of the bodies' surfaces, along each axis, falls short of: a
+  /// third of the sum of its row of the mass matrix [kg]; infinite where the displacement is
+  /// prescribed, and without inertia. Empty without bodies. Collective.
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   node_masses(const Models<dim> &models);

@@ -18,7 +18,7 @@ namespace undine
   ///
   ///     m (u' - u^0) = h (F + G),   G = m (u^{n+1} - u^0)/h - F  of the last stage,
   ///
-  /// m being the row sums of the mass matrix (node_masses()). G stands for all that holds a node
+  /// m being that of node_masses(). G stands for all that holds a node
   /// besides friction: where nothing changes, u' = u^0, and a body is held as it is.
   template <int dim>
   class SurfaceFriction
