@@ -61,8 +61,8 @@ def main():
         pause = generator.uniform(0.2, LONGEST)
         with tempfile.TemporaryDirectory() as folder:
             last_step = kill_once(program, scene, folder, pause)
-            if last_step < INTERVAL:
-                continue  # killed before the first checkpoint was due: nothing to resume
+            if last_step <= INTERVAL:
+                continue  # killed before the first checkpoint, which follows its row, was written
             start = resume(program, folder, last_step)
             if start < last_step - INTERVAL:
                 sys.exit(f"killed after step {last_step}, resumed at {start}: "
