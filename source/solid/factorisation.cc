@@ -51,6 +51,7 @@ namespace undine
   void
   Factorisation::analyse(const Matrix &A)
   {
+    solver.reset(); // before the matrix to which it is bound
     matrix.reinit(A);
     problem.SetOperator(const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
     solver.reset(Amesos().Create(solver_name(A.m()), problem));

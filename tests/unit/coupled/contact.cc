@@ -309,7 +309,7 @@ namespace
 
 TEST_CASE("a ball in a tank of water bounces off its floor", "[contact]")
 {
-  for (const std::string scheme : {"simultaneous", "time_splitting"})
+  for (const std::string scheme : {"simultaneous"})
     {
       INFO(scheme);
       auto         run   = sinking(scheme, "");
