@@ -94,7 +94,11 @@ namespace undine
       problem.SetRHS(const_cast<Epetra_MultiVector *>(&b.trilinos_vector()));
       return solver->Solve();
     };
-    if (fails(act, b.get_mpi_communicator()) || !std::isfinite(x.l2_norm()))
+    const bool has_failed = fails(act, b.get_mpi_communicator());
+    // The next analysis would ask vectors that are gone how many there are.
+    problem.SetLHS(nullptr);
+    problem.SetRHS(nullptr);
+    if (has_failed || !std::isfinite(x.l2_norm()))
       throw SolveError(failure);
     return x;
   }
