@@ -20,10 +20,14 @@ WRITTEN = ("log.txt", "original.prm", "parameters.prm", "parameters.json", "timi
 
 
 def settings(scene):
-    """The --set arguments for a scene."""
+    """The --set arguments for a scene. Forces on obstacles show how far the projection has been solved."""
     with open(scene) as file:
-        of_particles = re.search(r"^set Scheme *= *particle", file.read(), re.MULTILINE)
-    extra = ["--set", "Particles/Precision=double"] if of_particles else []
+        text = file.read()
+    extra = []
+    if re.search(r"^set Scheme *= *particle", text, re.MULTILINE):
+        extra = ["--set", "Particles/Precision=double"]
+    elif "subsection Obstacles" in text and "subsection Bodies" not in text:
+        extra = ["--set", "Fluid/Pressure solver/Divergence tolerance=1e-11"]
     return ["--set", "Time/Maximum steps=2"] + extra
 
 
