@@ -88,18 +88,39 @@ namespace undine
       });
       return dealii::Utilities::MPI::sum(sum, grid.communicator());
     }
+
+
+    /// The grid, cut where the surfaces' nodes are at `positions`.
+    template <int dim>
+    std::unique_ptr<FluidGeometry<dim>>
+    cut_at(const Models<dim> &models, const std::vector<dealii::Point<dim>> &positions)
+    {
+      auto result = std::make_unique<FluidGeometry<dim>>(models);
+      result->place(
+        positions, positions, typename FluidGeometry<dim>::Velocities(positions.size()));
+      return result;
+    }
   } // namespace
 
 
   template <int dim>
-  double
-  chamber_volume(const Models<dim>                     &models,
-                 const std::vector<dealii::Point<dim>> &positions,
-                 const dealii::Point<dim>              &point)
+  std::vector<std::optional<double>>
+  chamber_volumes(const Models<dim>                     &models,
+                  const std::vector<dealii::Point<dim>> &positions,
+                  const std::vector<dealii::Point<dim>> &points)
   {
-    FluidGeometry<dim> geometry(models);
-    geometry.place(positions, positions, typename FluidGeometry<dim>::Velocities(positions.size()));
-    return volume_around(point, models.fluid->grid(), geometry.bodies());
+    const auto                         geometry = cut_at(models, positions);
+    std::vector<std::optional<double>> result(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k)
+      try
+        {
+          result[k] = volume_around(points[k], models.fluid->grid(), geometry->bodies());
+        }
+      catch (const SolveError &)
+        {
+          // Not in the fluid, on all ranks together.
+        }
+    return result;
   }
 
 
@@ -113,22 +134,22 @@ namespace undine
     if (!models.surface)
       return {volume_around<dim>(point, model.grid(), {}),
               inflow_around<dim>(point, model, {}, state.fluid.velocity)};
-    const double volume =
-      chamber_volume(models, models.surface->positions(state.solid, state.clock.time), point);
+    const auto   now    = cut_at(models, models.surface->positions(state.solid, state.clock.time));
+    const double volume = volume_around(point, model.grid(), now->bodies());
     // The velocity belongs to where the grid was cut for it.
     const auto before = geometry_of(models, state);
     return {volume, inflow_around(point, model, before->bodies(), state.fluid.velocity)};
   }
 
 
-  template double
-  chamber_volume(const Models<2> &,
-                 const std::vector<dealii::Point<2>> &,
-                 const dealii::Point<2> &);
-  template double
-  chamber_volume(const Models<3> &,
-                 const std::vector<dealii::Point<3>> &,
-                 const dealii::Point<3> &);
+  template std::vector<std::optional<double>>
+  chamber_volumes(const Models<2> &,
+                  const std::vector<dealii::Point<2>> &,
+                  const std::vector<dealii::Point<2>> &);
+  template std::vector<std::optional<double>>
+  chamber_volumes(const Models<3> &,
+                  const std::vector<dealii::Point<3>> &,
+                  const std::vector<dealii::Point<3>> &);
   template Chamber
   measure_chamber(const Models<2> &, const State<2> &, const dealii::Point<2> &);
   template Chamber

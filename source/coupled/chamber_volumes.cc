@@ -43,21 +43,17 @@ namespace undine
     Vectors     way(cut_at.size());
     for (std::size_t node = 0; node < way.size(); ++node)
       way[node] = cut_at[node] - before[node];
-    auto       result  = swept(before, way);
-    const auto places  = chambers.places_within();
-    const auto volumes = chambers.volumes_of_regions();
+    auto        result   = swept(before, way);
+    const auto  at_start = chamber_volumes(models, before, chambers.places_within());
+    const auto &volumes  = chambers.volumes_of_regions();
     for (std::size_t region = 0; region < result.size(); ++region)
-      try
+      if (at_start[region])
         {
           // Another one, if chambers have parted or met since.
           constexpr double the_same = 1e-3;
-          const double     exact = volumes[region] - chamber_volume(models, before, places[region]);
+          const double     exact    = volumes[region] - *at_start[region];
           if (std::abs(exact - result[region]) <= the_same * volumes[region])
             result[region] = exact;
-        }
-      catch (const SolveError &)
-        {
-          // Was not yet fluid there: what is swept has to do.
         }
     return result;
   }

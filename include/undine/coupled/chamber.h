@@ -5,6 +5,7 @@
 #include <undine/coupled/models.h>
 #include <undine/coupled/state.h>
 
+#include <optional>
 #include <vector>
 
 namespace undine
@@ -24,13 +25,13 @@ namespace undine
                   const State<dim>         &state,
                   const dealii::Point<dim> &point);
 
-  /// The volume of the one around `point` if the surfaces' nodes are at `positions` [m^dim].
-  /// Cuts the grid. Collective. Throws SolveError if the point is not in the fluid then.
+  /// The volumes of the ones around `points` if the surfaces' nodes are at `positions` [m^dim];
+  /// nothing for points that are not in the fluid then. Cuts the grid once. Collective.
   template <int dim>
-  double
-  chamber_volume(const Models<dim>                     &models,
-                 const std::vector<dealii::Point<dim>> &positions,
-                 const dealii::Point<dim>              &point);
+  std::vector<std::optional<double>>
+  chamber_volumes(const Models<dim>                     &models,
+                  const std::vector<dealii::Point<dim>> &positions,
+                  const std::vector<dealii::Point<dim>> &points);
 } // namespace undine
 
 #endif
