@@ -9,10 +9,15 @@ namespace undine
 {
   namespace
   {
+    constexpr int margin = 3; ///< layers beyond those that ways cross
+
+
     /// Ghost layers for ways of a given length, and for the up to four points around their ends.
     template <int dim>
     GridIndex<dim>
-    reach(const FluidModel<dim> &model, const dealii::Tensor<1, dim> &distance, const double dt)
+    layers_within(const FluidModel<dim>        &model,
+                  const dealii::Tensor<1, dim> &distance,
+                  const double                  dt)
     {
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -29,7 +34,7 @@ namespace undine
         }
       auto width = model.grid().planes_crossed(distance);
       for (int &layers : width.values)
-        layers += 3;
+        layers += margin;
       return width;
     }
 
@@ -85,7 +90,7 @@ namespace undine
     , frozen_velocity(velocity)
     , start_time(time)
     , step(dt)
-    , ghost_width(reach(model, longest_way(model, velocity, time, dt), dt))
+    , ghost_width(layers_within(model, longest_way(model, velocity, time, dt), dt))
     , body_vicinity(model.grid(), velocity[0].open_parts(), bodies.open_parts, ghost_width)
   {
     complete(frozen_velocity, model, ghost_width, time);
@@ -148,12 +153,11 @@ namespace undine
   dealii::Tensor<1, dim>
   Flow<dim>::velocity_at(const dealii::Point<dim> &place) const
   {
+    if (!body_vicinity.is_near(place, place))
+      return interpolate(frozen_velocity, place);
     dealii::Tensor<1, dim> result;
-    const bool             near = body_vicinity.is_near(place, place);
     for (unsigned int axis = 0; axis < dim; ++axis)
-      if (!near)
-        result[axis] = interpolate(frozen_velocity[axis], place);
-      else if (const auto seen = samples[axis]->at(place))
+      if (const auto seen = samples[axis]->at(place))
         result[axis] = *seen;
       else
         result[axis] = among.obstruction->nearest_velocity(place)[axis];
@@ -166,6 +170,20 @@ namespace undine
   Flow<dim>::width() const
   {
     return ghost_width;
+  }
+
+
+  template <int dim>
+  GridIndex<dim>
+  Flow<dim>::reach(const int beyond) const
+  {
+    // Of the planes that may be crossed one is for ways that begin anywhere. From point i a way
+    // passes the k others up to i + k only if one as long, begun at a plane, meets k + 1 of them:
+    // the lower planes of i to i + k or the upper ones, whichever are closer together.
+    auto points = ghost_width;
+    for (int &layers : points.values)
+      layers += beyond - margin - 1;
+    return points;
   }
 
 

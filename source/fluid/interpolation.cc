@@ -16,17 +16,18 @@ namespace undine
     };
 
 
-    template <int dim>
+    /// `bracket(d)`: between which points of the field's row the place is.
+    template <int dim, class Bracket>
     inline Samples<dim>
-    samples_around(const Field<dim> &field, const dealii::Point<dim> &place)
+    samples_around(const Field<dim> &field, const Bracket &bracket)
     {
       Samples<dim>   samples;
       GridIndex<dim> lower;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const auto bracket = field.lattice().row(d).locate(place[d]);
-          lower[d]           = bracket.lower;
-          samples.weights[d] = bracket.weight;
+          const Row::Bracket between = bracket(d);
+          lower[d]                   = between.lower;
+          samples.weights[d]         = between.weight;
         }
       const double *const first = field.data(lower);
       for (unsigned int corner = 0; corner < (1 << dim); ++corner)
@@ -38,6 +39,15 @@ namespace undine
           samples.values[corner] = first[offset];
         }
       return samples;
+    }
+
+
+    template <int dim>
+    inline Samples<dim>
+    samples_around(const Field<dim> &field, const dealii::Point<dim> &place)
+    {
+      return samples_around(
+        field, [&](const unsigned int d) { return field.lattice().row(d).locate(place[d]); });
     }
 
 
@@ -63,6 +73,25 @@ namespace undine
 
 
   template <int dim>
+  dealii::Tensor<1, dim>
+  interpolate(const Velocity<dim> &velocity, const dealii::Point<dim> &place)
+  {
+    // Each row of planes belongs to one component, each row of centres to all others.
+    std::array<Row::Bracket, dim> planes, centres;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        planes[d]  = velocity[d].lattice().row(d).locate(place[d]);
+        centres[d] = velocity[d == 0 ? 1 : 0].lattice().row(d).locate(place[d]);
+      }
+    dealii::Tensor<1, dim> result;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      result[axis] = multilinear(samples_around(
+        velocity[axis], [&](const unsigned int d) { return d == axis ? planes[d] : centres[d]; }));
+    return result;
+  }
+
+
+  template <int dim>
   BoundedValue
   interpolate_with_bounds(const Field<dim> &field, const dealii::Point<dim> &place)
   {
@@ -73,8 +102,8 @@ namespace undine
 
 
   template <int dim>
-  BoundedValue
-  interpolate_cubic(const Field<dim> &field, const dealii::Point<dim> &place)
+  double
+  interpolate_cubic(const Field<dim> &field, const dealii::Point<dim> &place, const bool limited)
   {
     std::array<Row::Stencil, dim> stencils;
     GridIndex<dim>                begin;
@@ -104,9 +133,11 @@ namespace undine
           along += stencils[0].weights[k] * sample[k];
         sum += weight * along;
       }
+    if (!limited)
+      return sum;
     const auto samples = samples_around(field, place);
     const auto bounds  = std::minmax_element(samples.values.begin(), samples.values.end());
-    return {sum, *bounds.first, *bounds.second};
+    return std::clamp(sum, *bounds.first, *bounds.second);
   }
 
 
@@ -114,10 +145,14 @@ namespace undine
   interpolate(const Field<2> &, const dealii::Point<2> &);
   template double
   interpolate(const Field<3> &, const dealii::Point<3> &);
-  template BoundedValue
-  interpolate_cubic(const Field<2> &, const dealii::Point<2> &);
-  template BoundedValue
-  interpolate_cubic(const Field<3> &, const dealii::Point<3> &);
+  template double
+  interpolate_cubic(const Field<2> &, const dealii::Point<2> &, const bool);
+  template dealii::Tensor<1, 2>
+  interpolate(const Velocity<2> &, const dealii::Point<2> &);
+  template double
+  interpolate_cubic(const Field<3> &, const dealii::Point<3> &, const bool);
+  template dealii::Tensor<1, 3>
+  interpolate(const Velocity<3> &, const dealii::Point<3> &);
   template BoundedValue
   interpolate_with_bounds(const Field<2> &, const dealii::Point<2> &);
   template BoundedValue

@@ -80,45 +80,6 @@ namespace undine
   }
 
 
-  int
-  Row::find(const double place) const
-  {
-    const int last = points.size() - 2;
-    if (inverse_spacing == 0)
-      {
-        const auto above = std::upper_bound(points.begin(), points.end(), place);
-        return std::clamp(int(above - points.begin()) - 1, 0, last);
-      }
-    int guess = std::clamp(int((place - points[0]) * inverse_spacing), 0, last);
-    while (guess > 0 && place < points[guess])
-      --guess;
-    while (guess < last && place >= points[guess + 1])
-      ++guess;
-    return guess;
-  }
-
-
-  int
-  Row::move_into_period(double &place) const
-  {
-    if (!periodic())
-      return 0;
-    const int periods = std::floor((place - points[0]) / length);
-    place -= periods * length;
-    return periods;
-  }
-
-
-  Row::Bracket
-  Row::locate(double place) const
-  {
-    const int    periods = move_into_period(place);
-    const int    i       = find(place);
-    const double weight  = (place - points[i]) / (points[i + 1] - points[i]);
-    return {i + first + periods * n, std::clamp(weight, 0., 1.)};
-  }
-
-
   Row::Stencil
   Row::stencil(double place) const
   {

@@ -184,9 +184,8 @@ namespace undine
     const dealii::Point<dim> start = point + (foot - place) + side_share * (place - point);
     if (!is_clear_for_cubics(start, foot))
       return multilinear(start, eye);
-    const auto found     = interpolate_cubic(field, start);
     const bool is_scalar = lattice.normal_axis() >= dim;
-    return is_scalar ? std::clamp(found.value, found.smallest, found.largest) : found.value;
+    return interpolate_cubic(field, start, is_scalar);
   }
 
 

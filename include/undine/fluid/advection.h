@@ -5,7 +5,6 @@
 #include <undine/fluid/flow.h>
 #include <undine/fluid/quiet_places.h>
 
-#include <optional>
 #include <string>
 
 namespace undine
@@ -71,45 +70,47 @@ namespace undine
                 const Field<dim>             &field,
                 const BoundaryCondition<dim> &condition);
 
-  /// Those that the condition says need not be computed; nothing: all are.
-  template <int dim>
-  std::optional<QuietPlaces<dim>>
-  quiet_places(const Flow<dim>              &flow,
-               const Field<dim>             &source,
-               const BoundaryCondition<dim> &condition)
-  {
-    if (condition.neglected_variation() == 0)
-      return {};
-    return QuietPlaces<dim>(source, flow.width(), condition.neglected_variation());
-  }
-
   /// The field at t + h on what bodies leave of the grid now: `far(trace, index)` of paths that
   /// keep away from bodies; near them all methods are alike, see NearBodies; quiet places keep
-  /// what they have. `source` is what completed() returned with the same condition. Collective.
+  /// what they have. `source` is what completed() returned with the same condition; `far` looks no
+  /// further than `reach` points away. Collective.
   template <int dim, class Far>
   Field<dim>
   carry(const Flow<dim>              &flow,
         const Field<dim>             &source,
         const BoundaryCondition<dim> &condition,
+        const GridIndex<dim>         &reach,
         Far                         &&far)
   {
     const auto           &bodies = flow.bodies();
     const NearBodies<dim> near(flow, source);
     Field<dim>            carried(source.shared_lattice(), bodies.open_parts);
     const auto           *divided = carried.divided();
-    const auto            quiet   = quiet_places(flow, source, condition);
-    for_each_value(carried, [&](double &value, const auto &place, const GridIndex<dim> &index) {
-      const bool is_part =
-        divided != nullptr && divided->kind(index) != LatticeParts<dim>::Kind::whole;
-      if (!is_part && quiet && quiet->contains(index))
-        {
-          value = source(index);
-          return;
-        }
+    const auto            is_open = [&](const GridIndex<dim> &index) {
+      return !divided || divided->kind(index) == LatticeParts<dim>::Kind::whole;
+    };
+    const auto carry_one = [&](const GridIndex<dim> &index) {
+      if (!is_open(index))
+        return;
+      const auto place = source.lattice().point(index);
       const auto trace = flow.trace(place, -flow.dt());
-      value            = is_part || flow.vicinity().is_near(place, trace.foot)
+      carried(index)   = flow.vicinity().is_near(place, trace.foot)
                            ? near.value_at(index, place, trace.foot)
                            : far(trace, index);
+    };
+    if (condition.neglected_variation() == 0)
+      for_each(carried.owned(), carry_one);
+    else
+      {
+        const QuietPlaces<dim> places(source, reach, condition.neglected_variation());
+        places.for_each_point(true, [&](const GridIndex<dim> &index) {
+          if (is_open(index))
+            carried(index) = source(index);
+        });
+        places.for_each_point(false, carry_one);
+      }
+    for_each_part(carried, [&](double &value, const auto &place, const GridIndex<dim> &index) {
+      value = near.value_at(index, place, flow.trace(place, -flow.dt()).foot);
     });
     near.finish(carried, condition);
     return carried;

@@ -158,6 +158,18 @@ namespace undine
   };
 
 
+  /// Call `action(value, place, index)` for every owned part of a divided point, with its centroid.
+  template <class FieldType, class Action>
+  void
+  for_each_part(FieldType &field, Action &&action)
+  {
+    const auto *divided = field.divided();
+    for (unsigned int k = 0; k < field.parts().size(); ++k)
+      if (divided->owns(k))
+        action(field.parts()[k], divided->all()[k].place, divided->all()[k].index);
+  }
+
+
   /// Call `action(value, place, index)` for every owned value of a field: those of the points that
   /// are whole, with the point's place, and those of the parts of divided ones, with their
   /// centroids.
@@ -171,9 +183,7 @@ namespace undine
       if (!divided || divided->kind(index) == LatticeParts<dim>::Kind::whole)
         action(field(index), field.lattice().point(index), index);
     });
-    for (unsigned int k = 0; k < field.parts().size(); ++k)
-      if (divided->owns(k))
-        action(field.parts()[k], divided->all()[k].place, divided->all()[k].index);
+    for_each_part(field, action);
   }
 } // namespace undine
 

@@ -78,6 +78,11 @@ namespace undine
     const GridIndex<dim> &
     width() const;
 
+    /// How far from a point of a lattice the points around the foot of its path can be: the two
+    /// between which the foot lies and `beyond` more on either side.
+    GridIndex<dim>
+    reach(const int beyond) const;
+
     /// Follow the particle at `place` for a time (negative: back to where it came from), by the
     /// midpoint rule: x' = x + dt v(x + dt v(x) / 2). The path ends at inflows and openings, and
     /// just before surfaces of bodies; at walls it goes on along the wall; periodic sides are

@@ -2,9 +2,10 @@
 #ifndef undine_fluid_interpolation_h
 #define undine_fluid_interpolation_h
 
-#include <undine/fluid/field.h>
+#include <undine/fluid/fluid_state.h>
 
 #include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
 
 namespace undine
 {
@@ -23,16 +24,21 @@ namespace undine
   double
   interpolate(const Field<dim> &field, const dealii::Point<dim> &place);
 
-  /// The same, with the smallest and the largest of the 2^dim samples.
+  /// The same of all components of a velocity.
+  template <int dim>
+  dealii::Tensor<1, dim>
+  interpolate(const Velocity<dim> &velocity, const dealii::Point<dim> &place);
+
+  /// That of one field, with the smallest and the largest of the 2^dim samples.
   template <int dim>
   BoundedValue
   interpolate_with_bounds(const Field<dim> &field, const dealii::Point<dim> &place);
 
-  /// Interpolation by the cubic polynomials through four points in each direction; the bounds are
-  /// those of the 2^dim samples around the place, which the value may exceed.
+  /// Interpolation by the cubic polynomials through four points in each direction; `limited`: to
+  /// the bounds of the 2^dim samples around the place.
   template <int dim>
-  BoundedValue
-  interpolate_cubic(const Field<dim> &field, const dealii::Point<dim> &place);
+  double
+  interpolate_cubic(const Field<dim> &field, const dealii::Point<dim> &place, const bool limited);
 } // namespace undine
 
 #endif

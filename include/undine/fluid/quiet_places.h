@@ -27,6 +27,22 @@ namespace undine
       return is_quiet[owned.position(index)] != 0;
     }
 
+    /// Call `action(index)` for all owned points that are quiet, or for all that are not.
+    template <class Action>
+    void
+    for_each_point(const bool quiet, Action &&action) const
+    {
+      auto      row_starts = owned;
+      const int points     = owned.upper[0] - owned.lower[0];
+      row_starts.upper[0]  = owned.lower[0] + (points > 0);
+      for_each(row_starts, [&](GridIndex<dim> index) {
+        const char *marks = is_quiet.data() + owned.position(index);
+        for (int i = 0; i < points; ++i, ++index[0])
+          if ((marks[i] != 0) == quiet)
+            action(index);
+      });
+    }
+
   private:
     IndexBox<dim>     owned;
     std::vector<char> is_quiet;

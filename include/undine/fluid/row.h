@@ -2,7 +2,9 @@
 #ifndef undine_fluid_row_h
 #define undine_fluid_row_h
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace undine
@@ -77,7 +79,13 @@ namespace undine
 
     /// A place beyond the ends of a row that is not periodic counts as the end.
     Bracket
-    locate(double place) const;
+    locate(double place) const
+    {
+      const int    periods = move_into_period(place);
+      const int    i       = find(place);
+      const double weight  = (place - points[i]) / (points[i + 1] - points[i]);
+      return {i + first + periods * n, std::clamp(weight, 0., 1.)};
+    }
 
     /// Cubic interpolation (Lagrange), exact for cubic polynomials on graded rows too. Next to an
     /// end of the row the points are those nearest to the end.
@@ -99,11 +107,32 @@ namespace undine
 
     /// Position in `points` of the last point not above `place`, found in O(1) on uniform rows.
     int
-    find(const double place) const;
+    find(const double place) const
+    {
+      const int last = points.size() - 2;
+      if (inverse_spacing == 0)
+        {
+          const auto above = std::upper_bound(points.begin(), points.end(), place);
+          return std::clamp(int(above - points.begin()) - 1, 0, last);
+        }
+      int guess = std::clamp(int((place - points[0]) * inverse_spacing), 0, last);
+      while (guess > 0 && place < points[guess])
+        --guess;
+      while (guess < last && place >= points[guess + 1])
+        ++guess;
+      return guess;
+    }
 
     /// Move a place by whole periods into the row; returns by how many.
     int
-    move_into_period(double &place) const;
+    move_into_period(double &place) const
+    {
+      if (!periodic())
+        return 0;
+      const int periods = std::floor((place - points[0]) / length);
+      place -= periods * length;
+      return periods;
+    }
 
     std::vector<double>     points;      ///< from index `first`; periodic: up to index n
     std::vector<Polynomial> polynomials; ///< by position of the first point; periodic: less one

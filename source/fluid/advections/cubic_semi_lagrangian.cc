@@ -2,8 +2,6 @@
 #include <undine/fluid/advection.h>
 #include <undine/fluid/interpolation.h>
 
-#include <algorithm>
-
 namespace undine
 {
   /// s^{n+1}(x) = s^n(foot of x), with cubic interpolation. Fields with a maximum principle are
@@ -31,10 +29,10 @@ namespace undine
     {
       const bool limited = condition.obeys_maximum_principle();
       const auto source  = completed(flow, field, condition);
-      return carry(flow, source, condition, [&](const auto &trace, const GridIndex<dim> &) {
-        const auto found = interpolate_cubic(source, trace.foot);
-        return limited ? std::clamp(found.value, found.smallest, found.largest) : found.value;
-      });
+      return carry(
+        flow, source, condition, flow.reach(1), [&](const auto &trace, const GridIndex<dim> &) {
+          return interpolate_cubic(source, trace.foot, limited);
+        });
     }
   };
 

@@ -43,12 +43,13 @@ namespace undine
 
       const bool limited = condition.obeys_maximum_principle();
       const auto source  = completed(flow, field, condition);
-      auto corrected = carry(flow, source, condition, [&](const auto &trace, const auto &index) {
-        const auto found = interpolate_with_bounds(source, trace.foot);
-        if (!trace.left_domain)
-          predictions.push_back({index, found});
-        return found.value;
-      });
+      auto       corrected =
+        carry(flow, source, condition, flow.width(), [&](const auto &trace, const auto &index) {
+          const auto found = interpolate_with_bounds(source, trace.foot);
+          if (!trace.left_domain)
+            predictions.push_back({index, found});
+          return found.value;
+        });
 
       auto predicted = corrected;
       predicted.exchange(flow.width());

@@ -27,9 +27,10 @@ namespace undine
            const BoundaryCondition<dim> &condition) const override
     {
       const auto source = completed(flow, field, condition);
-      return carry(flow, source, condition, [&](const auto &trace, const GridIndex<dim> &) {
-        return interpolate(source, trace.foot);
-      });
+      return carry(
+        flow, source, condition, flow.reach(0), [&](const auto &trace, const GridIndex<dim> &) {
+          return interpolate(source, trace.foot);
+        });
     }
   };
 
