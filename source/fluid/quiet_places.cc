@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace undine
@@ -22,6 +23,14 @@ namespace undine
     }
 
 
+    /// To the bit, which is soon seen: most rows of a field hold one value.
+    bool
+    are_the_same(const double *values, const double *others, const int n)
+    {
+      return std::memcmp(values, others, n * sizeof(double)) == 0;
+    }
+
+
     /// Largest minus smallest of the values that are finite; of all ranks.
     template <int dim>
     double
@@ -32,7 +41,8 @@ namespace undine
       const int        points      = field.owned().upper[0] - field.owned().lower[0];
       for_each_row(field.owned(), [&](const GridIndex<dim> &row) {
         const double *values = field.data(row);
-        for (int i = 0; i < points; ++i)
+        const int     others = are_the_same(values, values + 1, points - 1) ? 1 : points;
+        for (int i = 0; i < others; ++i)
           if (std::isfinite(values[i]))
             {
               extremes[0] = std::max(extremes[0], values[i]);
@@ -80,6 +90,8 @@ namespace undine
             for_each_row(pairs, [&](const GridIndex<dim> &row) {
               const double *values = field.data(row);
               char         *mark   = at(row);
+              if (are_the_same(values, values + next, points))
+                return;
               for (int i = 0; i < points; ++i)
                 {
                   const char differs = !(std::abs(values[i + next] - values[i]) <= most);
@@ -127,9 +139,10 @@ namespace undine
 
 
   template <int dim>
-  QuietPlaces<dim>::QuietPlaces(const Field<dim>     &source,
-                                const GridIndex<dim> &reach,
-                                const double          share)
+  QuietPlaces<dim>::QuietPlaces(const Field<dim>        &source,
+                                const GridIndex<dim>    &reach,
+                                const double             share,
+                                const LatticeParts<dim> *now)
     : owned(source.owned())
     , is_quiet(owned.size(), 0)
   {
@@ -138,11 +151,12 @@ namespace undine
       longest_way += 2 * reach[d];
     Marks<dim> unquiet(source.stored());
     unquiet.mark_differences(source, share * range(source) / longest_way);
-    if (const auto *divided = source.divided())
-      for_each(source.stored(), [&](const GridIndex<dim> &index) {
-        if (divided->kind(index) != LatticeParts<dim>::Kind::whole)
-          *unquiet.at(index) = 1;
-      });
+    for (const auto *divided : {source.divided(), now})
+      if (divided)
+        for_each(source.stored(), [&](const GridIndex<dim> &index) {
+          if (divided->kind(index) != LatticeParts<dim>::Kind::whole)
+            *unquiet.at(index) = 1;
+        });
     unquiet.spread(reach);
     const int points = owned.upper[0] - owned.lower[0];
     for_each_row(owned, [&](const GridIndex<dim> &row) {

@@ -85,29 +85,28 @@ namespace undine
     const auto           &bodies = flow.bodies();
     const NearBodies<dim> near(flow, source);
     Field<dim>            carried(source.shared_lattice(), bodies.open_parts);
-    const auto           *divided = carried.divided();
-    const auto            is_open = [&](const GridIndex<dim> &index) {
-      return !divided || divided->kind(index) == LatticeParts<dim>::Kind::whole;
-    };
-    const auto carry_one = [&](const GridIndex<dim> &index) {
-      if (!is_open(index))
+    const auto           *divided   = carried.divided();
+    const auto            carry_one = [&](const GridIndex<dim> &index) {
+      if (divided && divided->kind(index) != LatticeParts<dim>::Kind::whole)
         return;
       const auto place = source.lattice().point(index);
       const auto trace = flow.trace(place, -flow.dt());
       carried(index)   = flow.vicinity().is_near(place, trace.foot)
-                           ? near.value_at(index, place, trace.foot)
-                           : far(trace, index);
+                                      ? near.value_at(index, place, trace.foot)
+                                      : far(trace, index);
     };
     if (condition.neglected_variation() == 0)
       for_each(carried.owned(), carry_one);
     else
       {
-        const QuietPlaces<dim> places(source, reach, condition.neglected_variation());
-        places.for_each_point(true, [&](const GridIndex<dim> &index) {
-          if (is_open(index))
-            carried(index) = source(index);
+        const QuietPlaces<dim> places(source, reach, condition.neglected_variation(), divided);
+        places.for_each_run(true, [&](const GridIndex<dim> &first, const int n) {
+          std::copy_n(source.data(first), n, &carried(first));
         });
-        places.for_each_point(false, carry_one);
+        places.for_each_run(false, [&](GridIndex<dim> index, const int n) {
+          for (int i = 0; i < n; ++i, ++index[0])
+            carry_one(index);
+        });
       }
     for_each_part(carried, [&](double &value, const auto &place, const GridIndex<dim> &index) {
       value = near.value_at(index, place, flow.trace(place, -flow.dt()).foot);

@@ -4,6 +4,7 @@
 
 #include <undine/fluid/field.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace undine
@@ -17,8 +18,12 @@ namespace undine
   {
   public:
     /// `source`: with `reach` ghost layers; `share` of the field's range that differences may have,
-    /// from 0 to 1. Points next to which bodies divide others are never quiet. Collective.
-    QuietPlaces(const Field<dim> &source, const GridIndex<dim> &reach, double share);
+    /// from 0 to 1. Points next to which bodies divide others, in `source` or `now`, are never
+    /// quiet; nullptr: bodies leave everything. Collective.
+    QuietPlaces(const Field<dim>        &source,
+                const GridIndex<dim>    &reach,
+                const double             share,
+                const LatticeParts<dim> *now = nullptr);
 
     /// Of an owned point.
     bool
@@ -27,19 +32,25 @@ namespace undine
       return is_quiet[owned.position(index)] != 0;
     }
 
-    /// Call `action(index)` for all owned points that are quiet, or for all that are not.
+    /// Call `action(index, n)` for every run along the first direction of owned points that are all
+    /// quiet, or none of them: the first one and how many.
     template <class Action>
     void
-    for_each_point(const bool quiet, Action &&action) const
+    for_each_run(const bool quiet, Action &&action) const
     {
       auto      row_starts = owned;
       const int points     = owned.upper[0] - owned.lower[0];
       row_starts.upper[0]  = owned.lower[0] + (points > 0);
       for_each(row_starts, [&](GridIndex<dim> index) {
-        const char *marks = is_quiet.data() + owned.position(index);
-        for (int i = 0; i < points; ++i, ++index[0])
-          if ((marks[i] != 0) == quiet)
-            action(index);
+        const char *begin = is_quiet.data() + owned.position(index), *end = begin + points;
+        for (const char *run = begin; run != end;)
+          {
+            const char *stop = std::find(run, end, char(*run == 0));
+            index[0]         = owned.lower[0] + int(run - begin);
+            if ((*run != 0) == quiet)
+              action(index, int(stop - run));
+            run = stop;
+          }
       });
     }
 

@@ -19,9 +19,9 @@ namespace
                    fmt::format(
                      plane_or_space<dim>("set Cells = {0}, {0}", "set Cells = {0}, {0}, {0}"), n)) +
            section("Fluid",
-                   "set Density = 1\nset Initial velocity = " + velocity +
+                   "set Density = 1\nset Initial velocity = " + velocity + "\n" +
                      section("Boundaries", boundary("around", every_side<dim>(), "periodic"))) +
-           section("Effects", convection());
+           section("Effects", convection()) + section("Output", "set Ledger = true");
   }
 
 
@@ -79,7 +79,7 @@ namespace
       gains[k] = gain<dim>(closed_box<dim>(cells[k], .4, velocity) + more, .4);
     INFO(fmt::format("{}D: gains {:.3e} {:.3e} {:.3e}", dim, gains[0], gains[1], gains[2]));
     CHECK(std::log(gains[0] / gains[2]) / std::log(double(cells[2]) / cells[0]) >= order);
-    CHECK(gains[2] < 0);
+    CHECK(gains[2] < 2e-3); // the fluid has about 1 kg m/s
   }
 } // namespace
 
@@ -96,10 +96,10 @@ TEST_CASE("what transport makes of momentum vanishes with cells and steps", "[co
   }
   SECTION("ball, 2D")
   {
-    check_decay<2>("1; 0", ball<2>(), {{16, 32, 64}}, 1.);
+    check_decay<2>("1; 0", ball<2>(), {{16, 32, 64}}, 1.8);
   }
   SECTION("ball, 3D")
   {
-    check_decay<3>("1; 0; 0", ball<3>(), {{8, 16, 32}}, 1.);
+    check_decay<3>("1; 0; 0", ball<3>(), {{8, 16, 32}}, 1.8);
   }
 }

@@ -130,7 +130,7 @@ namespace
                         "set Upper corner = .5, .25\nset Cells = 32, 1\nset Density = 100\n"
                         "set Young's modulus = 2e4\nset Poisson's ratio = 0\n"
                         "set Material = linear elastic",
-                        clamp("wall", "-x") + clamp("guides", "1", "set Components = y"))) +
+                        clamp("wall", ".001-x") + clamp("guides", "1", "set Components = y"))) +
            section("Effects",
                    convection() +
                      section("body force",

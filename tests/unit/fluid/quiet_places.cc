@@ -76,6 +76,17 @@ TEMPLATE_TEST_CASE_SIG(
           found += quiet.contains(index);
         });
         CHECK(wrong == 0);
+        for (const bool is_quiet : {true, false})
+          {
+            unsigned int in_runs = 0;
+            quiet.for_each_run(is_quiet, [&](GridIndex<dim> index, const int n) {
+              in_runs += n;
+              for (int i = 0; i < n; ++i, ++index[0])
+                wrong += quiet.contains(index) != is_quiet;
+            });
+            CHECK(in_runs == (is_quiet ? found : field.owned().size() - found));
+          }
+        CHECK(wrong == 0);
         found = dealii::Utilities::MPI::sum(found, MPI_COMM_WORLD);
         CHECK(found > 0);
         CHECK(found < grid.cells()->n_points());
