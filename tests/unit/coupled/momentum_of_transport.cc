@@ -37,16 +37,14 @@ namespace
 
 
   /// A soft ball in a wind.
-  template <int dim>
   std::string
   ball()
   {
-    return section("Bodies",
-                   body("ball",
-                        "set Shape = ball\nset Radius = .2\nset Density = 2\n"
-                        "set Young's modulus = 20\nset Poisson's ratio = .3\n" +
-                          plane_or_space<dim>("set Centre = .5, .5\nset Refinements = 2",
-                                              "set Centre = .5, .5, .5\nset Refinements = 1")));
+    return section(
+      "Bodies",
+      body("ball",
+           "set Shape = ball\nset Centre = .5, .5\nset Radius = .2\nset Refinements = 2\n"
+           "set Density = 2\nset Young's modulus = 20\nset Poisson's ratio = .3"));
   }
 
 
@@ -92,14 +90,10 @@ TEST_CASE("what transport makes of momentum vanishes with cells and steps", "[co
   }
   SECTION("vortices, 3D")
   {
-    check_decay<3>(vortices<3>(), "", {{8, 16, 32}}, 1.8);
+    check_decay<3>(vortices<3>(), "", {{16, 23, 32}}, 1.8);
   }
   SECTION("ball, 2D")
   {
-    check_decay<2>("1; 0", ball<2>(), {{16, 32, 64}}, 1.8);
-  }
-  SECTION("ball, 3D")
-  {
-    check_decay<3>("1; 0; 0", ball<3>(), {{8, 16, 32}}, 1.8);
+    check_decay<2>("1; 0", ball(), {{16, 32, 64}}, 1.8);
   }
 }
