@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <coupled/coupled_run.h>
+
+#include <cmath>
+#include <complex>
+#include <functional>
+
+using namespace undine_tests;
+
+namespace
+{
+  constexpr double pi = dealii::numbers::PI, viscosity_ = .05;
+
+  /// The fluid between two plane walls normal to y. They are sides of the domain, or surfaces of
+  /// obstacles between planes of the grid.
+  struct Layer
+  {
+    double lower, upper;
+    bool   of_obstacles;
+
+    double
+    width() const
+    {
+      return upper - lower;
+    }
+  };
+
+  const Layer sides{0, 1, false};
+
+  using Exact = std::function<double(double y, double t)>;
+
+
+  /// Rest, until at t = 0 a pressure gradient of -1 sets in: the series of sines.
+  Exact
+  starting_flow(const Layer &layer)
+  {
+    return [layer](const double y, const double t) {
+      const double H = layer.width(), s = y - layer.lower;
+      double       result = s * (H - s) / (2 * viscosity_);
+      for (int n = 1; n < 60; n += 2)
+        result -= 4 * H * H / (viscosity_ * std::pow(n * pi, 3)) * std::sin(n * pi * s / H) *
+                  std::exp(-n * n * pi * pi * viscosity_ * t / (H * H));
+      return result;
+    };
+  }
+
+
+  /// The lower wall moves with cos(w t), the upper one is at rest: Stokes' second problem with an
+  /// end, v = Re exp(i w t) sinh(k (H - s)) / sinh(k H), k = (1 + i) sqrt(w / 2 nu).
+  constexpr double frequency = 8;
+
+  Exact
+  swinging_flow(const Layer &layer)
+  {
+    return [layer](const double y, const double t) {
+      const double               H = layer.width(), s = y - layer.lower;
+      const std::complex<double> k(std::sqrt(frequency / (2 * viscosity_)), std::sqrt(frequency / (2 * viscosity_)));
+      return std::real(std::polar(1., frequency * t) * std::sinh(k * (H - s)) / std::sinh(k * H));
+    };
+  }
+
+
+  /// swinging_flow() at t = 0 as an expression.
+  std::string
+  swinging_flow_at_start(const Layer &layer)
+  {
+    const double k = std::sqrt(frequency / (2 * viscosity_)), S = std::sinh(k * layer.width()) * std::cos(k * layer.width()),
+                 C = std::cosh(k * layer.width()) * std::sin(k * layer.width());
+    const auto a   = fmt::format("({:.17g}*({:.17g}-y))", k, layer.upper);
+    return fmt::format("if(y<{6:.17g},1,if(y>{7:.17g},0,(({1:.17g})*sinh{0}*cos{0}+({2:.17g})*cosh{0}*sin{0})/{3:.17g}))", a, S, C, S * S + C * C, 0, 0, layer.lower, layer.upper);
+  }
+
+
+  /// Four cells along the flow, three across it in 3D, n from wall to wall.
+  template <int dim>
+  std::string
+  scene(const Layer       &layer,
+        const unsigned int n,
+        const double       dt,
+        const double       drop,
+        const std::string &initial,
+        const std::string &wall,
+        const std::string &way)
+  {
+    const double length = 4. / n;
+    const auto   still = plane_or_space<dim>("; 0", "; 0; 0");
+    const auto   box = [&](const std::string &name, const double from, const double to, const std::string &displacement) {
+      return obstacle(name, "box", fmt::format("set Lower corner = -1, {:.17g}{}\nset Upper corner = 2, {:.17g}{}\nset Displacement = {}{}", from, plane_or_space<dim>("", ", -1"), to, plane_or_space<dim>("", ", 2"), displacement, still));
+    };
+    std::string text =
+      steps_of(dt) +
+      section("Domain",
+              fmt::format("set Cells = 4, {}{}\nset Upper corner = {:.17g}, 1{}",
+                          n,
+                          plane_or_space<dim>("", ", 3"),
+                          length,
+                          plane_or_space<dim>("", fmt::format(", {:.17g}", 3. / n)))) +
+      section("Fluid",
+              "set Density = 1\nset Initial velocity = " + initial + still + "\n" +
+                section("Boundaries",
+                        boundary("high", "left", "pressure", fmt::format("set Pressure = {:.17g}", drop * length)) +
+                          boundary("low", "right", "pressure", "set Pressure = 0") +
+                          (layer.of_obstacles ? "" : boundary("lower", "bottom", "moving wall", "set Velocity = " + wall + still) + boundary("upper", "top", "no-slip wall")))) +
+      section("Effects", convection() + viscosity(viscosity_));
+    if (layer.of_obstacles)
+      text += section("Obstacles", box("lower", -1, layer.lower, way) + box("upper", layer.upper, 2, "0"));
+    return text;
+  }
+
+
+  template <int dim>
+  double
+  largest_difference(const CoupledRun<dim> &run, const Layer &layer, const Exact &exact)
+  {
+    return largest_on_faces(run.state.fluid.velocity, [&](const double v, const auto &place, const unsigned int axis) {
+      if (place[1] < layer.lower || place[1] > layer.upper)
+        return 0.;
+      return std::abs(v - (axis == 0 ? exact(place[1], run.state.clock.time) : 0.));
+    });
+  }
+
+
+  template <int dim>
+  double
+  starting_error(const Layer &layer, const unsigned int n, const unsigned int steps)
+  {
+    CoupledRun<dim> run(scene<dim>(layer, n, 1. / steps, 1, "0", "0", "0"));
+    for (unsigned int k = 0; k < steps; ++k)
+      run.step();
+    return largest_difference(run, layer, starting_flow(layer));
+  }
+
+
+  template <int dim>
+  double
+  swinging_error(const Layer &layer, const unsigned int n, const unsigned int steps)
+  {
+    CoupledRun<dim> run(scene<dim>(layer, n, 1. / steps, 0, swinging_flow_at_start(layer), fmt::format("cos({}*t)", frequency), fmt::format("sin({0}*t)/{0}", frequency)));
+    double result = 0;
+    for (unsigned int k = 0; k < steps; ++k)
+      {
+        run.step();
+        result = std::max(result, largest_difference(run, layer, swinging_flow(layer)));
+      }
+    return result;
+  }
+} // namespace
+
+
+TEST_CASE("measure", "[.][layers]")
+{
+  for (const Layer &layer : {sides, Layer{.137, .871, true}, Layer{.15, .884, true}, Layer{.164, .898, true}})
+    {
+      std::string a, b, c, d;
+      for (const unsigned int n : {16, 32, 64})
+        {
+          a += fmt::format(" {:.3e}", starting_error<2>(layer, n, n / 2));
+          b += fmt::format(" {:.3e}", swinging_error<2>(layer, n, 2 * n));
+          if (n < 64)
+            {
+              c += fmt::format(" {:.3e}", starting_error<3>(layer, n, n / 2));
+              d += fmt::format(" {:.3e}", swinging_error<3>(layer, n, 2 * n));
+            }
+        }
+      WARN(layer.lower << " start" << a << " swing" << b << " 3D start" << c << " swing" << d);
+    }
+  std::string a, b;
+  for (const unsigned int steps : {8, 16, 32, 64, 512})
+    {
+      a += fmt::format(" {:.3e}", starting_error<2>(sides, 64, steps));
+      b += fmt::format(" {:.3e}", swinging_error<2>(sides, 64, steps));
+    }
+  WARN("in time" << a << ", " << b);
+}
