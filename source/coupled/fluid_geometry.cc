@@ -268,7 +268,7 @@ namespace undine
     const auto        positions = models.surface->positions(SolidState(), 0.);
     CutCells<dim>     cells(block_of_rank(grid));
     CutWorkspace<dim> work;
-    const auto &surface = models.surface->surface();
+    const auto       &surface = models.surface->surface();
     cut_block(cells,
               work,
               {surface, beyond_planes(cells.block.planes(), surface, positions)},

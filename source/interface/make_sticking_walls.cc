@@ -187,14 +187,15 @@ namespace undine
     }
 
 
-    /// Of a fragment, each once: where an edge of the surface meets an edge of the grid there are two.
+    /// Of a fragment, each once: where an edge of the surface meets an edge of the grid there are
+    /// two.
     template <int dim>
     std::vector<dealii::Point<dim>>
     WallFinder<dim>::corners_on_plane(const int          fragment,
                                       const unsigned int axis,
                                       const double       plane) const
     {
-      constexpr double                same = 1e-9; // in units of the facet's extent in the cell
+      constexpr double                same  = 1e-9; // in units of the facet's extent in the cell
       const int                       first = cut.corners.first[fragment];
       const int                       last  = cut.corners.first[fragment + 1];
       std::vector<dealii::Point<dim>> result;

@@ -94,8 +94,7 @@ namespace
     ObstacleRun<dim> run(stream_to_the_right<dim>(plane_or_space<dim>("16, 12", "8, 8, 6"), 2, 1),
                          obstacle("box",
                                   "box",
-                                  "set Lower corner = " +
-                                    corner({{.25, .25, 1. / 3}}, -fatter) +
+                                  "set Lower corner = " + corner({{.25, .25, 1. / 3}}, -fatter) +
                                     "\nset Upper corner = " + corner({{.5, .75, 2. / 3}}, fatter)),
                          viscosity(.1),
                          .02);

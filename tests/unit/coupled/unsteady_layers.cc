@@ -54,7 +54,8 @@ namespace
   {
     return [layer](const double y, const double t) {
       const double               H = layer.width(), s = y - layer.lower;
-      const std::complex<double> k(std::sqrt(frequency / (2 * viscosity_)), std::sqrt(frequency / (2 * viscosity_)));
+      const std::complex<double> k(std::sqrt(frequency / (2 * viscosity_)),
+                                   std::sqrt(frequency / (2 * viscosity_)));
       return std::real(std::polar(1., frequency * t) * std::sinh(k * (H - s)) / std::sinh(k * H));
     };
   }
@@ -64,10 +65,20 @@ namespace
   std::string
   swinging_flow_at_start(const Layer &layer)
   {
-    const double k = std::sqrt(frequency / (2 * viscosity_)), S = std::sinh(k * layer.width()) * std::cos(k * layer.width()),
+    const double k = std::sqrt(frequency / (2 * viscosity_)),
+                 S = std::sinh(k * layer.width()) * std::cos(k * layer.width()),
                  C = std::cosh(k * layer.width()) * std::sin(k * layer.width());
     const auto a   = fmt::format("({:.17g}*({:.17g}-y))", k, layer.upper);
-    return fmt::format("if(y<{6:.17g},1,if(y>{7:.17g},0,(({1:.17g})*sinh{0}*cos{0}+({2:.17g})*cosh{0}*sin{0})/{3:.17g}))", a, S, C, S * S + C * C, 0, 0, layer.lower, layer.upper);
+    return fmt::format("if(y<{6:.17g},1,if(y>{7:.17g},0,(({1:.17g})*sinh{0}*cos{0}+({2:.17g})*cosh{"
+                       "0}*sin{0})/{3:.17g}))",
+                       a,
+                       S,
+                       C,
+                       S * S + C * C,
+                       0,
+                       0,
+                       layer.lower,
+                       layer.upper);
   }
 
 
@@ -83,9 +94,21 @@ namespace
         const std::string &way)
   {
     const double length = 4. / n;
-    const auto   still = plane_or_space<dim>("; 0", "; 0; 0");
-    const auto   box = [&](const std::string &name, const double from, const double to, const std::string &displacement) {
-      return obstacle(name, "box", fmt::format("set Lower corner = -1, {:.17g}{}\nset Upper corner = 2, {:.17g}{}\nset Displacement = {}{}", from, plane_or_space<dim>("", ", -1"), to, plane_or_space<dim>("", ", 2"), displacement, still));
+    const auto   still  = plane_or_space<dim>("; 0", "; 0; 0");
+    const auto   box    = [&](const std::string &name,
+                         const double       from,
+                         const double       to,
+                         const std::string &displacement) {
+      return obstacle(name,
+                      "box",
+                      fmt::format("set Lower corner = -1, {:.17g}{}\nset Upper corner = 2, "
+                                       "{:.17g}{}\nset Displacement = {}{}",
+                                  from,
+                                  plane_or_space<dim>("", ", -1"),
+                                  to,
+                                  plane_or_space<dim>("", ", 2"),
+                                  displacement,
+                                  still));
     };
     std::string text =
       steps_of(dt) +
@@ -95,15 +118,22 @@ namespace
                           plane_or_space<dim>("", ", 3"),
                           length,
                           plane_or_space<dim>("", fmt::format(", {:.17g}", 3. / n)))) +
-      section("Fluid",
-              "set Density = 1\nset Initial velocity = " + initial + still + "\n" +
-                section("Boundaries",
-                        boundary("high", "left", "pressure", fmt::format("set Pressure = {:.17g}", drop * length)) +
-                          boundary("low", "right", "pressure", "set Pressure = 0") +
-                          (layer.of_obstacles ? "" : boundary("lower", "bottom", "moving wall", "set Velocity = " + wall + still) + boundary("upper", "top", "no-slip wall")))) +
+      section(
+        "Fluid",
+        "set Density = 1\nset Initial velocity = " + initial + still + "\n" +
+          section(
+            "Boundaries",
+            boundary(
+              "high", "left", "pressure", fmt::format("set Pressure = {:.17g}", drop * length)) +
+              boundary("low", "right", "pressure", "set Pressure = 0") +
+              (layer.of_obstacles
+                 ? ""
+                 : boundary("lower", "bottom", "moving wall", "set Velocity = " + wall + still) +
+                     boundary("upper", "top", "no-slip wall")))) +
       section("Effects", convection() + viscosity(viscosity_));
     if (layer.of_obstacles)
-      text += section("Obstacles", box("lower", -1, layer.lower, way) + box("upper", layer.upper, 2, "0"));
+      text += section("Obstacles",
+                      box("lower", -1, layer.lower, way) + box("upper", layer.upper, 2, "0"));
     return text;
   }
 
@@ -112,11 +142,12 @@ namespace
   double
   largest_difference(const CoupledRun<dim> &run, const Layer &layer, const Exact &exact)
   {
-    return largest_on_faces(run.state.fluid.velocity, [&](const double v, const auto &place, const unsigned int axis) {
-      if (place[1] < layer.lower || place[1] > layer.upper)
-        return 0.;
-      return std::abs(v - (axis == 0 ? exact(place[1], run.state.clock.time) : 0.));
-    });
+    return largest_on_faces(
+      run.state.fluid.velocity, [&](const double v, const auto &place, const unsigned int axis) {
+        if (place[1] < layer.lower || place[1] > layer.upper)
+          return 0.;
+        return std::abs(v - (axis == 0 ? exact(place[1], run.state.clock.time) : 0.));
+      });
   }
 
 
@@ -135,8 +166,14 @@ namespace
   double
   swinging_error(const Layer &layer, const unsigned int n, const unsigned int steps)
   {
-    CoupledRun<dim> run(scene<dim>(layer, n, 1. / steps, 0, swinging_flow_at_start(layer), fmt::format("cos({}*t)", frequency), fmt::format("sin({0}*t)/{0}", frequency)));
-    double result = 0;
+    CoupledRun<dim> run(scene<dim>(layer,
+                                   n,
+                                   1. / steps,
+                                   0,
+                                   swinging_flow_at_start(layer),
+                                   fmt::format("cos({}*t)", frequency),
+                                   fmt::format("sin({0}*t)/{0}", frequency)));
+    double          result = 0;
     for (unsigned int k = 0; k < steps; ++k)
       {
         run.step();

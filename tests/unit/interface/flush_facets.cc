@@ -20,8 +20,8 @@ namespace
   }
 
 
-  /// Whether the body's lowest and highest nodes along axis 0, moved, lie beyond the planes 1 and 3,
-  /// and all others where they were.
+  /// Whether the body's lowest and highest nodes along axis 0, moved, lie beyond the planes 1 and
+  /// 3, and all others where they were.
   template <int dim>
   bool
   is_just_beyond(const double lower, const double upper)
@@ -29,8 +29,8 @@ namespace
     std::array<int, dim> cells;
     cells.fill(2);
     auto from = all_equal<dim>(.25), to = all_equal<dim>(.65);
-    from[0]   = lower;
-    to[0]     = upper;
+    from[0]           = lower;
+    to[0]             = upper;
     const auto bodies = box<dim>(dealii::Point<dim>(from), dealii::Point<dim>(to), cells);
     const auto planes = fifths<dim>();
     const auto moved  = beyond_planes(planes, bodies.surface(), bodies.nodes);
@@ -52,11 +52,8 @@ namespace
 } // namespace
 
 
-TEMPLATE_TEST_CASE_SIG("What lies in a plane of the grid is cut just beyond it",
-                       "[interface]",
-                       ((int dim), dim),
-                       2,
-                       3)
+TEMPLATE_TEST_CASE_SIG(
+  "What lies in a plane of the grid is cut just beyond it", "[interface]", ((int dim), dim), 2, 3)
 {
   for (const double off : {-1.9e-4, -1e-9, 0., 1e-9, 1.9e-4})
     {
