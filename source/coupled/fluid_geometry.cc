@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/fluid_geometry.h>
 #include <undine/interface/body_forces.h>
+#include <undine/interface/flush_facets.h>
 #include <undine/interface/sampled_pockets.h>
 
 #include <algorithm>
@@ -18,12 +19,31 @@ namespace undine
   }
 
 
+  /// Where facets lie in planes of the grid it is cut a little beyond them, with the volumes of the
+  /// surfaces as they are: else those of chambers would jump when a piston passes a plane.
+  template <int dim>
+  void
+  FluidGeometry<dim>::cut_beyond_planes()
+  {
+    const auto cut_at = beyond_planes(cells.block.planes(), surface.surface(), positions);
+    cut_block(cells, work, {surface.surface(), cut_at}, model.grid().cells()->blocks());
+    if (cut_at == positions)
+      return;
+    Velocities back(cut_at.size());
+    for (std::size_t node = 0; node < back.size(); ++node)
+      back[node] = positions[node] - cut_at[node];
+    const auto pushed = swept_volumes(cells, surface.surface(), cut_at, cut_at, back);
+    for (std::size_t c = 0; c < pushed.size(); ++c)
+      cells.components[c].volume -= pushed[c];
+  }
+
+
   template <int dim>
   void
   FluidGeometry<dim>::cut()
   {
     const auto &grid = model.grid();
-    cut_block(cells, work, {surface.surface(), positions}, grid.cells()->blocks());
+    cut_beyond_planes();
     cut_report    = report(cells, surface.surface(), grid.communicator());
     parts         = make_open_parts(grid, cells);
     flux_operator = std::make_unique<const BoundaryFlux<dim>>(cells, surface.surface());
@@ -248,8 +268,12 @@ namespace undine
     const auto        positions = models.surface->positions(SolidState(), 0.);
     CutCells<dim>     cells(block_of_rank(grid));
     CutWorkspace<dim> work;
-    cut_block(cells, work, {models.surface->surface(), positions}, grid.cells()->blocks());
-    return report(cells, models.surface->surface(), grid.communicator()).message;
+    const auto       &surface = models.surface->surface();
+    cut_block(cells,
+              work,
+              {surface, beyond_planes(cells.block.planes(), surface, positions)},
+              grid.cells()->blocks());
+    return report(cells, surface, grid.communicator()).message;
   }
 
 

@@ -5,6 +5,7 @@
 #include <undine/interface/make_sticking_walls.h>
 #include <undine/interface/plane_chord.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,6 +53,8 @@ namespace undine
                          const unsigned int  axis,
                          const int           cell,
                          const unsigned int  end) const;
+      std::vector<dealii::Point<dim>>
+      corners_on_plane(const int fragment, const unsigned int axis, const double plane) const;
       int
       piece_at(const unsigned int     axis,
                const GridIndex<dim>  &face,
@@ -184,6 +187,34 @@ namespace undine
     }
 
 
+    /// Of a fragment, each once: where an edge of the surface meets an edge of the grid there are
+    /// two.
+    template <int dim>
+    std::vector<dealii::Point<dim>>
+    WallFinder<dim>::corners_on_plane(const int          fragment,
+                                      const unsigned int axis,
+                                      const double       plane) const
+    {
+      constexpr double                same  = 1e-9; // in units of the facet's extent in the cell
+      const int                       first = cut.corners.first[fragment];
+      const int                       last  = cut.corners.first[fragment + 1];
+      std::vector<dealii::Point<dim>> result;
+      double                          extent = 0;
+      for (int c = first; c < last; ++c)
+        extent = std::max(extent, cut.corners.points[c].distance(cut.corners.points[first]));
+      for (int c = first; c < last; ++c)
+        {
+          const auto &corner = cut.corners.points[c];
+          if (corner[axis] == plane &&
+              std::none_of(result.begin(), result.end(), [&](const auto &other) {
+                return corner.distance(other) <= same * extent;
+              }))
+            result.push_back(corner);
+        }
+      return result;
+    }
+
+
     /// On the face of a cell at `end` of `axis`.
     template <int dim>
     void
@@ -199,10 +230,7 @@ namespace undine
           const auto &fragment = cut.fragments[f];
           if (fragment.component < 0 || parts.open_components[fragment.component] < 0)
             continue;
-          std::vector<dealii::Point<dim>> ends;
-          for (int c = cut.corners.first[f]; c < cut.corners.first[f + 1]; ++c)
-            if (cut.corners.points[c][axis] == plane)
-              ends.push_back(cut.corners.points[c]);
+          const auto ends = corners_on_plane(f, axis, plane);
           if (ends.size() != dim - 1)
             continue;
           const auto   chord  = plane_chord(ends, axis, fragment.area_vector);

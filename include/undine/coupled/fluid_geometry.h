@@ -122,6 +122,8 @@ namespace undine
   private:
     void
     cut();
+    void
+    cut_beyond_planes();
     Velocities
     gravity_forces(const dealii::Tensor<1, dim> &gravity) const;
     Velocities

@@ -79,6 +79,52 @@ namespace
   }
 
 
+  /// Pressure's and friction's forces on a box with sides in planes of the grid, moved outwards by
+  /// `fatter` and along all axes by `shift` [m], in a stream without inertia.
+  template <int dim>
+  std::array<dealii::Tensor<1, dim>, 2>
+  forces_on_flush_box(const double fatter, const double shift)
+  {
+    const auto corner = [&](const std::array<double, 3> &place, const double move) {
+      std::string text;
+      for (unsigned int d = 0; d < dim; ++d)
+        text += fmt::format("{}{:.17g}", d == 0 ? "" : ", ", place[d] + move + shift);
+      return text;
+    };
+    ObstacleRun<dim> run(stream_to_the_right<dim>(plane_or_space<dim>("16, 12", "8, 8, 6"), 2, 1),
+                         obstacle("box",
+                                  "box",
+                                  "set Lower corner = " + corner({{.25, .25, 1. / 3}}, -fatter) +
+                                    "\nset Upper corner = " + corner({{.5, .75, 2. / 3}}, fatter)),
+                         viscosity(.1),
+                         .02);
+    for (unsigned int n = 0; n < 3; ++n)
+      run.step();
+    return {{run.column_vector("pressure force box"), run.column_vector("viscous force box")}};
+  }
+
+
+  template <int dim>
+  void
+  check_hair()
+  {
+    const auto   flush = forces_on_flush_box<dim>(0, 0);
+    const double hair  = 1e-6;
+    for (const double fatter : {-hair, 0., hair})
+      for (const double shift : {-hair, 0., hair})
+        {
+          const auto off = forces_on_flush_box<dim>(fatter, shift);
+          for (unsigned int kind = 0; kind < 2; ++kind)
+            {
+              INFO(dim << "D, kind " << kind << ": " << flush[kind] << " and " << off[kind]);
+              CHECK((off[kind] - flush[kind]).norm() <= 1e-4 * flush[kind].norm());
+              // The stream is the same above and below.
+              CHECK(std::abs(flush[kind][1]) <= 1e-6 * flush[kind].norm());
+            }
+        }
+  }
+
+
   template <int dim>
   void
   check_filled()
@@ -135,6 +181,19 @@ TEST_CASE("An obstacle flush with a wall stands in a stream like one that reache
   SECTION("3D")
   {
     check_steps<3>();
+  }
+}
+
+
+TEST_CASE("A side in a plane of the grid is felt like one a hair off", "[coupled][mpi]")
+{
+  SECTION("2D")
+  {
+    check_hair<2>();
+  }
+  SECTION("3D")
+  {
+    check_hair<3>();
   }
 }
 

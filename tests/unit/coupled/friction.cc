@@ -150,8 +150,7 @@ TEST_CASE("Friction leaves a linear flow alone that bodies move along with", "[f
           run.state.fluid.velocity, [&](const double v, const auto &x, const int i) {
             return std::abs(v - (i == 0 ? c : s) * (-s * x[0] + c * x[1]));
           });
-        // What lies on planes of the grid leaves cells without volume, which count as thin ones.
-        CHECK(error <= (text.find("corner") == text.npos ? 1e-9 : 2e-4));
+        CHECK(error <= 1e-9);
       }
 }
 

@@ -7,7 +7,8 @@ namespace
 {
   constexpr double height = .5;
 
-  constexpr double thickness = .001;
+  constexpr double thickness =
+    .0002; // as good as none: a blunt edge holds up more than a sharp one
 
   /// A thin stiff sheet of half the height of a channel of height 1, whose stream starts from rest
   /// with an acceleration of 1 m/s^2, without convection. It stands at the same place in a cell of
@@ -31,7 +32,7 @@ namespace
              body("sheet",
                   fmt::format("set Lower corner = {0}, -.05\nset Upper corner = {0} + {1}, {2}\n"
                               "set Cells = 1, 11\nset Density = 1000\n"
-                              "set Young's modulus = 2e16\nset Poisson's ratio = 0",
+                              "set Young's modulus = 2.5e18\nset Poisson's ratio = 0",
                               .3 / cells_across,
                               thickness,
                               height),
@@ -73,5 +74,5 @@ TEST_CASE("A stream that starts pushes a sheet with the exact force", "[coupled]
   CHECK(std::abs(coarse / middle) >= 1.7);
   CHECK(std::abs(middle / fine) >= 1.8);
   // To first order in the width of cells there remains
-  CHECK(std::abs(2 * fine - middle) <= .003);
+  CHECK(std::abs(2 * fine - middle) <= .0015);
 }
