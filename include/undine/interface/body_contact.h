@@ -2,12 +2,10 @@
 #ifndef undine_interface_body_contact_h
 #define undine_interface_body_contact_h
 
+#include <undine/interface/contact_pattern.h>
 #include <undine/interface/contact_terms.h>
 #include <undine/solid/contact.h>
 
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
-
-#include <string>
 #include <vector>
 
 namespace undine
@@ -61,25 +59,17 @@ namespace undine
     using Places = typename ContactSurfaces<dim>::Places;
     using Terms  = std::vector<ContactTerm<dim>>;
     using Forces = std::vector<dealii::Tensor<1, dim>>;
-    using Index  = dealii::types::global_dof_index;
 
     Terms
     terms(const Places &places) const;
     double
     energy(const Terms &terms) const;
     Forces
-    nodal_forces(const Terms &terms) const;
-    void
-    make_room(Matrix &A, const Terms &terms) const;
-
-    const SolidModel<dim>     &solid;
-    ContactSettings<dim>       settings;
-    const ContactSurfaces<dim> surfaces;
-
-    /// The pattern of the tangent with the pairs of nodes in contact, kept as long as these are the
-    /// same.
-    mutable std::vector<std::pair<unsigned int, unsigned int>> pairs;
-    mutable dealii::TrilinosWrappers::SparsityPattern          pattern;
+                                nodal_forces(const Terms &terms) const;
+    const SolidModel<dim>      &solid;
+    ContactSettings<dim>        settings;
+    const ContactSurfaces<dim>  surfaces;
+    mutable ContactPattern<dim> pattern;
   };
 } // namespace undine
 
