@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
-#include <undine/interface/barrier.h>
 #include <undine/interface/body_contact.h>
 #include <undine/interface/make_contact.h>
 
@@ -30,16 +29,19 @@ namespace undine
     }
 
 
-    /// Pairs of nodes of bodies that terms couple, but for those of one facet, which couple anyway.
+    /// Pairs of nodes of different bodies that terms couple.
     template <int dim>
     typename ContactPattern<dim>::Pairs
-    coupled_pairs(const std::vector<ContactTerm<dim>> &terms, const unsigned int n_nodes)
+    coupled_pairs(const std::vector<ContactTerm<dim>> &terms, const ContactSurfaces<dim> &surfaces)
     {
+      const unsigned int                  n_nodes = surfaces.bodies().n_nodes();
       typename ContactPattern<dim>::Pairs result;
       for (const auto &term : terms)
-        for (unsigned int i = 1; i < term.n; ++i)
-          if (std::max(term.nodes[0], term.nodes[i]) < n_nodes)
-            result.insert({term.nodes[0], term.nodes[i]});
+        for (unsigned int i = 0; i < term.n; ++i)
+          for (unsigned int j = i + 1; j < term.n; ++j)
+            if (std::max(term.nodes[i], term.nodes[j]) < n_nodes &&
+                surfaces.surface_of_node(term.nodes[i]) != surfaces.surface_of_node(term.nodes[j]))
+              result.insert({term.nodes[i], term.nodes[j]});
       return result;
     }
 
@@ -48,6 +50,7 @@ namespace undine
     template <int dim>
     void
     add_to_rows(dealii::TrilinosWrappers::SparseMatrix &A,
+                const double                            factor,
                 const NodeMatrices<dim>                &of_nodes,
                 const ContactTerm<dim>                 &term,
                 const BodySurface<dim>                 &surface,
@@ -66,7 +69,7 @@ namespace undine
               for (unsigned int b = 0; b < dim && term.nodes[j] < surface.n_nodes(); ++b, ++n)
                 {
                   columns[n] = surface.dofs_of_node(term.nodes[j])[b];
-                  values[n]  = of_nodes[i][j][a][b];
+                  values[n]  = factor * of_nodes[i][j][a][b];
                 }
             A.add(row, n, columns.data(), values.data(), false);
           }
@@ -109,13 +112,20 @@ namespace undine
 
 
   template <int dim>
+  ContactPotential<dim>
+  BodyContact<dim>::potential() const
+  {
+    return {settings.gap, settings.stiffness};
+  }
+
+
+  template <int dim>
   double
-  BodyContact<dim>::energy(const Terms &terms) const
+  BodyContact<dim>::energy(const Terms &terms, const Places &places) const
   {
     double result = 0;
     for (const auto &term : terms)
-      result +=
-        settings.stiffness * term.area * settings.gap * barrier(term.distance / settings.gap);
+      result += potential().energy(term, places);
     return result;
   }
 
@@ -124,22 +134,22 @@ namespace undine
   double
   BodyContact<dim>::energy(const Vector &displacement, const double time) const
   {
-    return energy(terms(surfaces.places(displacement, time)));
+    const auto places = surfaces.places(displacement, time);
+    return energy(terms(places), places);
   }
 
 
   template <int dim>
   typename BodyContact<dim>::Forces
-  BodyContact<dim>::nodal_forces(const Terms &terms) const
+  BodyContact<dim>::nodal_forces(const Terms &terms, const Places &places) const
   {
     Forces result(surfaces.bodies().n_nodes());
     for (const auto &term : terms)
       {
-        const double slope =
-          settings.stiffness * term.area * barrier_slope(term.distance / settings.gap);
+        const auto of_nodes = potential().forces(term, places);
         for (unsigned int i = 0; i < term.n; ++i)
           if (term.nodes[i] < result.size())
-            result[term.nodes[i]] -= (slope * term.shares[i]) * term.direction;
+            result[term.nodes[i]] += of_nodes[i];
       }
     return result;
   }
@@ -149,11 +159,12 @@ namespace undine
   typename BodyContact<dim>::Vector
   BodyContact<dim>::forces(const Vector &displacement, const double time) const
   {
-    const auto found = terms(surfaces.places(displacement, time));
+    const auto places = surfaces.places(displacement, time);
+    const auto found  = terms(places);
     if (found.empty())
       return {};
     Vector result = solid.vector();
-    surfaces.bodies().add(result, nodal_forces(found));
+    surfaces.bodies().add(result, nodal_forces(found, places));
     return result;
   }
 
@@ -169,19 +180,14 @@ namespace undine
     const auto found  = terms(places);
     if (found.empty())
       return;
-    pattern.make_room(A, coupled_pairs(found, surfaces.bodies().n_nodes()));
+    pattern.make_room(A, coupled_pairs(found, surfaces));
     for (const auto &term : found)
-      {
-        const double s    = term.distance / settings.gap;
-        const double size = factor * settings.stiffness * term.area;
-        add_to_rows(
-          A,
-          second_derivatives(
-            term, places, size * barrier_slope(s), size / settings.gap * barrier_curvature(s)),
-          term,
-          surfaces.bodies(),
-          solid.locally_owned());
-      }
+      add_to_rows(A,
+                  factor,
+                  potential().second_derivatives(term, places),
+                  term,
+                  surfaces.bodies(),
+                  solid.locally_owned());
     A.compress(dealii::VectorOperation::add);
   }
 
@@ -190,8 +196,9 @@ namespace undine
   Columns
   BodyContact<dim>::columns(const Vector &displacement, const double time) const
   {
-    const auto             found = terms(surfaces.places(displacement, time));
-    double                 least = settings.gap;
+    const auto             places = surfaces.places(displacement, time);
+    const auto             found  = terms(places);
+    double                 least  = settings.gap;
     Forces                 forces(surfaces.n_bodies());
     std::set<unsigned int> nodes;
     for (const auto &term : found)
@@ -199,11 +206,11 @@ namespace undine
         least = std::min(least, term.distance);
         nodes.insert(term.nodes[0]);
       }
-    const auto of_nodes = nodal_forces(found);
+    const auto of_nodes = nodal_forces(found, places);
     for (unsigned int node = 0; node < of_nodes.size(); ++node)
       forces[surfaces.surface_of_node(node)] += of_nodes[node];
 
-    Columns result{{"contact energy", "J", energy(found)},
+    Columns result{{"contact energy", "J", energy(found, places)},
                    {"least gap", "m", least},
                    {"nodes in contact", "1", double(nodes.size())}};
     for (unsigned int body = 0; body < forces.size(); ++body)

@@ -43,7 +43,8 @@ namespace undine
     solver_name(const Matrix &A)
     {
       const unsigned int few = 100000;
-      return A.n_nonzero_elements() > few && Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
+      return A.n_nonzero_elements() > few && Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps"
+                                                                            : "Amesos_Klu";
     }
   } // namespace
 

@@ -3,7 +3,7 @@
 #define undine_interface_body_contact_h
 
 #include <undine/interface/contact_pattern.h>
-#include <undine/interface/contact_terms.h>
+#include <undine/interface/contact_potential.h>
 #include <undine/solid/contact.h>
 
 #include <vector>
@@ -18,8 +18,8 @@ namespace undine
   /// with the gap D and the stiffness k of the scene [after Li, Ferguson, Schneider, Langlois,
   /// Zorin, Panozzo, Jiang, Kaufman, ACM Trans. Graph. 39 (2020)]. d is the distance to the nearest
   /// point of a facet, on whose nodes the opposite force is distributed by that point's weights:
-  /// forces and moments between bodies cancel, whatever the step. In 3D nodes meet facets, edges
-  /// do not meet edges. A body does not meet itself.
+  /// forces and moments between bodies cancel, whatever the step. In 3D sharp edges meet sharp
+  /// edges too (SharpEdge), by (S17). A body does not meet itself.
   template <int dim>
   class BodyContact : public Contact<dim>
   {
@@ -63,9 +63,12 @@ namespace undine
     Terms
     terms(const Places &places) const;
     double
-    energy(const Terms &terms) const;
+    energy(const Terms &terms, const Places &places) const;
     Forces
-                                nodal_forces(const Terms &terms) const;
+    nodal_forces(const Terms &terms, const Places &places) const;
+    ContactPotential<dim>
+    potential() const;
+
     const SolidModel<dim>      &solid;
     ContactSettings<dim>        settings;
     const ContactSurfaces<dim>  surfaces;
