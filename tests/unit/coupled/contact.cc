@@ -38,6 +38,7 @@ TEST_CASE("a ball bounces off a wall and gains no energy", "[contact]")
 {
   check_drop<2>(.004, 80, .5);
   check_drop<2>(.04, 8, .0);
+  check_drop<3>(.01, 30, .3);
 }
 
 

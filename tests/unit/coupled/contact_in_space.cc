@@ -107,7 +107,7 @@ namespace
 TEST_CASE("a ball that falls on a floor bounces and gains no energy", "[contact]")
 {
   check_fall<2>(.0025, 80);
-  check_fall<3>(.0025, 130);
+  check_fall<3>(.0025, 90);
 }
 
 
