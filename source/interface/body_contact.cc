@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
-#include <undine/interface/barrier.h>
 #include <undine/interface/body_contact.h>
-#include <undine/solid/sparse.h>
-
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <undine/interface/make_contact.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <set>
 
@@ -29,6 +27,53 @@ namespace undine
         result = std::min(result, body.material->p_wave_modulus());
       return result;
     }
+
+
+    /// Pairs of nodes of different bodies that terms couple.
+    template <int dim>
+    typename ContactPattern<dim>::Pairs
+    coupled_pairs(const std::vector<ContactTerm<dim>> &terms, const ContactSurfaces<dim> &surfaces)
+    {
+      const unsigned int                  n_nodes = surfaces.bodies().n_nodes();
+      typename ContactPattern<dim>::Pairs result;
+      for (const auto &term : terms)
+        for (unsigned int i = 0; i < term.n; ++i)
+          for (unsigned int j = i + 1; j < term.n; ++j)
+            if (std::max(term.nodes[i], term.nodes[j]) < n_nodes &&
+                surfaces.surface_of_node(term.nodes[i]) != surfaces.surface_of_node(term.nodes[j]))
+              result.insert({term.nodes[i], term.nodes[j]});
+      return result;
+    }
+
+
+    /// The rows that this rank owns.
+    template <int dim>
+    void
+    add_to_rows(dealii::TrilinosWrappers::SparseMatrix &A,
+                const double                            factor,
+                const NodeMatrices<dim>                &of_nodes,
+                const ContactTerm<dim>                 &term,
+                const BodySurface<dim>                 &surface,
+                const dealii::IndexSet                 &owned)
+    {
+      std::array<dealii::types::global_dof_index, dim *(dim + 1)> columns;
+      std::array<double, dim *(dim + 1)>                          values;
+      for (unsigned int i = 0; i < term.n; ++i)
+        for (unsigned int a = 0; a < dim && term.nodes[i] < surface.n_nodes(); ++a)
+          {
+            const auto row = surface.dofs_of_node(term.nodes[i])[a];
+            if (!owned.is_element(row))
+              continue;
+            unsigned int n = 0;
+            for (unsigned int j = 0; j < term.n; ++j)
+              for (unsigned int b = 0; b < dim && term.nodes[j] < surface.n_nodes(); ++b, ++n)
+                {
+                  columns[n] = surface.dofs_of_node(term.nodes[j])[b];
+                  values[n]  = factor * of_nodes[i][j][a][b];
+                }
+            A.add(row, n, columns.data(), values.data(), false);
+          }
+    }
   } // namespace
 
 
@@ -40,6 +85,7 @@ namespace undine
     : solid(solid)
     , settings(given)
     , surfaces(given, solid, fluid, obstacles)
+    , pattern(solid, surfaces.bodies())
   {
     if (settings.gap == 0)
       settings.gap = share_of_facet * surfaces.facet_size();
@@ -66,13 +112,20 @@ namespace undine
 
 
   template <int dim>
+  ContactPotential<dim>
+  BodyContact<dim>::potential() const
+  {
+    return {settings.gap, settings.stiffness};
+  }
+
+
+  template <int dim>
   double
-  BodyContact<dim>::energy(const Terms &terms) const
+  BodyContact<dim>::energy(const Terms &terms, const Places &places) const
   {
     double result = 0;
     for (const auto &term : terms)
-      result +=
-        settings.stiffness * term.area * settings.gap * barrier(term.distance / settings.gap);
+      result += potential().energy(term, places);
     return result;
   }
 
@@ -81,22 +134,22 @@ namespace undine
   double
   BodyContact<dim>::energy(const Vector &displacement, const double time) const
   {
-    return energy(terms(surfaces.places(displacement, time)));
+    const auto places = surfaces.places(displacement, time);
+    return energy(terms(places), places);
   }
 
 
   template <int dim>
   typename BodyContact<dim>::Forces
-  BodyContact<dim>::nodal_forces(const Terms &terms) const
+  BodyContact<dim>::nodal_forces(const Terms &terms, const Places &places) const
   {
     Forces result(surfaces.bodies().n_nodes());
     for (const auto &term : terms)
       {
-        const double slope =
-          settings.stiffness * term.area * barrier_slope(term.distance / settings.gap);
+        const auto of_nodes = potential().forces(term, places);
         for (unsigned int i = 0; i < term.n; ++i)
           if (term.nodes[i] < result.size())
-            result[term.nodes[i]] -= (slope * term.shares[i]) * term.direction;
+            result[term.nodes[i]] += of_nodes[i];
       }
     return result;
   }
@@ -106,65 +159,13 @@ namespace undine
   typename BodyContact<dim>::Vector
   BodyContact<dim>::forces(const Vector &displacement, const double time) const
   {
-    const auto found = terms(surfaces.places(displacement, time));
+    const auto places = surfaces.places(displacement, time);
+    const auto found  = terms(places);
     if (found.empty())
       return {};
     Vector result = solid.vector();
-    surfaces.bodies().add(result, nodal_forces(found));
+    surfaces.bodies().add(result, nodal_forces(found, places));
     return result;
-  }
-
-
-  /// A gets places for all pairs of nodes of different bodies in contact.
-  template <int dim>
-  void
-  BodyContact<dim>::make_room(Matrix &A, const Terms &terms) const
-  {
-    std::set<std::pair<unsigned int, unsigned int>> needed;
-    for (const auto &term : terms)
-      for (unsigned int i = 1; i < term.n; ++i)
-        if (std::max(term.nodes[0], term.nodes[i]) < surfaces.bodies().n_nodes())
-          needed.insert({term.nodes[0], term.nodes[i]});
-    if (needed.empty())
-      return;
-    const std::vector<std::pair<unsigned int, unsigned int>> list(needed.begin(), needed.end());
-    const auto                                              &owned = solid.locally_owned();
-    if (list != pairs)
-      {
-        dealii::DynamicSparsityPattern rows(A.m(), A.n(), owned);
-        for (const auto row : owned)
-          for (auto entry = A.begin(row); entry != A.end(row); ++entry)
-            rows.add(row, entry->column());
-        for (const auto &pair : list)
-          for (const auto a : surfaces.bodies().dofs_of_node(pair.first))
-            for (const auto b : surfaces.bodies().dofs_of_node(pair.second))
-              {
-                if (owned.is_element(a))
-                  rows.add(a, b);
-                if (owned.is_element(b))
-                  rows.add(b, a);
-              }
-        pattern.reinit(owned, rows, solid.communicator());
-        pairs = list;
-      }
-    Matrix larger;
-    larger.reinit(pattern);
-    std::vector<Index>  columns;
-    std::vector<double> values;
-    for (const auto row : owned)
-      {
-        columns.clear();
-        values.clear();
-        for (auto entry = A.begin(row); entry != A.end(row); ++entry)
-          {
-            columns.push_back(entry->column());
-            values.push_back(entry->value());
-          }
-        larger.add(row, columns.size(), columns.data(), values.data());
-      }
-    larger.compress(dealii::VectorOperation::add);
-    A.reinit(larger);
-    add_matrix(A, 1, larger);
   }
 
 
@@ -179,25 +180,14 @@ namespace undine
     const auto found  = terms(places);
     if (found.empty())
       return;
-    make_room(A, found);
-    const auto &owned   = solid.locally_owned();
-    const auto  n_nodes = surfaces.bodies().n_nodes();
+    pattern.make_room(A, coupled_pairs(found, surfaces));
     for (const auto &term : found)
-      {
-        const double s        = term.distance / settings.gap;
-        const double size     = factor * settings.stiffness * term.area;
-        const auto   of_nodes = second_derivatives(
-          term, places, size * barrier_slope(s), size / settings.gap * barrier_curvature(s));
-        for (unsigned int i = 0; i < term.n; ++i)
-          for (unsigned int j = 0; j < term.n; ++j)
-            if (term.nodes[i] < n_nodes && term.nodes[j] < n_nodes)
-              for (unsigned int a = 0; a < dim; ++a)
-                if (const auto row = surfaces.bodies().dofs_of_node(term.nodes[i])[a];
-                    owned.is_element(row))
-                  for (unsigned int b = 0; b < dim; ++b)
-                    A.add(
-                      row, surfaces.bodies().dofs_of_node(term.nodes[j])[b], of_nodes[i][j][a][b]);
-      }
+      add_to_rows(A,
+                  factor,
+                  potential().second_derivatives(term, places),
+                  term,
+                  surfaces.bodies(),
+                  solid.locally_owned());
     A.compress(dealii::VectorOperation::add);
   }
 
@@ -206,8 +196,9 @@ namespace undine
   Columns
   BodyContact<dim>::columns(const Vector &displacement, const double time) const
   {
-    const auto             found = terms(surfaces.places(displacement, time));
-    double                 least = settings.gap;
+    const auto             places = surfaces.places(displacement, time);
+    const auto             found  = terms(places);
+    double                 least  = settings.gap;
     Forces                 forces(surfaces.n_bodies());
     std::set<unsigned int> nodes;
     for (const auto &term : found)
@@ -215,11 +206,11 @@ namespace undine
         least = std::min(least, term.distance);
         nodes.insert(term.nodes[0]);
       }
-    const auto of_nodes = nodal_forces(found);
+    const auto of_nodes = nodal_forces(found, places);
     for (unsigned int node = 0; node < of_nodes.size(); ++node)
       forces[surfaces.surface_of_node(node)] += of_nodes[node];
 
-    Columns result{{"contact energy", "J", energy(found)},
+    Columns result{{"contact energy", "J", energy(found, places)},
                    {"least gap", "m", least},
                    {"nodes in contact", "1", double(nodes.size())}};
     for (unsigned int body = 0; body < forces.size(); ++body)
@@ -232,6 +223,25 @@ namespace undine
   }
 
 
-  template class BodyContact<2>;
-  template class BodyContact<3>;
+  template <int dim>
+  std::shared_ptr<const Contact<dim>>
+  make_contact(const ContactSettings<dim> &settings,
+               const SolidModel<dim>      &solid,
+               const FluidModel<dim>      *fluid,
+               const Obstacles<dim>       *obstacles)
+  {
+    return std::make_shared<const BodyContact<dim>>(settings, solid, fluid, obstacles);
+  }
+
+
+#define UNDINE_INSTANTIATE(dim)                                                           \
+  template class BodyContact<dim>;                                                        \
+  template std::shared_ptr<const Contact<dim>> make_contact(const ContactSettings<dim> &, \
+                                                            const SolidModel<dim> &,      \
+                                                            const FluidModel<dim> *,      \
+                                                            const Obstacles<dim> *);
+
+  UNDINE_INSTANTIATE(2)
+  UNDINE_INSTANTIATE(3)
+#undef UNDINE_INSTANTIATE
 } // namespace undine

@@ -88,19 +88,78 @@ namespace undine
     }
 
 
-    /// For each surface the others that it may meet.
-    template <int dim>
-    std::vector<std::vector<unsigned int>>
-    neighbours(const ContactSurfaces<dim>   &surfaces,
-               const std::vector<Ends<dim>> &boxes,
-               const double                  distance)
+    /// Around the ways of some nodes.
+    template <int dim, class Nodes>
+    Ends<dim>
+    ends_of(const Nodes                                 &nodes,
+            const typename ContactSurfaces<dim>::Places &from,
+            const typename ContactSurfaces<dim>::Places &to)
     {
-      std::vector<std::vector<unsigned int>> result(boxes.size());
-      for (unsigned int a = 0; a < boxes.size(); ++a)
-        for (unsigned int b = 0; b < boxes.size(); ++b)
-          if (surfaces.meet(a, b) && meet(widened(boxes[a], distance), boxes[b]))
-            result[a].push_back(b);
+      auto result = nothing<dim>();
+      for (const unsigned int node : nodes)
+        {
+          include(result, from[node]);
+          include(result, to[node]);
+        }
       return result;
+    }
+
+
+    /// For each surface the boxes of the others that it may meet.
+    template <int dim>
+    class Neighbours
+    {
+    public:
+      Neighbours(const ContactSurfaces<dim>   &surfaces,
+                 const std::vector<Ends<dim>> &boxes,
+                 const double                  distance)
+        : boxes(boxes)
+        , others(boxes.size())
+      {
+        for (unsigned int a = 0; a < boxes.size(); ++a)
+          for (unsigned int b = 0; b < boxes.size(); ++b)
+            if (surfaces.meet(a, b) && meet(widened(boxes[a], distance), boxes[b]))
+              others[a].push_back(b);
+      }
+
+      bool
+      has_any(const unsigned int surface) const
+      {
+        return !others[surface].empty();
+      }
+
+      bool
+      are_near(const Ends<dim> &ends, const unsigned int surface) const
+      {
+        return std::any_of(others[surface].begin(), others[surface].end(), [&](const auto other) {
+          return meet(ends, boxes[other]);
+        });
+      }
+
+    private:
+      const std::vector<Ends<dim>>           boxes;
+      std::vector<std::vector<unsigned int>> others;
+    };
+
+
+    template <int dim>
+    using Leaf = std::pair<Box<dim>, unsigned int>;
+
+    template <int dim>
+    using Tree = decltype(dealii::pack_rtree(std::vector<Leaf<dim>>()));
+
+
+    /// The leaves that a box meets, in ascending order.
+    template <int dim>
+    void
+    find(std::vector<unsigned int> &found, const Tree<dim> &tree, const Ends<dim> &ends)
+    {
+      std::vector<Leaf<dim>> leaves;
+      tree.query(index::intersects(Box<dim>(ends)), std::back_inserter(leaves));
+      found.clear();
+      for (const auto &leaf : leaves)
+        found.push_back(leaf.second);
+      std::sort(found.begin(), found.end());
     }
   } // namespace
 
@@ -113,53 +172,71 @@ namespace undine
                      const double                                           distance,
                      const std::function<void(unsigned int, unsigned int)> &action)
   {
-    const auto boxes  = boxes_of_surfaces(surfaces, from, to);
-    const auto others = neighbours(surfaces, boxes, distance);
-    const auto near   = [&](const Ends<dim> &ends, const unsigned int surface) {
-      return std::any_of(others[surface].begin(), others[surface].end(), [&](const auto other) {
-        return meet(ends, boxes[other]);
-      });
-    };
-
-    const auto                                    &facets = surfaces.surface().facets();
-    std::vector<std::pair<Box<dim>, unsigned int>> leaves;
+    const Neighbours<dim>  neighbours(surfaces, boxes_of_surfaces(surfaces, from, to), distance);
+    const auto            &facets = surfaces.surface().facets();
+    std::vector<Leaf<dim>> leaves;
     for (unsigned int facet = 0; facet < facets.size(); ++facet)
       {
         const unsigned int surface = surfaces.surface().body(facet);
-        if (others[surface].empty())
+        if (!neighbours.has_any(surface))
           continue;
-        auto ends = nothing<dim>();
-        for (const unsigned int node : facets[facet])
-          {
-            include(ends, from[node]);
-            include(ends, to[node]);
-          }
-        ends = widened(ends, distance);
-        if (near(ends, surface))
+        const auto ends = widened(ends_of<dim>(facets[facet], from, to), distance);
+        if (neighbours.are_near(ends, surface))
           leaves.emplace_back(Box<dim>(ends), facet);
       }
     if (leaves.empty())
       return;
-    const auto                                     tree = dealii::pack_rtree(leaves);
-    std::vector<std::pair<Box<dim>, unsigned int>> found;
+    const auto                tree = dealii::pack_rtree(leaves);
+    std::vector<unsigned int> found;
     for (unsigned int node = 0; node < from.size(); ++node)
       {
         const unsigned int surface = surfaces.surface_of_node(node);
-        auto               ends    = nothing<dim>();
-        include(ends, from[node]);
-        include(ends, to[node]);
-        if (others[surface].empty() || !near(widened(ends, distance), surface))
+        if (!neighbours.has_any(surface))
           continue;
-        found.clear();
-        tree.query(index::intersects(Box<dim>(ends)), std::back_inserter(found));
-        std::sort(found.begin(), found.end(), [](const auto &a, const auto &b) {
-          return a.second < b.second;
-        });
-        for (const auto &leaf : found)
-          {
-            if (surfaces.meet(surface, surfaces.surface().body(leaf.second)))
-              action(node, leaf.second);
-          }
+        const auto ends = ends_of<dim>(std::array<unsigned int, 1>{{node}}, from, to);
+        if (!neighbours.are_near(widened(ends, distance), surface))
+          continue;
+        find<dim>(found, tree, ends);
+        for (const unsigned int facet : found)
+          if (surfaces.meet(surface, surfaces.surface().body(facet)))
+            action(node, facet);
+      }
+  }
+
+
+  template <int dim>
+  void
+  for_each_near_edges(const ContactSurfaces<dim>                            &surfaces,
+                      const typename ContactSurfaces<dim>::Places           &from,
+                      const typename ContactSurfaces<dim>::Places           &to,
+                      const double                                           distance,
+                      const std::function<void(unsigned int, unsigned int)> &action)
+  {
+    const auto &edges = surfaces.sharp_edges();
+    if (edges.empty())
+      return;
+    const Neighbours<dim>  neighbours(surfaces, boxes_of_surfaces(surfaces, from, to), distance);
+    std::vector<Leaf<dim>> leaves;
+    for (unsigned int edge = 0; edge < edges.size(); ++edge)
+      {
+        const unsigned int surface = edges[edge].surface;
+        if (!neighbours.has_any(surface))
+          continue;
+        const auto ends = widened(ends_of<dim>(edges[edge].nodes, from, to), distance);
+        if (neighbours.are_near(ends, surface))
+          leaves.emplace_back(Box<dim>(ends), edge);
+      }
+    if (leaves.empty())
+      return;
+    const auto                tree = dealii::pack_rtree(leaves);
+    std::vector<unsigned int> found;
+    for (const auto &leaf : leaves)
+      {
+        const auto &edge = edges[leaf.second];
+        find<dim>(found, tree, ends_of<dim>(edge.nodes, from, to));
+        for (const unsigned int other : found)
+          if (leaf.second < other && surfaces.meet(edge.surface, edges[other].surface))
+            action(leaf.second, other);
       }
   }
 
@@ -176,4 +253,16 @@ namespace undine
                      const std::vector<dealii::Point<3>> &,
                      double,
                      const std::function<void(unsigned int, unsigned int)> &);
+  template void
+  for_each_near_edges(const ContactSurfaces<2> &,
+                      const std::vector<dealii::Point<2>> &,
+                      const std::vector<dealii::Point<2>> &,
+                      double,
+                      const std::function<void(unsigned int, unsigned int)> &);
+  template void
+  for_each_near_edges(const ContactSurfaces<3> &,
+                      const std::vector<dealii::Point<3>> &,
+                      const std::vector<dealii::Point<3>> &,
+                      double,
+                      const std::function<void(unsigned int, unsigned int)> &);
 } // namespace undine

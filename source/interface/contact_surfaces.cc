@@ -126,6 +126,7 @@ namespace undine
         surfaces_of_nodes[node] = all_facets.body(facet);
     const auto rest = places(solid.vector(), 0);
     measure(solid, rest);
+    all_edges = find_sharp_edges(all_facets, rest);
     find_held(solid, rest);
   }
 

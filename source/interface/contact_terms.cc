@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/interface/contact_boxes.h>
 #include <undine/interface/contact_terms.h>
-
-#include <deal.II/base/symmetric_tensor.h>
+#include <undine/interface/nearest_of_edges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -112,6 +112,8 @@ namespace undine
             {
               term.nodes[k + 1]  = nearest.inside.nodes[k];
               term.shares[k + 1] = -nearest.weights[k];
+              if (k > 0)
+                term.ways[term.n_ways++] = {1, k + 1, -1};
             }
           term.distance = nearest.distance;
           if (nearest.distance > 0)
@@ -119,6 +121,48 @@ namespace undine
           term.area = entry.second.times * area;
           terms.push_back(term);
         }
+    }
+
+
+    /// The sine of 1.8 degrees, squared: edges that enclose less count less (S17).
+    constexpr double least_crossing = 1e-3;
+
+
+    template <int dim>
+    void
+    add_edges(std::vector<ContactTerm<dim>> &terms,
+              const SharpEdge               &one,
+              const SharpEdge               &other,
+              const Places<dim>             &places,
+              const double                   gap)
+    {
+      const std::array<unsigned int, 4> nodes{
+        {one.nodes[0], one.nodes[1], other.nodes[0], other.nodes[1]}};
+      std::array<dealii::Point<dim>, 4> x;
+      for (unsigned int i = 0; i < 4; ++i)
+        x[i] = places[nodes[i]];
+      const auto nearest = nearest_of_edges<dim>(x);
+      if (nearest.distance >= gap)
+        return;
+      ContactTerm<dim> term;
+      term.n = 4;
+      for (unsigned int edge = 0; edge < 2; ++edge)
+        {
+          const unsigned int first  = 2 * edge;
+          const int          sign   = edge == 0 ? 1 : -1;
+          term.nodes.at(first)      = nodes[first];
+          term.nodes.at(first + 1)  = nodes[first + 1];
+          term.shares.at(first)     = sign * (1 - nearest.parts[edge]);
+          term.shares.at(first + 1) = sign * nearest.parts[edge];
+          if (nearest.inside[edge])
+            term.ways[term.n_ways++] = {first, first + 1, sign};
+        }
+      term.distance = nearest.distance;
+      if (nearest.distance > 0)
+        term.direction = nearest.from / nearest.distance;
+      term.area     = std::min(one.area, other.area);
+      term.crossing = least_crossing * std::pow(one.length * other.length, 2);
+      terms.push_back(term);
     }
   } // namespace
 
@@ -146,57 +190,17 @@ namespace undine
         add_parts<dim>(parts[surfaces.surface().body(facet)], surfaces.surface().facets()[facet]);
       });
     finish_node();
+    for_each_near_edges<dim>(
+      surfaces, places, places, gap, [&](const unsigned int one, const unsigned int other) {
+        const auto &edges = surfaces.sharp_edges();
+        add_edges<dim>(terms, edges[one], edges[other], places, gap);
+      });
     return terms;
   }
 
 
-  template <int dim>
-  NodeMatrices<dim>
-  second_derivatives(const ContactTerm<dim> &term,
-                     const Places<dim>      &places,
-                     const double            slope,
-                     const double            curvature)
-  {
-    NodeMatrices<dim> result;
-    const auto        normal  = outer_product(term.direction, term.direction);
-    const double      turning = term.wall == ContactTerm<dim>::no_wall ? slope / term.distance : 0;
-    const auto        unit    = dealii::unit_symmetric_tensor<dim>();
-
-    // The nearest point moves along the ways T_a from the simplex's first node to the others.
-    std::array<dealii::Point<dim>, dim> corners;
-    for (unsigned int k = 1; k < term.n; ++k)
-      corners[k - 1] = places[term.nodes[k]];
-    const unsigned int n_ways  = term.n < 2 ? 0 : term.n - 2;
-    const auto         inverse = inverse_of_products<dim>(n_ways + 1, corners);
-    std::array<std::array<dealii::Tensor<1, dim>, dim + 1>, dim> mixed; // [a][node]
-    for (unsigned int a = 0; a < n_ways; ++a)
-      for (unsigned int i = 0; i < term.n; ++i)
-        {
-          const int turn = i == 1 ? 1 : i == a + 2 ? -1 : 0;
-          mixed[a][i]    = (turn * term.distance) * term.direction -
-                        term.shares[i] * (corners[a + 1] - corners[0]);
-        }
-    for (unsigned int i = 0; i < term.n; ++i)
-      for (unsigned int j = 0; j < term.n; ++j)
-        {
-          const double shares = term.shares[i] * term.shares[j];
-          result[i][j]        = (shares * turning) * dealii::Tensor<2, dim>(unit);
-          result[i][j] += (shares * (curvature - turning)) * normal;
-          for (unsigned int a = 0; a < n_ways; ++a)
-            for (unsigned int b = 0; b < n_ways; ++b)
-              result[i][j] -= (turning * inverse[a][b]) * outer_product(mixed[a][i], mixed[b][j]);
-        }
-    return result;
-  }
-
-
-#define UNDINE_INSTANTIATE(dim)                                                     \
-  template std::vector<ContactTerm<dim>> find_contact_terms(                        \
-    const ContactSurfaces<dim> &, const std::vector<dealii::Point<dim>> &, double); \
-  template NodeMatrices<dim> second_derivatives(                                    \
-    const ContactTerm<dim> &, const std::vector<dealii::Point<dim>> &, double, double);
-
-  UNDINE_INSTANTIATE(2)
-  UNDINE_INSTANTIATE(3)
-#undef UNDINE_INSTANTIATE
+  template std::vector<ContactTerm<2>>
+  find_contact_terms(const ContactSurfaces<2> &, const std::vector<dealii::Point<2>> &, double);
+  template std::vector<ContactTerm<3>>
+  find_contact_terms(const ContactSurfaces<3> &, const std::vector<dealii::Point<3>> &, double);
 } // namespace undine

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/interface/body_contact.h>
 #include <undine/interface/contact_boxes.h>
+#include <undine/interface/nearest_of_edges.h>
 
 #include <algorithm>
 
@@ -60,12 +61,56 @@ namespace undine
     }
 
 
+    /// Two edges on their straight ways.
+    template <int dim>
+    struct TwoEdges
+    {
+      std::array<dealii::Point<dim>, 4>     begin;
+      std::array<dealii::Tensor<1, dim>, 4> ways;      ///< less their mean
+      double                                speed = 0; ///< bound for the change of the distance
+
+      double
+      distance(const double part) const
+      {
+        auto x = begin;
+        for (unsigned int i = 0; i < 4; ++i)
+          x[i] += part * ways[i];
+        return nearest_of_edges<dim>(x).distance;
+      }
+    };
+
+
+    template <int dim>
+    TwoEdges<dim>
+    two_edges(const std::vector<dealii::Point<dim>> &from,
+              const std::vector<dealii::Point<dim>> &to,
+              const SharpEdge                       &one,
+              const SharpEdge                       &other)
+    {
+      const std::array<unsigned int, 4> nodes{
+        {one.nodes[0], one.nodes[1], other.nodes[0], other.nodes[1]}};
+      TwoEdges<dim>          result;
+      dealii::Tensor<1, dim> mean;
+      for (const unsigned int node : nodes)
+        mean += (to[node] - from[node]) / 4;
+      for (unsigned int i = 0; i < 4; ++i)
+        {
+          result.begin[i] = from[nodes[i]];
+          result.ways[i]  = to[nodes[i]] - from[nodes[i]] - mean;
+        }
+      const auto &ways = result.ways;
+      result.speed =
+        std::max(ways[0].norm(), ways[1].norm()) + std::max(ways[2].norm(), ways[3].norm());
+      return result;
+    }
+
+
     /// The part of the ways, at most `limit`, on which the distance stays above `least`: by steps
     /// that the speed bounds [the additive advancement of Li, Kaufman, Jiang, ACM Trans. Graph. 40
     /// (2021)].
-    template <int dim>
+    template <class Pair>
     double
-    part_without_hit(const NodeAndFacet<dim> &pair, const double closest, const double limit)
+    part_without_hit(const Pair &pair, const double closest, const double limit)
     {
       constexpr unsigned int most_steps = 10000;
       double                 distance   = pair.distance(0);
@@ -107,6 +152,11 @@ namespace undine
       surfaces, from, to, closest, [&](const unsigned int node, const unsigned int facet) {
         const auto pair = node_and_facet<dim>(from, to, node, surfaces.surface().facets()[facet]);
         part            = part_without_hit(pair, closest, part);
+      });
+    for_each_near_edges<dim>(
+      surfaces, from, to, closest, [&](const unsigned int one, const unsigned int other) {
+        const auto &edges = surfaces.sharp_edges();
+        part = part_without_hit(two_edges<dim>(from, to, edges[one], edges[other]), closest, part);
       });
     return std::max(part, 0.);
   }

@@ -40,10 +40,11 @@ namespace undine
 
     /// KLU has the smaller overhead, MUMPS works on blocks.
     std::string
-    solver_name(const unsigned int n_unknowns)
+    solver_name(const Matrix &A)
     {
-      const unsigned int few = 2000;
-      return n_unknowns > few && Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
+      const unsigned int few = 100000;
+      return A.n_nonzero_elements() > few && Amesos().Query("Amesos_Mumps") ? "Amesos_Mumps"
+                                                                            : "Amesos_Klu";
     }
   } // namespace
 
@@ -54,7 +55,7 @@ namespace undine
     solver.reset(); // before the matrix to which it is bound
     matrix.reinit(A);
     problem.SetOperator(const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
-    solver.reset(Amesos().Create(solver_name(A.m()), problem));
+    solver.reset(Amesos().Create(solver_name(A), problem));
     Teuchos::ParameterList parameters;
     parameters.set("OutputLevel", 0);
     // Percent of working space beyond the estimate: pivots may be delayed.

@@ -6,8 +6,8 @@
 #include <undine/coupled/particle_model.h>
 #include <undine/effects/effect.h>
 #include <undine/fluid/fluid_model.h>
-#include <undine/interface/body_contact.h>
 #include <undine/interface/immersed_surface.h>
+#include <undine/interface/make_contact.h>
 #include <undine/interface/void_regions.h>
 #include <undine/solid/solid_model.h>
 
@@ -58,7 +58,7 @@ namespace undine
       for (const auto &effect : effects)
         effect->affect(result);
       if (solid && result.contact_settings)
-        result.contact = std::make_shared<const BodyContact<dim>>(
+        result.contact = make_contact<dim>(
           *result.contact_settings, *solid, fluid.get(), surface ? &surface->obstacles() : nullptr);
       return result;
     }

@@ -2,12 +2,10 @@
 #ifndef undine_interface_body_contact_h
 #define undine_interface_body_contact_h
 
-#include <undine/interface/contact_terms.h>
+#include <undine/interface/contact_pattern.h>
+#include <undine/interface/contact_potential.h>
 #include <undine/solid/contact.h>
 
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
-
-#include <string>
 #include <vector>
 
 namespace undine
@@ -20,8 +18,8 @@ namespace undine
   /// with the gap D and the stiffness k of the scene [after Li, Ferguson, Schneider, Langlois,
   /// Zorin, Panozzo, Jiang, Kaufman, ACM Trans. Graph. 39 (2020)]. d is the distance to the nearest
   /// point of a facet, on whose nodes the opposite force is distributed by that point's weights:
-  /// forces and moments between bodies cancel, whatever the step. In 3D nodes meet facets, edges
-  /// do not meet edges. A body does not meet itself.
+  /// forces and moments between bodies cancel, whatever the step. In 3D sharp edges meet sharp
+  /// edges too (SharpEdge), by (S17). A body does not meet itself.
   template <int dim>
   class BodyContact : public Contact<dim>
   {
@@ -61,25 +59,20 @@ namespace undine
     using Places = typename ContactSurfaces<dim>::Places;
     using Terms  = std::vector<ContactTerm<dim>>;
     using Forces = std::vector<dealii::Tensor<1, dim>>;
-    using Index  = dealii::types::global_dof_index;
 
     Terms
     terms(const Places &places) const;
     double
-    energy(const Terms &terms) const;
+    energy(const Terms &terms, const Places &places) const;
     Forces
-    nodal_forces(const Terms &terms) const;
-    void
-    make_room(Matrix &A, const Terms &terms) const;
+    nodal_forces(const Terms &terms, const Places &places) const;
+    ContactPotential<dim>
+    potential() const;
 
-    const SolidModel<dim>     &solid;
-    ContactSettings<dim>       settings;
-    const ContactSurfaces<dim> surfaces;
-
-    /// The pattern of the tangent with the pairs of nodes in contact, kept as long as these are the
-    /// same.
-    mutable std::vector<std::pair<unsigned int, unsigned int>> pairs;
-    mutable dealii::TrilinosWrappers::SparsityPattern          pattern;
+    const SolidModel<dim>      &solid;
+    ContactSettings<dim>        settings;
+    const ContactSurfaces<dim>  surfaces;
+    mutable ContactPattern<dim> pattern;
   };
 } // namespace undine
 

@@ -19,6 +19,16 @@ namespace undine
                      const typename ContactSurfaces<dim>::Places           &to,
                      double                                                 distance,
                      const std::function<void(unsigned int, unsigned int)> &action);
+
+  /// The same for two sharp edges, by their numbers in ContactSurfaces::sharp_edges(); each pair
+  /// once, the lower number first.
+  template <int dim>
+  void
+  for_each_near_edges(const ContactSurfaces<dim>                            &surfaces,
+                      const typename ContactSurfaces<dim>::Places           &from,
+                      const typename ContactSurfaces<dim>::Places           &to,
+                      double                                                 distance,
+                      const std::function<void(unsigned int, unsigned int)> &action);
 } // namespace undine
 
 #endif

@@ -5,6 +5,7 @@
 #include <undine/fluid/fluid_model.h>
 #include <undine/interface/body_surface.h>
 #include <undine/interface/obstacles.h>
+#include <undine/interface/sharp_edges.h>
 #include <undine/solid/contact_settings.h>
 
 #include <vector>
@@ -82,6 +83,12 @@ namespace undine
       return areas[node];
     }
 
+    const std::vector<SharpEdge> &
+    sharp_edges() const
+    {
+      return all_edges;
+    }
+
     /// Does the body rest on the wall or reach through it, held there by a support? Then it does
     /// not feel it.
     bool
@@ -121,6 +128,7 @@ namespace undine
     std::vector<ContactWall<dim>>  all_walls;
     std::vector<unsigned int>      surfaces_of_nodes;
     std::vector<double>            areas;
+    std::vector<SharpEdge>         all_edges;
     std::vector<std::vector<bool>> held;           ///< [body][wall]
     std::vector<std::vector<bool>> grown_together; ///< [surface][surface]
     double                         least_size = 0;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <coupled/coupled_run.h>
+#include <coupled/contact_course.h>
 
 #include <undine/interface/barrier.h>
-#include <undine/solid/solid_columns.h>
 
 #include <message_of.h>
 
@@ -10,100 +9,6 @@ using namespace undine_tests;
 
 namespace
 {
-  /// A ball of radius .1 at `centre`, waves in which go at about 5 m/s.
-  template <int dim>
-  std::string
-  ball(const std::string &name,
-       const std::string &centre,
-       const std::string &velocity,
-       const double       modulus = 2e4)
-  {
-    return body(
-      name,
-      "set Shape = ball\nset Radius = .1\nset Centre = " + centre +
-        "\nset Initial velocity = " + velocity +
-        fmt::format("\nset Density = 1000\nset Young's modulus = {}\nset Poisson's ratio = "
-                    ".3\nset Refinements = {}\n",
-                    modulus,
-                    1));
-  }
-
-
-  /// Quadratic elements in 2D, linear ones in 3D, which are cheaper.
-  template <int dim>
-  std::string
-  elements()
-  {
-    return section("Solid numerics", "set Element degree = " + plane_or_space<dim>("2", "1"));
-  }
-
-
-  template <int dim>
-  std::string
-  floor_at_zero(const std::string &more = "")
-  {
-    return section(
-      "Effects",
-      section("contact",
-              section("Walls",
-                      section("floor",
-                              plane_or_space<dim>("set Point = 0, 0\nset Normal = 0, 2",
-                                                  "set Point = 0, 0, 0\nset Normal = 0, 2, 0")))) +
-        more);
-  }
-
-
-  template <int dim>
-  double
-  energy(const CoupledRun<dim> &run)
-  {
-    return run.column("solid kinetic energy") + run.column("solid elastic energy") +
-           run.column("contact energy") + run.column("solid load potential");
-  }
-
-
-  /// What a run did.
-  struct Course
-  {
-    double       start          = 0;
-    double       largest_energy = 0;
-    double       last_energy    = 0;
-    double       least_gap      = 1;
-    unsigned int most_contacts  = 0;
-
-    /// Of the ledger, while there is contact. Between bodies its momentum sums up to nothing, so
-    /// that there is nothing to compare with. @{
-    double energy_closure   = 0;
-    double momentum_closure = 0;
-    /// @}
-  };
-
-
-  template <int dim>
-  Course
-  observe(CoupledRun<dim> &run, const unsigned int n_steps)
-  {
-    Course course;
-    course.start = course.largest_energy = energy(run);
-    for (unsigned int n = 0; n < n_steps; ++n)
-      {
-        run.step();
-        course.last_energy    = energy(run);
-        course.largest_energy = std::max(course.largest_energy, course.last_energy);
-        course.least_gap      = std::min(course.least_gap, run.column("least gap"));
-        course.most_contacts =
-          std::max(course.most_contacts, unsigned(run.column("nodes in contact")));
-        if (run.column("nodes in contact") > 0)
-          {
-            course.energy_closure = std::max(course.energy_closure, run.column("energy closure"));
-            course.momentum_closure =
-              std::max(course.momentum_closure, run.column("momentum closure"));
-          }
-      }
-    return course;
-  }
-
-
   template <int dim>
   void
   check_drop(const double dt, const unsigned int n_steps, const double least_speed)
@@ -126,38 +31,6 @@ namespace
     // Without friction.
     CHECK(std::abs(run.column("solid momentum x")) < 1e-3 * std::abs(momentum));
   }
-
-
-  template <int dim>
-  void
-  check_collision(const double dt, const unsigned int n_steps)
-  {
-    INFO(dim << "D, steps of " << dt);
-    CoupledRun<dim> run(steps_of(dt) + elements<dim>() + section("Output", "set Ledger = true") +
-                        section("Bodies",
-                                ball<dim>("fast",
-                                          plane_or_space<dim>("-.15, 0", "-.15, 0, 0"),
-                                          plane_or_space<dim>("1; 0", "1; 0; 0")) +
-                                  ball<dim>("slow",
-                                            plane_or_space<dim>(".1, .05", ".1, .05, .03"),
-                                            plane_or_space<dim>("-.2; 0", "-.2; 0; 0"),
-                                            4e4)) +
-                        section("Effects", section("contact", "")));
-    dealii::Tensor<1, dim> before;
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      before[axis] = run.column(std::string("solid momentum ") + "xyz"[axis]);
-    const auto course = observe(run, n_steps);
-    CHECK(course.most_contacts > 0);
-    CHECK(course.least_gap > 0);
-    CHECK(course.largest_energy <= course.start * (1 + 1e-9));
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      CHECK(std::abs(run.column(std::string("solid momentum ") + "xyz"[axis]) - before[axis]) <
-            1e-10 * before.norm());
-    CHECK(course.energy_closure < 1e-9);
-    // They part: the centres go away from each other.
-    CHECK(run.column("centre of mass slow x") - run.column("centre of mass fast x") > .19);
-    CHECK(run.column("nodes in contact") == 0);
-  }
 } // namespace
 
 
@@ -173,13 +46,6 @@ TEST_CASE("balls that collide keep their momentum and gain no energy", "[contact
 {
   check_collision<2>(.004, 75);
   check_collision<2>(.03, 12);
-}
-
-
-// Takes minutes: to be asked for by name.
-TEST_CASE("balls that collide in space, too", "[.contact_in_space]")
-{
-  check_collision<3>(.01, 30);
 }
 
 
@@ -289,57 +155,6 @@ TEST_CASE("the pressure under a disk pressed on a plane is that of Hertz", "[con
   INFO(force << " N/m on " << run.column("nodes in contact") << " nodes");
   CHECK(pressure == Approx(hertz).epsilon(.05));
   CHECK(run.column("reaction disk/top y") == Approx(-force).epsilon(1e-7));
-}
-
-
-namespace
-{
-  /// A ball that sinks in a tank, to the floor or to a block that stands on it.
-  CoupledRun<2>
-  sinking(const std::string &scheme, const std::string &more)
-  {
-    return CoupledRun<2>(
-      "set Scheme = " + scheme + "\n" + steps_of(.02) + section("Output", "set Ledger = true") +
-      section("Domain", "set Cells = 16, 16") + section("Fluid", "set Density = 1000") +
-      section("Bodies",
-              body("ball",
-                   "set Shape = ball\nset Radius = .15\nset Centre = .47, .3\nset Density = "
-                   "3000\nset Young's modulus = 1e6\nset Poisson's ratio = .3\n")) +
-      section("Effects",
-              section("contact", "") + section("gravity", "set Acceleration = 0, -9.81") +
-                convection()) +
-      more);
-  }
-} // namespace
-
-
-TEST_CASE("a ball in a tank of water bounces off its floor", "[contact]")
-{
-  for (const std::string scheme : {"simultaneous"})
-    {
-      INFO(scheme);
-      auto         run   = sinking(scheme, "");
-      double       least = 1, momentum = 0, lowest = 1, energy_in_flight = 0;
-      unsigned int touches = 0;
-      for (unsigned int n = 0; n < 24; ++n)
-        {
-          run.step();
-          least    = std::min(least, run.column("least gap"));
-          momentum = std::max(momentum, run.column("momentum closure"));
-          lowest   = std::min(lowest, run.column("centre of mass ball y"));
-          touches += run.column("nodes in contact") > 0;
-          CHECK(run.column("Flagged cells") == 0);
-          if (run.column("nodes in contact") == 0)
-            energy_in_flight = run.column("solid kinetic energy");
-        }
-      CHECK(touches > 0);
-      CHECK(least > 0);
-      CHECK(lowest > .1);
-      CHECK(momentum < 1e-9);
-      // It sets out upwards again, with less than it had.
-      CHECK(run.column("solid momentum y") > 0);
-      CHECK(energy_in_flight < 3000 * .0707 * 9.81 * .15);
-    }
 }
 
 
