@@ -48,6 +48,17 @@ namespace undine
   }
 
 
+  template <int dim>
+  BodyContact<dim>::BodyContact(const BodyContact      &all,
+                                const SolidModel<dim>  &solid,
+                                const BodySurface<dim> &bodies)
+    : solid(solid)
+    , settings(all.settings)
+    , surfaces(all.surfaces, bodies)
+  {
+  }
+
+
   /// Throws SolveError where a gap is closed.
   template <int dim>
   typename BodyContact<dim>::Terms
@@ -115,6 +126,14 @@ namespace undine
   }
 
 
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  BodyContact<dim>::nodal_forces(const Vector &displacement, const double time) const
+  {
+    return nodal_forces(terms(surfaces.places(displacement, time)));
+  }
+
+
   /// A gets places for all pairs of nodes of different bodies in contact.
   template <int dim>
   void
@@ -123,7 +142,7 @@ namespace undine
     std::set<std::pair<unsigned int, unsigned int>> needed;
     for (const auto &term : terms)
       for (unsigned int i = 1; i < term.n; ++i)
-        if (std::max(term.nodes[0], term.nodes[i]) < surfaces.bodies().n_nodes())
+        if (surfaces.moves(term.nodes[0]) && surfaces.moves(term.nodes[i]))
           needed.insert({term.nodes[0], term.nodes[i]});
     if (needed.empty())
       return;
@@ -180,8 +199,7 @@ namespace undine
     if (found.empty())
       return;
     make_room(A, found);
-    const auto &owned   = solid.locally_owned();
-    const auto  n_nodes = surfaces.bodies().n_nodes();
+    const auto &owned = solid.locally_owned();
     for (const auto &term : found)
       {
         const double s        = term.distance / settings.gap;
@@ -190,7 +208,7 @@ namespace undine
           term, places, size * barrier_slope(s), size / settings.gap * barrier_curvature(s));
         for (unsigned int i = 0; i < term.n; ++i)
           for (unsigned int j = 0; j < term.n; ++j)
-            if (term.nodes[i] < n_nodes && term.nodes[j] < n_nodes)
+            if (surfaces.moves(term.nodes[i]) && surfaces.moves(term.nodes[j]))
               for (unsigned int a = 0; a < dim; ++a)
                 if (const auto row = surfaces.bodies().dofs_of_node(term.nodes[i])[a];
                     owned.is_element(row))
