@@ -259,7 +259,8 @@ TEMPLATE_TEST_CASE_SIG("contact wakes a body", "[sleep][mpi]", ((int dim), dim),
       awake.step();
       if (n == 6)
         CHECK(run.column("asleep target") == 1);
-      CHECK(run.column("energy closure") < 1e-9);
+      if (run.column("nodes in contact") > 0)
+        CHECK(run.column("energy closure") < 1e-9);
       CHECK(run.column("solid momentum x") == Approx(momentum).epsilon(1e-3));
     }
   CHECK(run.column("asleep target") == 0);
