@@ -93,7 +93,7 @@ subsection Fluid
 end"""
 
 
-def scene(case, n_bodies, sleeps):
+def scene(case, n_bodies, sleeps, probes=""):
     bodies = "".join(body(f"body_{k}", x, 0.4 if k == 0 else 0, case) for k, x in enumerate(PLACES[:n_bodies]))
     effects = "subsection convection\nend\n" if case.fluid else ""
     if sleeps:
@@ -113,7 +113,7 @@ subsection Effects
 {effects}
 end
 subsection Probes
-{"".join(probe(k, x, case) for k, x in enumerate(PLACES[:n_bodies]))}
+{probes}
 end
 subsection Output
   set Parts = statistics
@@ -167,8 +167,9 @@ def per_step(program, text):
 
 def difference(program, case):
     """Largest difference of the bodies' tops, with sleep and without, over 2 V T."""
-    with_sleep = run(program, scene(case, 4, True), LAST).columns
-    without = run(program, scene(case, 4, False), LAST).columns
+    probes = "".join(probe(k, x, case) for k, x in enumerate(PLACES))
+    with_sleep = run(program, scene(case, 4, True, probes), LAST).columns
+    without = run(program, scene(case, 4, False, probes), LAST).columns
     largest = 0
     for name in without:
         if re.match(r"top_\d displacement", name):

@@ -76,9 +76,9 @@ namespace undine
   {
     const Vector known  = readable(of_all, all, read_of_all);
     Vector       result = part.vector();
+    auto         entry  = result.begin(); // in the order of the owned degrees of freedom
     for (const Index dof : part.locally_owned())
-      result(dof) = known(in_all[dof]);
-    result.compress(dealii::VectorOperation::insert);
+      *entry++ = known(in_all[dof]);
     return result;
   }
 
@@ -88,10 +88,13 @@ namespace undine
   PartOfBodies<dim>::put_into(Vector &of_all, const Vector &of_part) const
   {
     const Vector known = readable(of_part, part, read_of_part);
+    auto         entry = of_all.begin(); // in the order of the owned degrees of freedom
     for (const Index dof : all.locally_owned())
-      if (in_part[dof] != dealii::numbers::invalid_dof_index)
-        of_all(dof) = known(in_part[dof]);
-    of_all.compress(dealii::VectorOperation::insert);
+      {
+        if (in_part[dof] != dealii::numbers::invalid_dof_index)
+          *entry = known(in_part[dof]);
+        ++entry;
+      }
   }
 
 

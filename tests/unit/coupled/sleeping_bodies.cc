@@ -37,8 +37,9 @@ namespace
                   x,
                   x + .1);
     return body(name,
-                corners + "\nset Density = 1000\nset Young's modulus = 1e6\n"
-                          "set Poisson's ratio = .3\nset Initial velocity = " +
+                corners +
+                  "\nset Density = 1000\nset Young's modulus = 1e6\n"
+                  "set Poisson's ratio = .3\nset Initial velocity = " +
                   fmt::format(plane_or_space<dim>("{} * (y + .05); 0", "{} * (y + .05); 0; 0"),
                               2 * top_speed),
                 clamp("foot", "1", "set Sides = bottom") + more);
@@ -98,7 +99,7 @@ namespace
   std::string
   two_posts()
   {
-    return section("Bodies", post<dim>("a", .2, 0.05) + post<dim>("b", .6, 2e-4));
+    return section("Bodies", post<dim>("b", .2, 2e-4) + post<dim>("a", .6, 0.01));
   }
 } // namespace
 
@@ -143,7 +144,8 @@ TEST_CASE("what is awake does not notice what sleeps", "[sleep][mpi]")
     }
   CHECK(n_asleep(run) == 3);
   CHECK(run.report.newton_iterations == alone.report.newton_iterations);
-  CHECK(run.column("centre of mass a x") == Approx(alone.column("centre of mass a x")).epsilon(1e-8));
+  CHECK(run.column("centre of mass a x") ==
+        Approx(alone.column("centre of mass a x")).epsilon(1e-8));
   CHECK(run.column("reaction a/foot x") == Approx(alone.column("reaction a/foot x")).epsilon(1e-6));
 }
 
@@ -178,33 +180,36 @@ TEMPLATE_TEST_CASE_SIG(
   const bool        one_way = coupling == "fluid to body";
   const std::string scene =
     (one_way ? section("Coupling", "set Direction = fluid to body") : coupling) + steps_of(.05) +
-    ledger + two_posts<dim>() + channel<dim>("max(0, t - 1)");
+    ledger + two_posts<dim>() + channel<dim>("2 * max(0, t - 1)");
   INFO(dim << "D, " << coupling);
   // Loads change by what the first post does, too.
-  CoupledRun<dim> run(scene + section("Effects", convection() + sleep(2e-2)));
-  CoupledRun<dim> awake(scene + section("Effects", convection()));
-  double          largest = 0;
+  constexpr double slow = 2e-3;
+  CoupledRun<dim>  run(scene + section("Effects", convection() + sleep(slow)));
+  CoupledRun<dim>  awake(scene + section("Effects", convection()));
+  double           largest = 0;
   for (unsigned int n = 0; n < 19; ++n)
     {
       run.step();
       awake.step();
       largest = std::max(largest, largest_difference(run, awake));
       CHECK(run.column("energy closure") < 1e-9);
-      CHECK(run.column("momentum closure") < 1e-8);
+      CHECK(run.column("momentum closure") < 1e-8 + 10 * awake.column("momentum closure"));
     }
   CHECK(run.column("asleep b") == 1);
-  CHECK(largest < 2e-2 * rest);
+  CHECK(largest < 2 * slow * rest);
+  bool woke = false;
   for (unsigned int n = 0; n < 30; ++n)
     {
       run.step();
       awake.step();
+      woke |= run.column("asleep b") == 0;
       CHECK(run.column("energy closure") < 1e-9);
-      CHECK(run.column("momentum closure") < 1e-8);
+      CHECK(run.column("momentum closure") < 1e-8 + 10 * awake.column("momentum closure"));
     }
-  const double way = awake.column("centre of mass b x") - .65;
-  CHECK(run.column("asleep b") == 0);
-  CHECK(way > 1e-4);
-  CHECK(run.column("centre of mass b x") - .65 == Approx(way).epsilon(0.05));
+  CHECK(woke);
+  const double way = awake.column("centre of mass b x") - .25;
+  CHECK(way > 2 * slow * rest);
+  CHECK(std::abs(run.column("centre of mass b x") - .25 - way) < 2 * slow * rest);
 }
 
 
@@ -212,8 +217,8 @@ TEST_CASE("fluid flows on where all bodies sleep", "[sleep][mpi]")
 {
   const std::string friction =
     GENERATE(as<std::string>(), "", section("viscosity", "set Dynamic viscosity = .05"));
-  const auto scene = steps_of(.05) + ledger + section("Bodies", post<2>("a", .45, 0)) +
-                     channel<2>("1e-3", 1);
+  const auto scene =
+    steps_of(.05) + ledger + section("Bodies", post<2>("a", .45, 0)) + channel<2>("1e-3", 1);
   CoupledRun<2> run(scene + section("Effects", convection() + friction + sleep(1e-2)));
   CoupledRun<2> awake(scene + section("Effects", convection() + friction));
   const auto    n_columns = run.report.columns.size();
@@ -273,8 +278,8 @@ TEMPLATE_TEST_CASE_SIG("contact wakes a body", "[sleep][mpi]", ((int dim), dim),
 
 TEST_CASE("a load that changes in time keeps its body awake", "[sleep]")
 {
-  const auto push = section(
-    "push", "set Kind = traction\nset Sides = right\nset Traction = t < 1 ? 0 : 1e3; 0");
+  const auto push =
+    section("push", "set Kind = traction\nset Sides = right\nset Traction = t < 1 ? 0 : 1e3; 0");
   CoupledRun<2> run(steps_of(.05) +
                     section("Bodies", post<2>("a", .1, 0) + post<2>("b", .3, 0, push)) +
                     section("Effects", sleep()));
@@ -301,9 +306,9 @@ TEST_CASE("a body on its support sleeps, and the support holds it", "[sleep][mpi
 
 TEST_CASE("steps by a tolerance sleep too", "[sleep][mpi]")
 {
-  const auto steps = section("Time", "set Step = .05\nset Tolerance = 1e-2");
+  const auto    steps = section("Time", "set Step = .05\nset Tolerance = .1");
   CoupledRun<2> run(steps + four_posts<2>() + section("Effects", sleep()));
-  for (unsigned int n = 0; n < 200 && run.state.clock.time < 1; ++n)
+  for (unsigned int n = 0; n < 1000 && run.state.clock.time < 1; ++n)
     run.step();
   CHECK(n_asleep(run) == 3);
   CHECK(run.column("asleep a") == 0);
@@ -313,19 +318,18 @@ TEST_CASE("steps by a tolerance sleep too", "[sleep][mpi]")
 TEST_CASE("bodies in a chamber that they close wake where nothing else gives way", "[sleep][mpi]")
 {
   // Fluid enters, and nothing but the wall on the right can move.
-  const auto domain = section("Domain", "set Cells = 12, 12") +
-                      section("Fluid",
-                              "set Density = 1\n" +
-                                section("Boundaries",
-                                        boundary("in",
-                                                 "left",
-                                                 "inflow",
-                                                 "set Velocity = 1e-2 * max(0, t - 1); 0") +
-                                          boundary("out", "right", "outflow")));
-  const auto wall = body("wall",
-                         "set Lower corner = .7, -.1\nset Upper corner = .8, 1.1\nset Cells = 1, 8\n"
-                         "set Density = 100\nset Young's modulus = 1e4\nset Poisson's ratio = .3",
-                         clamp("ends", "abs(y - .5) - .55"));
+  const auto domain =
+    section("Domain", "set Cells = 12, 12") +
+    section("Fluid",
+            "set Density = 1\n" +
+              section("Boundaries",
+                      boundary("in", "left", "inflow", "set Velocity = 1e-2 * max(0, t - 1); 0") +
+                        boundary("out", "right", "outflow")));
+  const auto wall =
+    body("wall",
+         "set Lower corner = .7, -.1\nset Upper corner = .8, 1.1\nset Cells = 1, 8\n"
+         "set Density = 100\nset Young's modulus = 1e4\nset Poisson's ratio = .3",
+         clamp("ends", "abs(y - .5) - .55"));
   CoupledRun<2> run(steps_of(.05) + domain + section("Bodies", wall) +
                     section("Effects", sleep(1e-3)));
   for (unsigned int n = 0; n < 18; ++n)
