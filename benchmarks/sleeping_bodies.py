@@ -94,7 +94,7 @@ end"""
 
 
 def scene(case, n_bodies, sleeps, probes=""):
-    bodies = "".join(body(f"body_{k}", x, 0.4 if k == 0 else 0, case) for k, x in enumerate(PLACES[:n_bodies]))
+    bodies = "".join(body(f"body_{k}", x, 0.4 if k == 0 else 0.01, case) for k, x in enumerate(PLACES[:n_bodies]))
     effects = "subsection convection\nend\n" if case.fluid else ""
     if sleeps:
         effects += f"subsection sleep\n  set Speed = {SPEED}\n  set Time = {TIME}\nend\n"
