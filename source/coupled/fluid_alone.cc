@@ -47,6 +47,14 @@ namespace undine
 
 
   template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  FluidAlone<dim>::loads_on_surfaces(const State<dim> &state, const double time) const
+  {
+    return fluid_side.loads_on_surfaces(state, time);
+  }
+
+
+  template <int dim>
   void
   FluidAlone<dim>::balance(const State<dim>                       &state,
                            const typename Projection<dim>::Report &projected,

@@ -198,6 +198,23 @@ namespace undine
 
 
   template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  FluidSide<dim>::loads_on_surfaces(const State<dim> &state, const double time) const
+  {
+    if (!cut)
+      return {};
+    auto       result = cut->pressure_forces(state.fluid.pressure);
+    const auto add    = [&](const auto &more) {
+      for (std::size_t node = 0; node < more.size(); ++node)
+        result[node] += more[node];
+    };
+    add(cut->other_forces(environment.gravity, time));
+    add(surface_friction.forces());
+    return result;
+  }
+
+
+  template <int dim>
   void
   FluidSide<dim>::add_columns(Report                &report,
                               const FluidState<dim> &state,

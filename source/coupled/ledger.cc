@@ -26,7 +26,8 @@ namespace undine
                                                    "contact",
                                                    "inertia",
                                                    "elasticity",
-                                                   "earlier stages"};
+                                                   "earlier stages",
+                                                   "sleep"};
 
 
   template <int dim>
@@ -34,9 +35,19 @@ namespace undine
     : models(models)
     , on(is_on)
     , has_stages(has_stages)
-    , has_contact(models.have_contact())
+    , has_contact(models.wishes_of_effects().contact_settings.has_value())
+    , has_sleep(models.wishes_of_effects().sleep_settings.has_value())
+    , surface(models.surface.get())
     , by_effect(models.effects.size())
   {
+  }
+
+
+  template <int dim>
+  void
+  Ledger<dim>::follow(const ImmersedSurface<dim> *new_surface)
+  {
+    surface = new_surface;
   }
 
 
@@ -144,18 +155,20 @@ namespace undine
   Ledger<dim>::add(const SurfaceExchange<dim> &surfaces, const double dt)
   {
     const auto n_nodes = surfaces.by_fluid.size();
-    const auto n_body  = models.surface->n_body_nodes();
+    const auto n_body  = surface->n_body_nodes();
     for (std::size_t node = 0; node < n_nodes; ++node)
       {
         const auto  &force = surfaces.by_fluid[node];
         const double power = surfaces.pushed[node] * surfaces.velocities[node];
-        auto        &term  = terms[node < n_body ? by_interface : by_obstacles];
+        auto        &term  = terms[surface->moves(node) ? by_interface : by_obstacles];
         term.energy -= dt * power;
         term.momentum -= dt * force;
         impulse_of_fluid += dt * force.norm();
       }
     for (std::size_t node = 0; node < n_body; ++node)
       {
+        if (!surface->moves(node))
+          continue;
         terms[by_interface].energy += surfaces.on_bodies[node] * surfaces.way[node];
         terms[by_interface].momentum += dt * surfaces.on_bodies[node];
         terms[by_fluid_at_rest].energy += surfaces.at_rest[node] * surfaces.way[node];
@@ -189,16 +202,29 @@ namespace undine
 
 
   template <int dim>
+  void
+  Ledger<dim>::add_rest(const SolidAmounts<dim> &rest)
+  {
+    terms[by_sleep] = {-rest.energy, -rest.momentum};
+    gain.energy -= rest.energy;
+    gain.momentum -= rest.momentum;
+    energy += rest.energy;
+  }
+
+
+  template <int dim>
   bool
   Ledger<dim>::concerns(const unsigned int term) const
   {
     if (term < by_obstacles)
       return models.fluid != nullptr;
     if (term == by_obstacles)
-      return models.surface && models.surface->surface().n_nodes() > models.surface->n_body_nodes();
+      return models.surface &&
+             (has_sleep || models.surface->surface().n_nodes() > models.surface->n_body_nodes());
     if (term < by_loads)
       return models.fluid && models.solid && (term != by_friction || models.has_friction());
-    return models.solid && (has_stages || term != by_stages) && (has_contact || term != by_contact);
+    return models.solid && (has_stages || term != by_stages) &&
+           (has_contact || term != by_contact) && (has_sleep || term != by_sleep);
   }
 
 

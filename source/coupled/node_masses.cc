@@ -22,9 +22,16 @@ namespace undine
     for (const auto &fixed : solid.fixed())
       sums(fixed.dof) = std::numeric_limits<double>::infinity();
     sums.compress(dealii::VectorOperation::insert);
+    // Nodes of bodies that sleep do not move.
+    dealii::Tensor<1, dim> immovable;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      immovable[axis] = std::numeric_limits<double>::infinity();
     auto result = models.surface->with_bodies(
       sums, std::vector<dealii::Tensor<1, dim>>(models.surface->surface().n_nodes()));
     result.resize(models.surface->n_body_nodes());
+    for (unsigned int node = 0; node < result.size(); ++node)
+      if (!models.surface->moves(node))
+        result[node] = immovable;
     return result;
   }
 

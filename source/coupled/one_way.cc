@@ -15,7 +15,9 @@ namespace undine
     , fluid_side(models, ledger, timing)
     , solid_step(*models.solid)
     , projection(*models.fluid)
+    , at_start(start_of_bodies(*models.solid))
   {
+    at_start.velocity = 0;
     if (ledger.is_on())
       solid_step.keep_balance();
   }
@@ -25,11 +27,8 @@ namespace undine
   void
   OneWay<dim>::initialize(State<dim> &state, const double dt, Report &report)
   {
-    const auto start      = solid_step.initialize(environment, state.clock.time, dt);
-    at_start              = start;
-    at_start.velocity     = 0;
-    at_start.acceleration = 0;
-    state.solid           = models.direction == Direction::fluid_to_body ? at_start : start;
+    const auto start = solid_step.initialize(environment, state.clock.time, dt);
+    state.solid      = models.direction == Direction::fluid_to_body ? at_start : start;
     fluid_side.initialize(state, projection, dt, report);
     state.solid = start;
     add_solid_columns(report, state, state.clock.time, SolidReport<dim>());
@@ -51,6 +50,16 @@ namespace undine
     fluid_side.finish(*half.fluid, state, report, half.projected.divergence);
     if (stage.is_last)
       add_solid_columns(report, state, half.fluid->end, half.solid);
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  OneWay<dim>::loads_on_surfaces(const State<dim> &state, const double time) const
+  {
+    if (models.direction == Direction::body_to_fluid)
+      return {};
+    return fluid_side.loads_on_surfaces(state, time);
   }
 
 

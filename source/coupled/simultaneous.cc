@@ -78,6 +78,12 @@ namespace undine
         add_solid_columns(report, state, fluid->end, solid);
     }
 
+    std::vector<dealii::Tensor<1, dim>>
+    loads_on_surfaces(const State<dim> &state, const double time) const override
+    {
+      return fluid_side.loads_on_surfaces(state, time);
+    }
+
   private:
     void
     balance(const CoupledStep<dim> &step, const SolidReport<dim> &solid, const double dt)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/one_way.h>
 #include <undine/coupled/single_physics.h>
+#include <undine/coupled/sleeping_bodies.h>
 #include <undine/coupled/stepping_scheme.h>
 
 #include <fmt/format.h>
@@ -62,14 +63,13 @@ namespace undine
   SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
   {
     ledger = std::make_unique<Ledger<dim>>(models, keeps_ledger, has_stages());
-    if (models.direction != Direction::two_way)
-      physics = std::make_unique<OneWay<dim>>(models, *ledger, timing);
-    else if (models.solid && models.fluid)
-      physics = couple(models, *ledger, timing);
-    else if (models.solid)
-      physics = std::make_unique<SolidAlone<dim>>(models, *ledger, timing);
+    if (models.solid && models.wishes_of_effects().sleep_settings)
+      physics = std::make_unique<SleepingBodies<dim>>(
+        models, *ledger, timing, [this, &timing](const Models<dim> &awake) {
+          return make_physics(awake, timing);
+        });
     else
-      physics = std::make_unique<FluidAlone<dim>>(models, *ledger, timing);
+      physics = make_physics(models, timing);
 
     Report report;
     if (tolerance > 0)
@@ -85,6 +85,20 @@ namespace undine
         add_error(report, state);
       }
     return report;
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Physics<dim>>
+  SteppingScheme<dim>::make_physics(const Models<dim> &models, TimingTree &timing) const
+  {
+    if (!models.solid)
+      return std::make_unique<FluidAlone<dim>>(models, *ledger, timing);
+    if (!models.fluid)
+      return std::make_unique<SolidAlone<dim>>(models, *ledger, timing);
+    if (models.direction != Direction::two_way)
+      return std::make_unique<OneWay<dim>>(models, *ledger, timing);
+    return couple(models, *ledger, timing);
   }
 
 
@@ -142,11 +156,40 @@ namespace undine
   }
 
 
+  /// As advance(), until nobody wakes in the step: what does is awake from its begin. Where bodies
+  /// that sleep leave the step without a solution, as in a chamber that only they close, all wake.
+  template <int dim>
+  void
+  SteppingScheme<dim>::advance_or_wake(State<dim> &state, const State<dim> &saved, Report &report)
+  {
+    const Report empty = report;
+    auto         sleep = saved.sleep;
+    for (;;)
+      {
+        state.sleep = sleep;
+        try
+          {
+            advance(state, report);
+            if (!sleep.wake_with(state.sleep))
+              return;
+          }
+        catch (const Error &)
+          {
+            if (!sleep.any_asleep())
+              throw;
+            sleep.wake_all();
+          }
+        state  = saved;
+        report = empty;
+      }
+  }
+
+
   template <int dim>
   void
   SteppingScheme<dim>::attempt(State<dim> &state, const State<dim> &saved, Report &report)
   {
-    advance(state, report);
+    advance_or_wake(state, saved, report);
     assert_finite(report.columns);
     if (!step_error)
       return;

@@ -73,9 +73,12 @@ namespace undine
     state.other_forces = Vectors(now.size());
     for (std::size_t node = 0; node < masses.size(); ++node)
       for (unsigned int axis = 0; axis < dim; ++axis)
-        if (const double mass = masses[node][axis]; std::isfinite(mass))
+        {
+          const double mass   = masses[node][axis];
+          const double change = now[node][axis] - started[node][axis];
           state.other_forces[node][axis] =
-            mass * (now[node][axis] - started[node][axis]) / fluid.dt - last_forces[node][axis];
+            (std::isfinite(mass) ? mass * change / fluid.dt : 0) - last_forces[node][axis];
+        }
   }
 
 

@@ -93,6 +93,12 @@ namespace undine
         add_solid_columns(report, state, end, solid);
     }
 
+    std::vector<dealii::Tensor<1, dim>>
+    loads_on_surfaces(const State<dim> &state, const double time) const override
+    {
+      return fluid_side.loads_on_surfaces(state, time);
+    }
+
   private:
     using Vectors = typename SurfaceExchange<dim>::Vectors;
 

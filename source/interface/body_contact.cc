@@ -34,12 +34,11 @@ namespace undine
     typename ContactPattern<dim>::Pairs
     coupled_pairs(const std::vector<ContactTerm<dim>> &terms, const ContactSurfaces<dim> &surfaces)
     {
-      const unsigned int                  n_nodes = surfaces.bodies().n_nodes();
       typename ContactPattern<dim>::Pairs result;
       for (const auto &term : terms)
         for (unsigned int i = 0; i < term.n; ++i)
           for (unsigned int j = i + 1; j < term.n; ++j)
-            if (std::max(term.nodes[i], term.nodes[j]) < n_nodes &&
+            if (surfaces.moves(term.nodes[i]) && surfaces.moves(term.nodes[j]) &&
                 surfaces.surface_of_node(term.nodes[i]) != surfaces.surface_of_node(term.nodes[j]))
               result.insert({term.nodes[i], term.nodes[j]});
       return result;
@@ -53,22 +52,22 @@ namespace undine
                 const double                            factor,
                 const NodeMatrices<dim>                &of_nodes,
                 const ContactTerm<dim>                 &term,
-                const BodySurface<dim>                 &surface,
+                const ContactSurfaces<dim>             &surfaces,
                 const dealii::IndexSet                 &owned)
     {
       std::array<dealii::types::global_dof_index, dim *(dim + 1)> columns;
       std::array<double, dim *(dim + 1)>                          values;
       for (unsigned int i = 0; i < term.n; ++i)
-        for (unsigned int a = 0; a < dim && term.nodes[i] < surface.n_nodes(); ++a)
+        for (unsigned int a = 0; a < dim && surfaces.moves(term.nodes[i]); ++a)
           {
-            const auto row = surface.dofs_of_node(term.nodes[i])[a];
+            const auto row = surfaces.bodies().dofs_of_node(term.nodes[i])[a];
             if (!owned.is_element(row))
               continue;
             unsigned int n = 0;
             for (unsigned int j = 0; j < term.n; ++j)
-              for (unsigned int b = 0; b < dim && term.nodes[j] < surface.n_nodes(); ++b, ++n)
+              for (unsigned int b = 0; b < dim && surfaces.moves(term.nodes[j]); ++b, ++n)
                 {
-                  columns[n] = surface.dofs_of_node(term.nodes[j])[b];
+                  columns[n] = surfaces.bodies().dofs_of_node(term.nodes[j])[b];
                   values[n]  = factor * of_nodes[i][j][a][b];
                 }
             A.add(row, n, columns.data(), values.data(), false);
@@ -91,6 +90,18 @@ namespace undine
       settings.gap = share_of_facet * surfaces.facet_size();
     if (settings.stiffness == 0)
       settings.stiffness = least_modulus(solid);
+  }
+
+
+  template <int dim>
+  BodyContact<dim>::BodyContact(const BodyContact      &all,
+                                const SolidModel<dim>  &solid,
+                                const BodySurface<dim> &bodies)
+    : solid(solid)
+    , settings(all.settings)
+    , surfaces(all.surfaces, bodies)
+    , pattern(solid, surfaces.bodies())
+  {
   }
 
 
@@ -170,6 +181,15 @@ namespace undine
 
 
   template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  BodyContact<dim>::nodal_forces(const Vector &displacement, const double time) const
+  {
+    const auto places = surfaces.places(displacement, time);
+    return nodal_forces(terms(places), places);
+  }
+
+
+  template <int dim>
   void
   BodyContact<dim>::add_stiffness(Matrix       &A,
                                   const double  factor,
@@ -186,7 +206,7 @@ namespace undine
                   factor,
                   potential().second_derivatives(term, places),
                   term,
-                  surfaces.bodies(),
+                  surfaces,
                   solid.locally_owned());
     A.compress(dealii::VectorOperation::add);
   }
@@ -234,12 +254,25 @@ namespace undine
   }
 
 
+  template <int dim>
+  std::shared_ptr<const Contact<dim>>
+  make_contact(const Contact<dim>     &all,
+               const SolidModel<dim>  &solid,
+               const BodySurface<dim> &bodies)
+  {
+    return std::make_shared<const BodyContact<dim>>(
+      dynamic_cast<const BodyContact<dim> &>(all), solid, bodies);
+  }
+
+
 #define UNDINE_INSTANTIATE(dim)                                                           \
   template class BodyContact<dim>;                                                        \
   template std::shared_ptr<const Contact<dim>> make_contact(const ContactSettings<dim> &, \
                                                             const SolidModel<dim> &,      \
                                                             const FluidModel<dim> *,      \
-                                                            const Obstacles<dim> *);
+                                                            const Obstacles<dim> *);      \
+  template std::shared_ptr<const Contact<dim>> make_contact(                              \
+    const Contact<dim> &, const SolidModel<dim> &, const BodySurface<dim> &);
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

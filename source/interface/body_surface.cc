@@ -94,14 +94,55 @@ namespace undine
     , all_facets(facets)
     , communicator(model.communicator())
   {
-    std::vector<unsigned int> mine;
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      rest_positions.push_back(model.rest_position(dofs[node][0]));
+    share_out(model.locally_owned());
+  }
+
+
+  template <int dim>
+  BodySurface<dim>::BodySurface(const BodySurface       &all,
+                                const PartOfBodies<dim> &part,
+                                const Vector            &displacement)
+    : BodySurface(all)
+  {
+    const auto places = all.positions(displacement);
     for (unsigned int node = 0; node < n_nodes(); ++node)
       {
-        rest_positions.push_back(model.rest_position(dofs[node][0]));
-        for (unsigned int axis = 0; axis < dim; ++axis)
-          if (model.locally_owned().is_element(dofs[node][axis]))
-            mine.push_back(node * dim + axis);
+        for (auto &dof : dofs[node])
+          dof = part.numbers()[dof];
+        if (!moves(node))
+          rest_positions[node] = places[node];
       }
+    share_out(part.model().locally_owned());
+  }
+
+
+  template <int dim>
+  BodySurface<dim>::BodySurface(const BodySurface &all, const Vector &displacement)
+    : BodySurface(all)
+  {
+    rest_positions = all.positions(displacement);
+    for (auto &of_node : dofs)
+      of_node.fill(dealii::numbers::invalid_dof_index);
+    share_out(dealii::IndexSet());
+  }
+
+
+  /// Values of owned degrees of freedom are what ranks tell each other.
+  template <int dim>
+  void
+  BodySurface<dim>::share_out(const dealii::IndexSet &owned)
+  {
+    slots.clear();
+    counts.clear();
+    first.clear();
+    std::vector<unsigned int> mine;
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      if (moves(node))
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          if (owned.is_element(dofs[node][axis]))
+            mine.push_back(node * dim + axis);
     for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, mine))
       {
         first.push_back(slots.size());

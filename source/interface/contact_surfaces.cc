@@ -132,6 +132,22 @@ namespace undine
 
 
   template <int dim>
+  ContactSurfaces<dim>::ContactSurfaces(const ContactSurfaces &all, const BodySurface<dim> &bodies)
+    : body_surface(bodies)
+    , obstacles(all.obstacles)
+    , all_facets(all.all_facets)
+    , all_edges(all.all_edges)
+    , all_walls(all.all_walls)
+    , surfaces_of_nodes(all.surfaces_of_nodes)
+    , areas(all.areas)
+    , held(all.held)
+    , grown_together(all.grown_together)
+    , least_size(all.least_size)
+  {
+  }
+
+
+  template <int dim>
   void
   ContactSurfaces<dim>::add_domain_walls(const FluidModel<dim> &fluid)
   {

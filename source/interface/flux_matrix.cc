@@ -20,7 +20,7 @@ namespace undine
       for (const auto &entry : boundary_flux.entries())
         {
           const int component = parts.open_components[entry.component];
-          if (component < 0 || entry.node >= surface.n_body_nodes())
+          if (component < 0 || !surface.moves(entry.node))
             continue;
           const auto row = numbers.of_component(component);
           for (unsigned int axis = 0; axis < dim; ++axis)

@@ -70,22 +70,22 @@ namespace undine
                                         const MacGrid<dim>    &grid)
     : grid(grid)
     , file_name(scene.file().name())
-    , all_obstacles(scene)
+    , all_obstacles(std::make_shared<const Obstacles<dim>>(scene))
   {
-    auto rest = all_obstacles.positions(0);
+    auto rest = all_obstacles->positions(0);
     if (solid == nullptr)
-      all_facets = std::make_unique<const Surface<dim>>(all_obstacles.surface());
+      all_facets = std::make_shared<const Surface<dim>>(all_obstacles->surface());
     else
       {
         body_surface.emplace(*solid);
         const auto &names = body_surface->surface().body_names();
-        for (const auto &name : all_obstacles.surface().body_names())
+        for (const auto &name : all_obstacles->surface().body_names())
           if (std::find(names.begin(), names.end(), name) != names.end())
             throw scene.section("Obstacles")
               .section(name)
               .error("", "a body has the same name", "Try: another name for one of them.");
-        all_facets = std::make_unique<const Surface<dim>>(
-          joined(body_surface->surface(), all_obstacles.surface()));
+        all_facets = std::make_shared<const Surface<dim>>(
+          joined(body_surface->surface(), all_obstacles->surface()));
         rest = joined(body_surface->positions(solid->vector()), rest);
       }
     try
@@ -99,6 +99,17 @@ namespace undine
       {
         throw InputError(fmt::format("{}: {}", file_name, error.what()));
       }
+  }
+
+
+  template <int dim>
+  ImmersedSurface<dim>::ImmersedSurface(const ImmersedSurface &all, const BodySurface<dim> &bodies)
+    : grid(all.grid)
+    , file_name(all.file_name)
+    , body_surface(bodies)
+    , all_obstacles(all.all_obstacles)
+    , all_facets(all.all_facets)
+  {
   }
 
 
@@ -120,7 +131,7 @@ namespace undine
                                   const double      time,
                                   const double      ahead) const
   {
-    auto result = all_obstacles.positions(time);
+    auto result = all_obstacles->positions(time);
     check_motion(result, time);
     if (body_surface)
       {
@@ -141,7 +152,7 @@ namespace undine
                                    const double      dt) const
   {
     positions(state, time + dt); // obstacles must arrive somewhere
-    auto result = all_obstacles.velocities(time, dt);
+    auto result = all_obstacles->velocities(time, dt);
     if (body_surface)
       result = joined(body_surface->gather(state.velocity), result);
     return result;
@@ -190,7 +201,7 @@ namespace undine
   ImmersedSurface<dim>::check_motion(const std::vector<dealii::Point<dim>> &positions,
                                      const double                           time) const
   {
-    const auto &surface   = all_obstacles.surface();
+    const auto &surface   = all_obstacles->surface();
     auto        complaint = positions_complaint(surface, positions);
     if (complaint.empty())
       complaint = periodic_complaint(surface, positions, grid);

@@ -169,6 +169,8 @@ namespace undine
       unpack_surface(state, models, surface);
       if (!file.contains("history/numbers"))
         state.history = {}; // written by a run of constant steps: the scheme starts a new one
+      if (!file.contains("sleep"))
+        state.sleep = {}; // written by a run in which bodies did not sleep: all are awake
       auto arrays = pack(models, state);
       read_arrays(arrays, file, slot, communicator);
       unpack(state, models, arrays);

@@ -2,6 +2,7 @@
 #include <undine/coupled/fluid_geometry.h>
 #include <undine/output/history_arrays.h>
 #include <undine/output/particle_arrays.h>
+#include <undine/output/sleep_array.h>
 #include <undine/output/state_arrays.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -287,6 +288,8 @@ namespace undine
     std::vector<StateArray> arrays;
     if (state.history.in_use())
       arrays.push_back(pack_numbers(state.history, models.communicator()));
+    if (state.sleep.in_use())
+      arrays.push_back(pack_sleep(state.sleep, models.communicator()));
     if (models.solid)
       {
         auto canonical = canonical_nodes(*models.solid);
@@ -320,6 +323,8 @@ namespace undine
     auto array = arrays.begin();
     if (state.history.in_use())
       unpack_numbers(state.history, *array++, models.communicator());
+    if (state.sleep.in_use())
+      unpack_sleep(state.sleep, *array++, models.communicator());
     if (models.solid)
       {
         auto canonical = canonical_nodes(*models.solid);

@@ -89,6 +89,22 @@ namespace undine
       for (unsigned int axis = 0; axis < dim; ++axis)
         columns.push_back({name + " " + axis_names[axis], unit, value[axis]});
     }
+
+
+    template <int dim>
+    void
+    add_asleep(SolidMeasures<dim>       &measures,
+               const SolidMeasures<dim> &asleep,
+               const SolidModel<dim>    &awake)
+    {
+      measures.kinetic_energy += asleep.kinetic_energy;
+      measures.elastic_energy += asleep.elastic_energy;
+      measures.load_potential += asleep.load_potential;
+      measures.momentum += asleep.momentum;
+      for (unsigned int b = 0; b < measures.bodies.size(); ++b)
+        if (!awake.has(b))
+          measures.bodies[b] = asleep.bodies[b];
+    }
   } // namespace
 
 
@@ -172,6 +188,8 @@ namespace undine
       {
         body.mass   = dealii::Utilities::MPI::sum(body.mass, model.communicator());
         body.volume = dealii::Utilities::MPI::sum(body.volume, model.communicator());
+        if (body.mass == 0) // not in this model
+          continue;
         body.centre_of_mass =
           dealii::Point<dim>(dealii::Utilities::MPI::sum(
                                dealii::Tensor<1, dim>(body.centre_of_mass), model.communicator()) /
@@ -208,6 +226,69 @@ namespace undine
 
 
   template <int dim>
+  SolidMeasures<dim>
+  measure_solid(const SolidModel<dim>       &model,
+                const SolidStep<dim>        &step,
+                const SolidEnvironment<dim> &environment,
+                const SolidState            &state,
+                const double                 time,
+                const SolidReport<dim>      &report)
+  {
+    SolidMeasures<dim> result;
+    result.kinetic_energy = kinetic_energy(model, step.mass(), state.velocity);
+    result.elastic_energy = elastic_energy(model, state.displacement);
+    result.load_potential = load_potential(model, environment, state.displacement, time);
+    result.momentum       = linear_momentum(model, state.velocity);
+    const auto measures   = measure_bodies(model, state.displacement);
+    const auto speeds     = maximum_speeds(model, state.velocity);
+    const auto supports   = support_forces(model, report.reactions);
+    for (unsigned int b = 0; b < model.bodies().size(); ++b)
+      result.bodies.push_back(
+        {measures[b],
+         model.has(b) ? measures[b].volume / step.initial_volumes()[b] - 1 : 0,
+         speeds[b],
+         report.momentum_residuals.empty() ? 0 : report.momentum_residuals[b],
+         supports[b]});
+    return result;
+  }
+
+
+  template <int dim>
+  Columns
+  columns_of(const SolidMeasures<dim> &measures, const std::vector<Body<dim>> &bodies)
+  {
+    Columns    columns;
+    const auto add = [&](const std::string &name, const std::string &unit, const double value) {
+      columns.push_back({name, unit, value});
+    };
+    add("solid kinetic energy", "J", measures.kinetic_energy);
+    add("solid elastic energy", "J", measures.elastic_energy);
+    add("solid load potential", "J", measures.load_potential);
+    add_vector(columns, "solid momentum", "kg m/s", measures.momentum);
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const auto &body    = bodies[b];
+        const auto &of_body = measures.bodies[b];
+        add("volume " + body.name, fmt::format("m^{}", dim), of_body.measure.volume);
+        add("volume drift " + body.name, "1", of_body.drift);
+        add_vector<dim>(columns,
+                        "centre of mass " + body.name,
+                        "m",
+                        dealii::Tensor<1, dim>(of_body.measure.centre_of_mass));
+        add("max speed " + body.name, "m/s", of_body.speed);
+        add("momentum residual " + body.name, "1", of_body.residual);
+        for (unsigned int boundary = 0; boundary < body.boundaries.size(); ++boundary)
+          if (body.boundaries[boundary].fixes_displacement())
+            add_vector(columns,
+                       "reaction " + body.name + "/" + body.boundaries[boundary].name,
+                       "N",
+                       of_body.supports[boundary]);
+      }
+    return columns;
+  }
+
+
+  template <int dim>
   Columns
   solid_columns(const SolidModel<dim>       &model,
                 const SolidStep<dim>        &step,
@@ -216,38 +297,10 @@ namespace undine
                 const double                 time,
                 const SolidReport<dim>      &report)
   {
-    Columns    columns;
-    const auto add = [&](const std::string &name, const std::string &unit, const double value) {
-      columns.push_back({name, unit, value});
-    };
-    add("solid kinetic energy", "J", kinetic_energy(model, step.mass(), state.velocity));
-    add("solid elastic energy", "J", elastic_energy(model, state.displacement));
-    add("solid load potential", "J", load_potential(model, environment, state.displacement, time));
-    add_vector(columns, "solid momentum", "kg m/s", linear_momentum(model, state.velocity));
-    const auto measures = measure_bodies(model, state.displacement);
-    const auto speeds   = maximum_speeds(model, state.velocity);
-    const auto supports = support_forces(model, report.reactions);
-    for (unsigned int b = 0; b < model.bodies().size(); ++b)
-      {
-        const auto  &body   = model.bodies()[b];
-        const double volume = measures[b].volume;
-        add("volume " + body.name, fmt::format("m^{}", dim), volume);
-        add("volume drift " + body.name, "1", volume / step.initial_volumes()[b] - 1);
-        add_vector<dim>(columns,
-                        "centre of mass " + body.name,
-                        "m",
-                        dealii::Tensor<1, dim>(measures[b].centre_of_mass));
-        add("max speed " + body.name, "m/s", speeds[b]);
-        add("momentum residual " + body.name,
-            "1",
-            report.momentum_residuals.empty() ? 0 : report.momentum_residuals[b]);
-        for (unsigned int boundary = 0; boundary < body.boundaries.size(); ++boundary)
-          if (body.boundaries[boundary].fixes_displacement())
-            add_vector(columns,
-                       "reaction " + body.name + "/" + body.boundaries[boundary].name,
-                       "N",
-                       supports[b][boundary]);
-      }
+    auto measures = measure_solid(model, step, environment, state, time, report);
+    if (environment.asleep)
+      add_asleep(measures, *environment.asleep, model);
+    auto columns = columns_of(measures, model.bodies());
     if (environment.contact)
       for (const auto &column : environment.contact->columns(state.displacement, time))
         columns.push_back(column);
@@ -264,12 +317,19 @@ namespace undine
       const SolidModel<dim> &, const Vector &, const Vector &);                                   \
   template std::vector<BodyMeasure<dim>> measure_bodies(const SolidModel<dim> &, const Vector &); \
   template std::vector<double>           maximum_speeds(const SolidModel<dim> &, const Vector &); \
-  template Columns                       solid_columns(const SolidModel<dim> &,                   \
+  template SolidMeasures<dim>            measure_solid(const SolidModel<dim> &,                   \
                                                        const SolidStep<dim> &,                    \
                                                        const SolidEnvironment<dim> &,             \
                                                        const SolidState &,                        \
                                                        double,                                    \
-                                                       const SolidReport<dim> &);
+                                                       const SolidReport<dim> &);                 \
+  template Columns columns_of(const SolidMeasures<dim> &, const std::vector<Body<dim>> &);        \
+  template Columns solid_columns(const SolidModel<dim> &,                                         \
+                                 const SolidStep<dim> &,                                          \
+                                 const SolidEnvironment<dim> &,                                   \
+                                 const SolidState &,                                              \
+                                 double,                                                          \
+                                 const SolidReport<dim> &);
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

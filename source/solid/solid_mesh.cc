@@ -132,16 +132,19 @@ namespace undine
   template <int dim>
   std::vector<typename BodyShape<dim>::Sides>
   make_solid_mesh(dealii::parallel::shared::Triangulation<dim> &mesh,
-                  const std::vector<Body<dim>>                 &bodies)
+                  const std::vector<Body<dim>>                 &bodies,
+                  const std::vector<bool>                      &kept)
   {
     MeshDescription<dim>                        all;
-    std::vector<typename BodyShape<dim>::Sides> sides;
+    std::vector<typename BodyShape<dim>::Sides> sides(bodies.size());
     for (unsigned int index = 0; index < bodies.size(); ++index)
       {
+        if (!kept[index])
+          continue;
         dealii::Triangulation<dim> shape;
         bodies[index].shape->make_mesh(shape);
         shape.refine_global(bodies[index].refinements);
-        sides.push_back(bodies[index].shape->sides(shape));
+        sides[index] = bodies[index].shape->sides(shape);
         append(all, describe(bodies[index], index, shape));
       }
     mesh.create_triangulation(std::get<0>(all), std::get<1>(all), std::get<2>(all));
@@ -153,11 +156,12 @@ namespace undine
   std::vector<LoadedFace<dim>>
   select_faces(const dealii::Triangulation<dim>                  &mesh,
                const std::vector<Body<dim>>                      &bodies,
+               const std::vector<bool>                           &kept,
                const std::vector<typename BodyShape<dim>::Sides> &sides)
   {
     std::vector<LoadedFace<dim>> result;
     for (unsigned int body = 0; body < bodies.size(); ++body)
-      for (unsigned int b = 0; b < bodies[body].boundaries.size(); ++b)
+      for (unsigned int b = 0; kept[body] && b < bodies[body].boundaries.size(); ++b)
         {
           const auto &boundary = bodies[body].boundaries[b];
           const auto  ids      = named_sides<dim>(boundary, sides[body]);
@@ -177,12 +181,15 @@ namespace undine
   }
 
 
-#define UNDINE_INSTANTIATE(dim)                                                      \
-  template std::vector<typename BodyShape<dim>::Sides> make_solid_mesh(              \
-    dealii::parallel::shared::Triangulation<dim> &, const std::vector<Body<dim>> &); \
-  template std::vector<LoadedFace<dim>> select_faces(                                \
-    const dealii::Triangulation<dim> &,                                              \
-    const std::vector<Body<dim>> &,                                                  \
+#define UNDINE_INSTANTIATE(dim)                                         \
+  template std::vector<typename BodyShape<dim>::Sides> make_solid_mesh( \
+    dealii::parallel::shared::Triangulation<dim> &,                     \
+    const std::vector<Body<dim>> &,                                     \
+    const std::vector<bool> &);                                         \
+  template std::vector<LoadedFace<dim>> select_faces(                   \
+    const dealii::Triangulation<dim> &,                                 \
+    const std::vector<Body<dim>> &,                                     \
+    const std::vector<bool> &,                                          \
     const std::vector<typename BodyShape<dim>::Sides> &);
 
   UNDINE_INSTANTIATE(2)

@@ -38,21 +38,45 @@ namespace undine
 
   template <int dim>
   SolidModel<dim>::SolidModel(const Options &options, const MPI_Comm communicator)
-    : solid_numerics(options)
-    , all_bodies(read_bodies<dim>(options.section("Bodies")))
+    : SolidModel(
+        std::make_shared<const SolidNumerics>(options),
+        std::make_shared<const std::vector<Body<dim>>>(read_bodies<dim>(options.section("Bodies"))),
+        {},
+        communicator)
+  {
+    check_supports(*this, find_fixed());
+  }
+
+
+  template <int dim>
+  SolidModel<dim>::SolidModel(const SolidModel &all, const std::vector<bool> &kept)
+    : SolidModel(all.solid_numerics, all.all_bodies, kept, all.communicator())
+  {
+  }
+
+
+  /// `some`: empty for all.
+  template <int dim>
+  SolidModel<dim>::SolidModel(std::shared_ptr<const SolidNumerics>          numerics,
+                              std::shared_ptr<const std::vector<Body<dim>>> bodies,
+                              const std::vector<bool>                      &some,
+                              const MPI_Comm                                communicator)
+    : solid_numerics(std::move(numerics))
+    , all_bodies(std::move(bodies))
+    , kept(some.empty() ? std::vector<bool>(all_bodies->size(), true) : some)
     , straight(1)
     , mesh(communicator,
            dealii::Triangulation<dim>::none,
            false,
            dealii::parallel::shared::Triangulation<dim>::partition_metis)
-    , element(dealii::FE_Q<dim>(solid_numerics.degree), dim)
+    , element(dealii::FE_Q<dim>(solid_numerics->degree), dim)
     , dofs(mesh)
   {
-    const auto sides = make_solid_mesh(mesh, all_bodies);
-    loaded_faces     = select_faces(mesh, all_bodies, sides);
+    const auto sides = make_solid_mesh(mesh, *all_bodies, kept);
+    loaded_faces     = select_faces(mesh, *all_bodies, kept, sides);
     distribute_dofs();
     collect_nodes();
-    check_supports(*this, collect_fixed());
+    collect_fixed();
     make_sparsity();
     rest = std::make_unique<const RestGeometry<dim>>(straight, dofs);
   }
@@ -96,13 +120,13 @@ namespace undine
   /// Returns those of all ranks.
   template <int dim>
   std::vector<FixedDof>
-  SolidModel<dim>::collect_fixed()
+  SolidModel<dim>::find_fixed() const
   {
     std::map<Index, FixedDof> all;
     std::vector<Index>        indices(element.n_dofs_per_face());
     for (const auto &face : loaded_faces)
       {
-        const auto &boundary = all_bodies[face.body].boundaries[face.boundary];
+        const auto &boundary = (*all_bodies)[face.body].boundaries[face.boundary];
         if (!boundary.fixes_displacement())
           continue;
         const typename dealii::DoFHandler<dim>::active_cell_iterator cell(
@@ -112,17 +136,25 @@ namespace undine
           if (boundary.directions[axes[dof]])
             all.insert({dof, {dof, face.body, face.boundary, axes[dof]}});
       }
-    fixed_of_all_ranks.set_size(dofs.n_dofs());
     std::vector<FixedDof> result;
     for (const auto &entry : all)
+      result.push_back(entry.second);
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  SolidModel<dim>::collect_fixed()
+  {
+    fixed_of_all_ranks.set_size(dofs.n_dofs());
+    for (const auto &fixed : find_fixed())
       {
-        result.push_back(entry.second);
-        fixed_of_all_ranks.add_index(entry.first);
-        if (locally_owned().is_element(entry.first))
-          owned_fixed.push_back(entry.second);
+        fixed_of_all_ranks.add_index(fixed.dof);
+        if (locally_owned().is_element(fixed.dof))
+          owned_fixed.push_back(fixed);
       }
     fixed_of_all_ranks.compress();
-    return result;
   }
 
 
@@ -149,7 +181,15 @@ namespace undine
   const std::vector<Body<dim>> &
   SolidModel<dim>::bodies() const
   {
-    return all_bodies;
+    return *all_bodies;
+  }
+
+
+  template <int dim>
+  bool
+  SolidModel<dim>::has(const unsigned int body) const
+  {
+    return kept[body];
   }
 
 
@@ -157,7 +197,7 @@ namespace undine
   const SolidNumerics &
   SolidModel<dim>::numerics() const
   {
-    return solid_numerics;
+    return *solid_numerics;
   }
 
 
@@ -261,7 +301,7 @@ namespace undine
   double
   SolidModel<dim>::prescribed_displacement(const FixedDof &fixed, const double time) const
   {
-    const auto &body     = all_bodies[fixed.body];
+    const auto &body     = (*all_bodies)[fixed.body];
     const auto &boundary = body.boundaries[fixed.boundary];
     const auto &position = rest_positions[fixed.dof];
     if (boundary.kind == BodyBoundary<dim>::Kind::clamp)

@@ -96,29 +96,6 @@ namespace undine
     };
 
 
-    /// Displacement and velocity from the expressions of the bodies.
-    template <int dim>
-    void
-    set_initial(SolidState &state, const SolidModel<dim> &model)
-    {
-      const auto &geometry = model.geometry();
-      for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
-        {
-          const auto &body = model.bodies()[geometry.body(cell)];
-          for (const auto dof : geometry.dofs(cell))
-            if (model.locally_owned().is_element(dof))
-              {
-                const auto        &position = model.rest_position(dof);
-                const unsigned int axis     = model.axis(dof);
-                state.displacement(dof)     = body.displacement.value(position, 0., axis);
-                state.velocity(dof)         = body.velocity.value(position, 0., axis);
-              }
-        }
-      state.displacement.compress(dealii::VectorOperation::insert);
-      state.velocity.compress(dealii::VectorOperation::insert);
-    }
-
-
     /// Throws InputError on all ranks if the initial displacement inverts a body whose law does not
     /// tolerate that.
     template <int dim>
@@ -145,30 +122,6 @@ namespace undine
                           .what();
         }
       throw_together<InputError>(failure, model.communicator());
-    }
-
-
-    /// f - K(d) - C u [N].
-    template <int dim>
-    typename SolidModel<dim>::Vector
-    unbalanced_forces(const SolidState                       &state,
-                      const SolidModel<dim>                  &model,
-                      const typename SolidModel<dim>::Matrix &mass,
-                      const SolidEnvironment<dim>            &environment,
-                      const double                            time)
-    {
-      auto result  = dead_loads(model, environment, time);
-      auto product = model.vector();
-      result.add(1., pressure_loads(model, state.displacement, time));
-      result.add(-1., internal_forces(model, state.displacement));
-      mass.vmult(product, state.velocity);
-      result.add(-environment.mass_damping, product);
-      if (environment.stiffness_damping > 0)
-        {
-          internal_stiffness(model, state.displacement).vmult(product, state.velocity);
-          result.add(-environment.stiffness_damping, product);
-        }
-      return result;
     }
 
 
@@ -213,15 +166,58 @@ namespace undine
 
 
   template <int dim>
+  SolidState
+  start_of_bodies(const SolidModel<dim> &model)
+  {
+    SolidState  state{model.vector(), model.vector(), model.vector()};
+    const auto &geometry = model.geometry();
+    for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
+      {
+        const auto &body = model.bodies()[geometry.body(cell)];
+        for (const auto dof : geometry.dofs(cell))
+          if (model.locally_owned().is_element(dof))
+            {
+              const auto        &position = model.rest_position(dof);
+              const unsigned int axis     = model.axis(dof);
+              state.displacement(dof)     = body.displacement.value(position, 0., axis);
+              state.velocity(dof)         = body.velocity.value(position, 0., axis);
+            }
+      }
+    state.displacement.compress(dealii::VectorOperation::insert);
+    state.velocity.compress(dealii::VectorOperation::insert);
+    return state;
+  }
+
+
+  template <int dim>
   SolidStep<dim>::SolidStep(const SolidModel<dim> &model)
     : model(model)
     , mass_matrix(undine::mass_matrix(model))
     , solver(model)
   {
-    SolidState start{model.vector(), model.vector(), model.vector()};
-    set_initial(start, model);
-    for (const auto &body : measure_bodies(model, start.displacement))
+    for (const auto &body : measure_bodies(model, start_of_bodies(model).displacement))
       volumes.push_back(body.volume);
+  }
+
+
+  template <int dim>
+  typename SolidStep<dim>::Vector
+  SolidStep<dim>::unbalanced_forces(const SolidState            &state,
+                                    const SolidEnvironment<dim> &environment,
+                                    const double                 time) const
+  {
+    auto result  = dead_loads(model, environment, time);
+    auto product = model.vector();
+    result.add(1., pressure_loads(model, state.displacement, time));
+    result.add(-1., internal_forces(model, state.displacement));
+    mass_matrix.vmult(product, state.velocity);
+    result.add(-environment.mass_damping, product);
+    if (environment.stiffness_damping > 0)
+      {
+        internal_stiffness(model, state.displacement).vmult(product, state.velocity);
+        result.add(-environment.stiffness_damping, product);
+      }
+    return result;
   }
 
 
@@ -269,8 +265,7 @@ namespace undine
                              const double                 time,
                              const double                 dt) const
   {
-    SolidState state{model.vector(), model.vector(), model.vector()};
-    set_initial(state, model);
+    SolidState state = start_of_bodies(model);
     assert_not_inverted(state.displacement, model);
     if (environment.contact)
       environment.contact->check_start(state.displacement, time);
@@ -280,10 +275,7 @@ namespace undine
         auto fixed = model.vector();
         prescribe_acceleration(fixed, model, time, dt);
         state.acceleration =
-          solve_mass(model,
-                     mass_matrix,
-                     unbalanced_forces(state, model, mass_matrix, environment, time),
-                     fixed);
+          solve_mass(model, mass_matrix, unbalanced_forces(state, environment, time), fixed);
       }
     return state;
   }
@@ -318,6 +310,10 @@ namespace undine
   }
 
 
+  template SolidState
+  start_of_bodies(const SolidModel<2> &);
+  template SolidState
+  start_of_bodies(const SolidModel<3> &);
   template class SolidStep<2>;
   template class SolidStep<3>;
 } // namespace undine

@@ -40,6 +40,11 @@ namespace undine
     void
     finish(FluidStep<dim> &fluid, State<dim> &state, Report &report, double divergence);
 
+    /// What pressure, weight and friction do to the nodes of all surfaces after finish(), at `time`
+    /// [s] [N]; empty if nothing stands in the fluid. Collective.
+    std::vector<dealii::Tensor<1, dim>>
+    loads_on_surfaces(const State<dim> &state, double time) const;
+
     /// Where surfaces cut the grid; nullptr if nothing stands in the fluid.
     const FluidGeometry<dim> *
     geometry() const

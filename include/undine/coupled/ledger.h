@@ -55,6 +55,10 @@ namespace undine
       return on;
     }
 
+    /// From now on bodies that sleep are booked as obstacles; `surface`: with those that move.
+    void
+    follow(const ImmersedSurface<dim> *surface);
+
     /// A step begins; with a fluid: with v^n, collective. @{
     void
     start();
@@ -93,6 +97,10 @@ namespace undine
     add(const SolidBalance<dim> &solid, double dt);
     /// @}
 
+    /// What bodies that fell asleep have lost.
+    void
+    add_rest(const SolidAmounts<dim> &rest);
+
     /// The terms as gains of fluid and bodies, energies in J, momenta in kg m/s (in 2D per metre).
     /// After them "energy by NAME" for every effect that is on: what of the terms is due to it.
     /// "energy closure": |gain - sum of terms| over energy and |terms|. "momentum closure": the
@@ -124,6 +132,7 @@ namespace undine
       by_inertia,    ///< of the integrator
       by_elasticity, ///< of the integrator
       by_stages,     ///< the earlier ones
+      by_sleep,      ///< taken from bodies that fall asleep
       n_terms
     };
 
@@ -150,8 +159,10 @@ namespace undine
     const bool                  on;
     const bool                  has_stages;
     const bool                  has_contact;
-    Amount                      fluid;  ///< what it has, as far as the step has come
-    Amount                      bodies; ///< what they had at t^n
+    const bool                  has_sleep;
+    const ImmersedSurface<dim> *surface; ///< nullptr: none
+    Amount                      fluid;   ///< what it has, as far as the step has come
+    Amount                      bodies;  ///< what they had at t^n
     Amount                      gain;
     std::array<Amount, n_terms> terms;
     std::vector<double>         by_effect;            ///< [J]

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace undine
 {
@@ -20,8 +21,8 @@ namespace undine
   template <int dim>
   struct Models
   {
-    std::unique_ptr<const SolidModel<dim>> solid; ///< nullptr: no bodies
-    std::unique_ptr<const FluidModel<dim>> fluid; ///< nullptr: no fluid
+    std::shared_ptr<const SolidModel<dim>> solid; ///< nullptr: no bodies
+    std::shared_ptr<const FluidModel<dim>> fluid; ///< nullptr: no fluid
     Effects<dim>                           effects;
     Direction                              direction = Direction::two_way;
 
@@ -29,8 +30,11 @@ namespace undine
     std::unique_ptr<const ParticleModel<dim>> particles;
 
     /// Of everything that stands in the fluid; nullptr: nothing does.
-    std::unique_ptr<const ImmersedSurface<dim>> surface;
-    std::unique_ptr<const VoidRegions<dim>>     void_regions; ///< nullptr: there are none
+    std::shared_ptr<const ImmersedSurface<dim>> surface;
+    std::shared_ptr<const VoidRegions<dim>>     void_regions; ///< nullptr: there are none
+
+    /// Where only some bodies are awake (SleepingBodies): what environment() returns.
+    std::optional<SolidEnvironment<dim>> for_awake;
 
     /// All ranks that compute the scene.
     MPI_Comm
@@ -54,22 +58,32 @@ namespace undine
     SolidEnvironment<dim>
     environment() const
     {
-      SolidEnvironment<dim> result;
-      for (const auto &effect : effects)
-        effect->affect(result);
-      if (solid && result.contact_settings)
-        result.contact = make_contact<dim>(
-          *result.contact_settings, *solid, fluid.get(), surface ? &surface->obstacles() : nullptr);
+      if (for_awake)
+        return *for_awake;
+      auto result    = wishes_of_effects();
+      result.contact = contact_of_bodies();
       return result;
     }
 
-    bool
-    have_contact() const
+    /// The same without what is built for it.
+    SolidEnvironment<dim>
+    wishes_of_effects() const
     {
       SolidEnvironment<dim> result;
       for (const auto &effect : effects)
         effect->affect(result);
-      return result.contact_settings.has_value();
+      return result;
+    }
+
+    /// nullptr: bodies do not feel each other. Collective.
+    std::shared_ptr<const Contact<dim>>
+    contact_of_bodies() const
+    {
+      const auto settings = wishes_of_effects().contact_settings;
+      if (!solid || !settings)
+        return nullptr;
+      return make_contact<dim>(
+        *settings, *solid, fluid.get(), surface ? &surface->obstacles() : nullptr);
     }
   };
 } // namespace undine

@@ -29,6 +29,9 @@ namespace undine
     void
     step(State<dim> &state, const Stage &stage, Report &report) override;
 
+    std::vector<dealii::Tensor<1, dim>>
+    loads_on_surfaces(const State<dim> &state, double time) const override;
+
   private:
     using Exchange = SurfaceExchange<dim>;
     using Vectors  = typename Exchange::Vectors;

@@ -26,6 +26,14 @@ namespace undine
     /// advanced.
     virtual void
     step(State<dim> &state, const Stage &stage, Report &report) = 0;
+
+    /// What the fluid does to the surfaces in it at the end of the last stage, at `time` [s], in
+    /// all their nodes [N]; empty if bodies do not feel it. Collective.
+    virtual std::vector<dealii::Tensor<1, dim>>
+    loads_on_surfaces(const State<dim> & /*state*/, double /*time*/) const
+    {
+      return {};
+    }
   };
 
 

@@ -46,6 +46,9 @@ namespace undine
     void
     step(State<dim> &state, const Stage &stage, Report &report) override;
 
+    std::vector<dealii::Tensor<1, dim>>
+    loads_on_surfaces(const State<dim> &state, double time) const override;
+
   private:
     void
     balance(const State<dim> &state, const typename Projection<dim>::Report &projected, double dt);

@@ -3,6 +3,7 @@
 #define undine_coupled_state_h
 
 #include <undine/base/core/clock.h>
+#include <undine/coupled/sleep_state.h>
 #include <undine/coupled/step_history.h>
 #include <undine/fluid/fluid_state.h>
 #include <undine/particles/particle_state.h>
@@ -47,6 +48,7 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>> other_forces;
 
     StepHistory<dim> history;
+    SleepState<dim>  sleep;
   };
 } // namespace undine
 

@@ -62,8 +62,12 @@ namespace undine
     std::string
     complaint(double asked, const Report &last, const SolveError &error) const;
 
+    std::unique_ptr<Physics<dim>>
+    make_physics(const Models<dim> &models, TimingTree &timing) const;
     void
     advance(State<dim> &state, Report &report);
+    void
+    advance_or_wake(State<dim> &state, const State<dim> &saved, Report &report);
 
     std::unique_ptr<TimeIntegrator> integrator;
     double                          asked_step   = 0.01; // [s]

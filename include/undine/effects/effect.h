@@ -112,7 +112,7 @@ namespace undine
 
   /// The effects that the scene calls for, in alphabetical order of their names.
   template <int dim>
-  using Effects = std::vector<std::unique_ptr<Effect<dim>>>;
+  using Effects = std::vector<std::shared_ptr<Effect<dim>>>;
 
   /// Those of which `section`, the scene's `Effects`, has a subsection, with their keys; for the
   /// reference all. Throws InputError, also for names that nobody has registered.

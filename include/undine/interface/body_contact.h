@@ -35,6 +35,12 @@ namespace undine
                 const FluidModel<dim>      *fluid,
                 const Obstacles<dim>       *obstacles);
 
+    /// The same where only some bodies move, those of `solid`: `bodies` has been made from all of
+    /// them, and displacements are those of these bodies. Collective.
+    BodyContact(const BodyContact      &all,
+                const SolidModel<dim>  &solid,
+                const BodySurface<dim> &bodies);
+
     /// D [m].
     double
     gap() const
@@ -46,6 +52,8 @@ namespace undine
     energy(const Vector &displacement, double time) const override;
     Vector
     forces(const Vector &displacement, double time) const override;
+    std::vector<dealii::Tensor<1, dim>>
+    nodal_forces(const Vector &displacement, double time) const override;
     void
     add_stiffness(Matrix &A, double factor, const Vector &displacement, double time) const override;
     double
@@ -69,7 +77,7 @@ namespace undine
     ContactPotential<dim>
     potential() const;
 
-    const SolidModel<dim>      &solid;
+    const SolidModel<dim>      &solid; ///< of the bodies that move
     ContactSettings<dim>        settings;
     const ContactSurfaces<dim>  surfaces;
     mutable ContactPattern<dim> pattern;

@@ -3,7 +3,7 @@
 #define undine_interface_body_surface_h
 
 #include <undine/interface/surface.h>
-#include <undine/solid/solid_model.h>
+#include <undine/solid/part_of_bodies.h>
 
 #include <array>
 #include <vector>
@@ -26,6 +26,14 @@ namespace undine
     /// Collective.
     explicit BodySurface(const SolidModel<dim> &model);
 
+    /// The same nodes and facets, of which only those of a part of the bodies move: vectors are
+    /// those of the part. The others stay where `displacement`, of all bodies, has taken them.
+    /// Collective.
+    BodySurface(const BodySurface &all, const PartOfBodies<dim> &part, const Vector &displacement);
+
+    /// The same where no body moves, whatever the vectors. Collective.
+    BodySurface(const BodySurface &all, const Vector &displacement);
+
     const Surface<dim> &
     surface() const
     {
@@ -38,7 +46,14 @@ namespace undine
       return dofs.size();
     }
 
-    /// The degrees of freedom of a node, one for each axis.
+    /// Does the node have degrees of freedom?
+    bool
+    moves(const unsigned int node) const
+    {
+      return dofs[node][0] != dealii::numbers::invalid_dof_index;
+    }
+
+    /// The degrees of freedom of a node that moves, one for each axis.
     const std::array<Index, dim> &
     dofs_of_node(const unsigned int node) const
     {
@@ -46,7 +61,7 @@ namespace undine
     }
 
     /// The values of a vector over the locally owned degrees of freedom in all nodes, on every
-    /// rank. Collective.
+    /// rank; zero in those that do not move. Collective.
     std::vector<dealii::Tensor<1, dim>>
     gather(const Vector &vector) const;
 
@@ -73,9 +88,12 @@ namespace undine
     static BodySurface
     collect(const SolidModel<dim> &model);
 
+    void
+    share_out(const dealii::IndexSet &owned);
+
     std::vector<std::array<Index, dim>> dofs; ///< of each node
     Surface<dim>                        all_facets;
-    std::vector<dealii::Point<dim>>     rest_positions;
+    std::vector<dealii::Point<dim>>     rest_positions; ///< of nodes that do not move: their place
     MPI_Comm                            communicator;
     std::vector<Slot>                   slots;  ///< those that rank 0 owns, then rank 1, ...
     std::vector<int>                    counts; ///< of slots of each rank

@@ -33,6 +33,9 @@ namespace undine
                     const FluidModel<dim>      *fluid,
                     const Obstacles<dim>       *obstacles);
 
+    /// The same in which only some bodies move, or none: `bodies` has been made from all of them.
+    ContactSurfaces(const ContactSurfaces &all, const BodySurface<dim> &bodies);
+
     /// Of all nodes [m]. Collective.
     Places
     places(const Vector &displacement, double time) const;
@@ -41,6 +44,13 @@ namespace undine
     bodies() const
     {
       return body_surface;
+    }
+
+    /// Does a force on the node move a body?
+    bool
+    moves(const unsigned int node) const
+    {
+      return node < body_surface.n_nodes() && body_surface.moves(node);
     }
 
     unsigned int

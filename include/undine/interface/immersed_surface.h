@@ -27,6 +27,9 @@ namespace undine
     /// the same name. Collective.
     ImmersedSurface(const Options &scene, const SolidModel<dim> *solid, const MacGrid<dim> &grid);
 
+    /// The same in which only some bodies move, or none: `bodies` has been made from all of them.
+    ImmersedSurface(const ImmersedSurface &all, const BodySurface<dim> &bodies);
+
     const Surface<dim> &
     surface() const
     {
@@ -43,7 +46,7 @@ namespace undine
     const Obstacles<dim> &
     obstacles() const
     {
-      return all_obstacles;
+      return *all_obstacles;
     }
 
     /// The sections of the scene that describe them, in the order of surface().body_names().
@@ -62,6 +65,13 @@ namespace undine
     n_body_nodes() const
     {
       return body_surface ? body_surface->n_nodes() : 0;
+    }
+
+    /// Is it a node of a body that moves? The fluid sees others as those of obstacles.
+    bool
+    moves(const unsigned int node) const
+    {
+      return node < n_body_nodes() && body_surface->moves(node);
     }
 
     /// Where the nodes are, given the bodies' displacement and the time for the obstacles [m];
@@ -102,11 +112,11 @@ namespace undine
     void
     check_motion(const std::vector<dealii::Point<dim>> &positions, const double time) const;
 
-    const MacGrid<dim>                   &grid;
-    const std::string                     file_name;
-    std::optional<const BodySurface<dim>> body_surface;
-    const Obstacles<dim>                  all_obstacles;
-    std::unique_ptr<const Surface<dim>>   all_facets;
+    const MacGrid<dim>                         &grid;
+    const std::string                           file_name;
+    std::optional<const BodySurface<dim>>       body_surface;
+    const std::shared_ptr<const Obstacles<dim>> all_obstacles;
+    std::shared_ptr<const Surface<dim>>         all_facets;
   };
 } // namespace undine
 

@@ -6,6 +6,7 @@
 #include <undine/solid/solid_model.h>
 
 #include <optional>
+#include <vector>
 
 namespace undine
 {
@@ -29,6 +30,10 @@ namespace undine
     /// -dE/dd [N], at fixed degrees of freedom too; empty if nothing touches.
     virtual Vector
     forces(const Vector &displacement, double time) const = 0;
+
+    /// -dE/dd in all nodes of the bodies' surfaces, those of bodies that sleep included [N].
+    virtual std::vector<dealii::Tensor<1, dim>>
+    nodal_forces(const Vector &displacement, double time) const = 0;
 
     /// A += factor d^2E/dd^2, with places in A for all entries that this needs.
     virtual void

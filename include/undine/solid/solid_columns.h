@@ -66,10 +66,46 @@ namespace undine
                  const dealii::TrilinosWrappers::MPI::Vector &velocity);
   /// @}
 
+  /// What `statistics` says of the bodies at a time, in 2D per metre of depth. Of bodies that a
+  /// model leaves out all is zero.
+  template <int dim>
+  struct SolidMeasures
+  {
+    struct OfBody
+    {
+      BodyMeasure<dim>                    measure;
+      double                              drift    = 0; ///< V / V(t = 0) - 1 [1]
+      double                              speed    = 0; ///< the largest [m/s]
+      double                              residual = 0; ///< of the balance of momentum [1]
+      std::vector<dealii::Tensor<1, dim>> supports;     ///< force of each boundary [N]
+    };
+
+    double                 kinetic_energy = 0; ///< [J]
+    double                 elastic_energy = 0; ///< [J]
+    double                 load_potential = 0; ///< [J]
+    dealii::Tensor<1, dim> momentum;           ///< [kg m/s]
+    std::vector<OfBody>    bodies;
+  };
+
+  /// Of the bodies that the model has. `report` is that of the step that led to `state`: with an
+  /// empty one, balances and reactions are zero. Collective.
+  template <int dim>
+  SolidMeasures<dim>
+  measure_solid(const SolidModel<dim>       &model,
+                const SolidStep<dim>        &step,
+                const SolidEnvironment<dim> &environment,
+                const SolidState            &state,
+                double                       time,
+                const SolidReport<dim>      &report);
+
+  template <int dim>
+  Columns
+  columns_of(const SolidMeasures<dim> &measures, const std::vector<Body<dim>> &bodies);
+
   /// Energies and momentum; volume, its drift (V / V(t = 0) - 1), centre of mass, largest speed and
   /// balance of momentum of every body; and the force of every support ("reaction beam/root x").
-  /// `report` is that of the step that led to `state`: with an empty one, balances and reactions
-  /// are zero. In 2D energies and forces are those of 1 m of depth. Collective.
+  /// Bodies that sleep (`environment`) count with what they measured when they fell asleep; then
+  /// contact, if there is. Other arguments: see measure_solid(). Collective.
   template <int dim>
   Columns
   solid_columns(const SolidModel<dim>       &model,

@@ -4,6 +4,7 @@
 
 #include <undine/base/options/expression.h>
 #include <undine/solid/contact_settings.h>
+#include <undine/solid/sleep_settings.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -16,6 +17,9 @@ namespace undine
 {
   template <int dim>
   class Contact;
+
+  template <int dim>
+  struct SolidMeasures;
 
 
   /// A force on a body that an effect calls for, as a function of the place at rest and the time.
@@ -39,6 +43,11 @@ namespace undine
 
     std::optional<ContactSettings<dim>> contact_settings; ///< none: bodies do not feel each other
     std::shared_ptr<const Contact<dim>> contact;          ///< by these settings, for this scene
+
+    std::optional<SleepSettings> sleep_settings; ///< none: bodies do not sleep
+
+    /// Of the bodies that sleep: they count in `statistics`, and nowhere else; nullptr: none do.
+    std::shared_ptr<const SolidMeasures<dim>> asleep;
   };
 } // namespace undine
 

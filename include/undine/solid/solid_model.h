@@ -47,8 +47,17 @@ namespace undine
     /// Read these sections and build. Collective. Throws InputError, FileError.
     SolidModel(const Options &options, MPI_Comm communicator);
 
+    /// Some of the bodies by themselves, as if the others were not there. Bodies keep their
+    /// numbers; those that are not `kept` have no cells. Collective.
+    SolidModel(const SolidModel &all, const std::vector<bool> &kept);
+
     const std::vector<Body<dim>> &
     bodies() const;
+
+    /// Does the body have cells?
+    bool
+    has(unsigned int body) const;
+
     const SolidNumerics &
     numerics() const;
     MPI_Comm
@@ -113,29 +122,37 @@ namespace undine
     matrix() const;
 
   private:
+    SolidModel(std::shared_ptr<const SolidNumerics>          numerics,
+               std::shared_ptr<const std::vector<Body<dim>>> bodies,
+               const std::vector<bool>                      &kept,
+               MPI_Comm                                      communicator);
+
     void
     distribute_dofs();
     void
     collect_nodes();
     std::vector<FixedDof>
+    find_fixed() const;
+    void
     collect_fixed();
     void
     make_sparsity();
 
-    SolidNumerics                                solid_numerics;
-    std::vector<Body<dim>>                       all_bodies;
-    dealii::MappingQ<dim>                        straight;
-    dealii::parallel::shared::Triangulation<dim> mesh;
-    std::vector<LoadedFace<dim>>                 loaded_faces;
-    dealii::FESystem<dim>                        element;
-    dealii::DoFHandler<dim>                      dofs;
-    dealii::IndexSet                             relevant;
-    dealii::IndexSet                             fixed_of_all_ranks;
-    std::vector<FixedDof>                        owned_fixed;
-    std::vector<unsigned int>                    axes;           ///< [dof]
-    std::vector<dealii::Point<dim>>              rest_positions; ///< [dof]
-    std::unique_ptr<const RestGeometry<dim>>     rest;
-    dealii::TrilinosWrappers::SparsityPattern    sparsity;
+    std::shared_ptr<const SolidNumerics>          solid_numerics;
+    std::shared_ptr<const std::vector<Body<dim>>> all_bodies;
+    std::vector<bool>                             kept; ///< [body]
+    dealii::MappingQ<dim>                         straight;
+    dealii::parallel::shared::Triangulation<dim>  mesh;
+    std::vector<LoadedFace<dim>>                  loaded_faces;
+    dealii::FESystem<dim>                         element;
+    dealii::DoFHandler<dim>                       dofs;
+    dealii::IndexSet                              relevant;
+    dealii::IndexSet                              fixed_of_all_ranks;
+    std::vector<FixedDof>                         owned_fixed;
+    std::vector<unsigned int>                     axes;           ///< [dof]
+    std::vector<dealii::Point<dim>>               rest_positions; ///< [dof]
+    std::unique_ptr<const RestGeometry<dim>>      rest;
+    dealii::TrilinosWrappers::SparsityPattern     sparsity;
   };
 } // namespace undine
 

@@ -40,6 +40,11 @@ namespace undine
     std::string note;
   };
 
+  /// Displacement and velocity as the scene's expressions give them at t = 0. Collective.
+  template <int dim>
+  SolidState
+  start_of_bodies(const SolidModel<dim> &model);
+
   /// Advances the bodies without a fluid.
   template <int dim>
   class SolidStep
@@ -77,6 +82,13 @@ namespace undine
          TimingTree                  &timing,
          const Vector                &nodal_forces = {},
          const ContactStart          &contact      = {});
+
+    /// f - K(d) - C u of a state at `time` [s], f being loads but those of a fluid and of contact,
+    /// supports not counted [N]. Collective. Throws SolveError.
+    Vector
+    unbalanced_forces(const SolidState            &state,
+                      const SolidEnvironment<dim> &environment,
+                      double                       time) const;
 
     /// Of a state. Collective.
     SolidAmounts<dim>

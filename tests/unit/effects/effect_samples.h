@@ -169,6 +169,12 @@ namespace undine_tests
                             return -2 * 0.5 * way_of_block(before, after).norm_square() /
                                    after.report.dt;
                           }};
+    samples["sleep"]   = {
+        flying_block(),
+        "",
+        "set Speed = 10\nset Time = 0.02",
+        "",
+        [](const auto &before, const auto &) { return -before.column("solid kinetic energy"); }};
     samples["contact"] = {
       flying_block(),
       "",

@@ -1,0 +1,217 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What bodies that sleep cost: steps with one body, with three more that sleep, and with four awake.
+
+usage: benchmarks/sleeping_bodies.py [PROGRAM] [--case NAME]... [--rounds N] [--check] [--profile]
+
+One body vibrates; three equal ones rest beside it, without a fluid or in one. Prints a table: seconds of a processor per step
+of the three runs; the share (1 + 3 asleep - 1) / (4 - 1) of what three bodies cost awake; and how far displacements of the run
+with sleep are from those of the run without it, over the bound 2 V T of doc/effects.md. Steps are those after all three
+have fallen asleep; runs take turns, and medians are printed. --check fails where displacements differ by more than 2 V T or
+where the share is above that of the case. --profile prints seconds per step and phase instead. One rank; --rounds 5
+takes about ten minutes.
+"""
+import argparse
+import os
+import re
+import resource
+import statistics as medians
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(ROOT, "tests"))
+import scene_tools  # noqa: E402
+
+SPEED, TIME = 1e-2, 0.25  # V [m/s], T [s]: half a period of the bodies
+STEP = 0.02  # s
+FIRST, LAST = 14, 34  # steps between which runs are compared: the three sleep after the thirteenth
+PLACES = (0.3, 0.8, 1.2, 1.6)  # of the bodies [m]
+
+
+@dataclass
+class Case:
+    """Bodies of which kind, in what, and the largest share that passes."""
+    dimension: int
+    cells: str  # of a body
+    fluid: str  # cells of the grid; empty: no fluid
+    bound: float
+    scheme: str = "simultaneous"
+
+
+CASES = {
+    "alone, 2D": Case(2, "8, 32", "", 0.05),
+    "alone, 3D": Case(3, "2, 8, 4", "", 0.05),
+    "in a fluid, 2D": Case(2, "8, 32", "80, 40", 0.05),
+    "in a fluid, 3D": Case(3, "2, 8, 4", "40, 20, 12", 0.05),
+    "time splitting, 2D": Case(2, "8, 32", "80, 40", 0.05, "time_splitting"),
+}
+
+
+def body(name, x, speed, case):
+    """A post on the ground."""
+    depth = ("", "") if case.dimension == 2 else (", 0.2", ", 0.8")
+    still = "; 0" if case.dimension == 2 else "; 0; 0"
+    return f"""
+  subsection {name}
+    set Shape            = box
+    set Lower corner     = {x}, -0.02{depth[0]}
+    set Upper corner     = {x + 0.1}, 0.5{depth[1]}
+    set Cells            = {case.cells}
+    set Density          = 1000
+    set Material         = neo-Hookean
+    set Young's modulus  = 1e6
+    set Poisson's ratio  = 0.3
+    set Initial velocity = {speed} * max(0, y){still}
+    subsection Boundaries
+      subsection foot
+        set Kind  = clamp
+        set Sides = bottom
+      end
+    end
+  end"""
+
+
+def fluid(case):
+    corner = "2, 1" if case.dimension == 2 else "2, 1, 1"
+    return f"""
+subsection Domain
+  set Upper corner = {corner}
+  set Cells        = {case.fluid}
+end
+subsection Fluid
+  set Density = 1
+  subsection Boundaries
+    subsection above
+      set Sides    = top
+      set Kind     = pressure
+      set Pressure = 0
+    end
+  end
+end"""
+
+
+def scene(case, n_bodies, sleeps, probes=""):
+    bodies = "".join(body(f"body_{k}", x, 0.4 if k == 0 else 0.01, case) for k, x in enumerate(PLACES[:n_bodies]))
+    effects = "subsection convection\nend\n" if case.fluid else ""
+    if sleeps:
+        effects += f"subsection sleep\n  set Speed = {SPEED}\n  set Time = {TIME}\nend\n"
+    return f"""
+set Dimension = {case.dimension}
+set Scheme = {case.scheme}
+subsection Time
+  set End           = 100
+  set Step          = {STEP}
+  set Maximum steps = {LAST}
+end
+{fluid(case) if case.fluid else ""}
+subsection Bodies{bodies}
+end
+subsection Effects
+{effects}
+end
+subsection Probes
+{probes}
+end
+subsection Output
+  set Parts = statistics
+end
+"""
+
+
+def probe(k, x, case):
+    point = f"{x}, 0.5" if case.dimension == 2 else f"{x}, 0.5, 0.5"
+    return f"subsection top_{k}\n  set Kind = body point\n  set Body = body_{k}\n  set Point = {point}\nend\n"
+
+
+@dataclass
+class Result:
+    """What a run took and found."""
+    seconds: float  # of a processor, which others that use the machine do not change much
+    phases: dict  # (level, name): seconds of the clock, summed over phases of a name
+    columns: dict  # of `statistics`
+
+
+def run(program, text, steps):
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "scene.prm")
+        with open(name, "w", encoding="utf-8") as file:
+            file.write(text)
+        command = [program, name, "--output", folder + "/out", "--set", f"Time/Maximum steps={steps}"]
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if done.returncode:
+            sys.exit(f"sleeping_bodies.py: {done.stdout[-800:]}{done.stderr[-800:]}")
+        phases = {}
+        with open(folder + "/out/timing", encoding="utf-8") as file:
+            for line in file:
+                found = re.match(r"( *)([a-z].*?)\s+(\d+)\s+([\d.]+)\s+[\d.]+\s*$", line)
+                if found:
+                    phase = (len(found[1]) // 2, found[2])
+                    phases[phase] = phases.get(phase, 0) + float(found[4])
+        names, _, rows = scene_tools.parse(scene_tools.statistics(folder + "/out"))
+        columns = {column: [row[k] for row in rows] for k, column in enumerate(names)}
+        return Result(after.ru_utime - before.ru_utime, phases, columns)
+
+
+def per_step(program, text):
+    """(seconds, seconds by phase) of a step: the difference of a long and a short run."""
+    short, whole = run(program, text, FIRST), run(program, text, LAST)
+    n_steps = LAST - FIRST
+    phases = {phase: (whole.phases[phase] - short.phases.get(phase, 0)) / n_steps for phase in whole.phases}
+    return (whole.seconds - short.seconds) / n_steps, phases
+
+
+def difference(program, case):
+    """Largest difference of the bodies' tops, with sleep and without, over 2 V T."""
+    probes = "".join(probe(k, x, case) for k, x in enumerate(PLACES))
+    with_sleep = run(program, scene(case, 4, True, probes), LAST).columns
+    without = run(program, scene(case, 4, False, probes), LAST).columns
+    largest = 0
+    for name in without:
+        if re.match(r"top_\d displacement", name):
+            largest = max([largest] + [abs(a - b) for a, b in zip(with_sleep[name], without[name])])
+    if any(with_sleep[f"asleep body_{k}"][FIRST] != 1 for k in (1, 2, 3)):
+        sys.exit("sleeping_bodies.py: bodies that rest do not sleep")
+    return largest / (2 * SPEED * TIME)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", default=os.path.join(ROOT, "build", "undine"))
+    parser.add_argument("--case", action="append", choices=CASES)
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--profile", action="store_true")
+    options = parser.parse_args()
+    failed = False
+    if not options.profile:
+        print("| case | 1 body [s] | 1 + 3 asleep [s] | 4 awake [s] | share | difference over 2 V T |")
+        print("|---|---|---|---|---|---|")
+    for name in options.case or CASES:
+        case = CASES[name]
+        texts = [scene(case, 1, False), scene(case, 4, True), scene(case, 4, False)]
+        found = [[per_step(options.program, text) for text in texts] for _ in range(options.rounds)]
+        if options.profile:
+            print_profile(name, found)
+            continue
+        one, asleep, four = (medians.median(of_round[k][0] for of_round in found) for k in range(3))
+        share, off = (asleep - one) / (four - one), difference(options.program, case)
+        print(f"| {name} | {one:.4f} | {asleep:.4f} | {four:.4f} | {100 * share:.1f} % | {off:.2g} |", flush=True)
+        failed |= share > case.bound or off > 1
+    if options.check and failed:
+        sys.exit("sleeping_bodies.py: a share or a difference is too large")
+
+
+def print_profile(name, found):
+    print(f"\n{name}: ms per step with 1 body, 1 + 3 asleep, 4 awake")
+    for phase in found[0][2][1]:
+        row = [1e3 * medians.median(of_round[k][1].get(phase, 0) for of_round in found) for k in range(3)]
+        print(f"{'  ' * phase[0] + phase[1]:32}" + "".join(f"{value:10.3f}" for value in row))
+
+
+if __name__ == "__main__":
+    main()
