@@ -23,7 +23,7 @@ namespace undine
   ///
   ///  - a body falls asleep if no node has been faster than V for the time T; it keeps d, and what
   ///    is left of its u is taken away when the next step begins (the ledger's term `sleep`);
-  ///  - it wakes if sum_i |F_i - F_i'| > m V / T over the nodes of its surface (S17), F being the
+  ///  - it wakes if sum_i |F_i - F_i'| > m V / T over the nodes of its surface (S18), F being the
   ///    loads of fluid and contact and F' those with which it fell asleep; the step is then done
   ///    again with it awake, so that none is accepted in which something that sleeps should not.
   ///
