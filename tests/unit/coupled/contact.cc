@@ -42,7 +42,7 @@ TEST_CASE("a ball bounces off a wall and gains no energy", "[contact]")
 }
 
 
-TEST_CASE("balls that collide keep their momentum and gain no energy", "[contact]")
+TEST_CASE("balls that collide keep their momentum and gain no energy", "[contact][mpi]")
 {
   check_collision<2>(.004, 75);
   check_collision<2>(.03, 12);
@@ -155,6 +155,57 @@ TEST_CASE("the pressure under a disk pressed on a plane is that of Hertz", "[con
   INFO(force << " N/m on " << run.column("nodes in contact") << " nodes");
   CHECK(pressure == Approx(hertz).epsilon(.05));
   CHECK(run.column("reaction disk/top y") == Approx(-force).epsilon(1e-7));
+}
+
+
+namespace
+{
+  /// A ball that sinks in a tank, to the floor.
+  CoupledRun<2>
+  sinking(const std::string &scheme, const std::string &more)
+  {
+    return CoupledRun<2>(
+      "set Scheme = " + scheme + "\n" + steps_of(.02) + section("Output", "set Ledger = true") +
+      section("Domain", "set Cells = 16, 16") + section("Fluid", "set Density = 1000") +
+      section("Bodies",
+              body("ball",
+                   "set Shape = ball\nset Radius = .15\nset Centre = .47, .3\nset Density = "
+                   "3000\nset Young's modulus = 1e6\nset Poisson's ratio = .3\n")) +
+      section("Effects",
+              section("contact", "") + section("gravity", "set Acceleration = 0, -9.81") +
+                convection()) +
+      more);
+  }
+} // namespace
+
+
+TEST_CASE("a ball in a tank of water bounces off its floor", "[contact]")
+{
+  for (const std::string scheme : {"simultaneous"})
+    {
+      INFO(scheme);
+      auto         run   = sinking(scheme, "");
+      double       least = 1, momentum = 0, lowest = 1, energy_in_flight = 0;
+      unsigned int touches = 0;
+      for (unsigned int n = 0; n < 24; ++n)
+        {
+          run.step();
+          least    = std::min(least, run.column("least gap"));
+          momentum = std::max(momentum, run.column("momentum closure"));
+          lowest   = std::min(lowest, run.column("centre of mass ball y"));
+          touches += run.column("nodes in contact") > 0;
+          CHECK(run.column("Flagged cells") == 0);
+          if (run.column("nodes in contact") == 0)
+            energy_in_flight = run.column("solid kinetic energy");
+        }
+      CHECK(touches > 0);
+      CHECK(least > 0);
+      CHECK(lowest > .1);
+      CHECK(momentum < 1e-9);
+      // It sets out upwards again, with less than it had.
+      CHECK(run.column("solid momentum y") > 0);
+      CHECK(energy_in_flight < 3000 * .0707 * 9.81 * .15);
+    }
 }
 
 
