@@ -9,6 +9,7 @@ file's own name is always expected. What `# never: text | text` lists it must no
 comment `# run` are valid and fail while running.
 The good scenes that the others include must be accepted.
 """
+import concurrent.futures
 import pathlib
 import re
 import subprocess
@@ -62,8 +63,10 @@ def main():
             failed += 1
             print(f"{name} must be accepted: {result.stderr}")
     scenes = sorted(folder.glob("*.prm"))
-    for scene in scenes:
-        found = faults(program, scene)
+    # Two at a time: most of a run is the start of the program.
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        found_of = list(pool.map(lambda scene: faults(program, scene), scenes))
+    for scene, found in zip(scenes, found_of):
         if found:
             failed += 1
             print(f"{scene.name}:\n    " + "\n    ".join(found))

@@ -44,6 +44,58 @@ namespace undine
         cell[d] = grid.faces(d)->row(d).locate(place[d]).lower;
       return cell;
     }
+
+
+    /// The cells of the box with two corners in these cells.
+    template <int dim>
+    IndexBox<dim>
+    cells_between(const GridIndex<dim> &begin, const GridIndex<dim> &end)
+    {
+      IndexBox<dim> cells;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          cells.lower[d] = std::min(begin[d], end[d]);
+          cells.upper[d] = std::max(begin[d], end[d]) + 1;
+        }
+      return cells;
+    }
+
+
+    template <int dim>
+    bool
+    holds(const IndexBox<dim> &box, const IndexBox<dim> &cells)
+    {
+      return cells.intersection(box) == cells;
+    }
+
+
+    /// Does a straight way come through a cell, or past it within rounding?
+    template <int dim>
+    bool
+    passes_cell(const MacGrid<dim>       &grid,
+                const GridIndex<dim>     &cell,
+                const dealii::Point<dim> &from,
+                const dealii::Point<dim> &to)
+    {
+      constexpr double tolerance = 1e-6; // of a cell
+      double           enter = 0, leave = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const auto  &row   = grid.faces(d)->row(d);
+          const double lower = row.position(cell[d]), upper = row.position(cell[d] + 1);
+          const double rim = tolerance * (upper - lower), way = to[d] - from[d];
+          const double to_lower = lower - rim - from[d], to_upper = upper + rim - from[d];
+          if (way == 0)
+            {
+              if (to_lower > 0 || to_upper < 0)
+                return false;
+              continue;
+            }
+          enter = std::max(enter, std::min(to_lower / way, to_upper / way));
+          leave = std::min(leave, std::max(to_lower / way, to_upper / way));
+        }
+      return enter <= leave;
+    }
   } // namespace
 
 
@@ -51,11 +103,13 @@ namespace undine
   BodyVicinity<dim>::BodyVicinity(const MacGrid<dim>                          &grid_,
                                   const std::shared_ptr<const OpenParts<dim>> &before,
                                   const std::shared_ptr<const OpenParts<dim>> &now,
+                                  const Obstruction<dim>                      *obstruction,
                                   const GridIndex<dim>                        &width)
   {
     if (!before && !now)
       return;
     grid            = &grid_;
+    surfaces        = obstruction;
     const auto kind = [](const auto &open, const GridIndex<dim> &cell) {
       return open ? open->cells.kind(cell) : LatticeParts<dim>::Kind::whole;
     };
@@ -65,15 +119,80 @@ namespace undine
                     kind(now, cell) != LatticeParts<dim>::Kind::whole;
     });
     auto wider = width;
-    for (int &layers : wider.values)
-      layers += margin;
+    for (int &n_layers : wider.values)
+      n_layers += margin;
     marks.exchange(wider);
     box = marks.stored();
-    touched.resize(box.size());
-    for_each(box,
-             [&](const GridIndex<dim> &cell) { touched[box.position(cell)] = marks(cell) > 0; });
-    vicinity = dilated(touched, box, margin);
+    layers.resize(box.size());
+    for_each(box, [&](const GridIndex<dim> &cell) {
+      layers[box.position(cell)] = marks(cell) > 0 ? 0 : margin + 1;
+    });
+    if (surfaces != nullptr)
+      mark_swept_cells();
+    measure_layers();
     find_extent();
+    if (surfaces != nullptr)
+      find_facets();
+  }
+
+
+  template <int dim>
+  void
+  BodyVicinity<dim>::mark_swept_cells()
+  {
+    const auto mark = [&](GridIndex<dim> cell) {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!grid->periodic(d)) // boundary points belong to the cells there
+          cell[d] = std::clamp(cell[d], 0, grid->cells_along()[d] - 1);
+      if (box.contains(cell))
+        layers[box.position(cell)] = 0;
+    };
+    surfaces->for_each_swept(*grid->cells(), box, mark);
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      surfaces->for_each_swept(*grid->faces(axis), box, [&](const GridIndex<dim> &face) {
+        mark(face);
+        mark(moved(face, axis, -1));
+      });
+  }
+
+
+  template <int dim>
+  void
+  BodyVicinity<dim>::measure_layers()
+  {
+    std::vector<std::uint8_t> touched(layers.size());
+    for (std::size_t k = 0; k < layers.size(); ++k)
+      touched[k] = layers[k] == 0;
+    for (int n = margin; n > 0; --n)
+      {
+        const auto within = dilated(touched, box, n);
+        for (std::size_t k = 0; k < layers.size(); ++k)
+          if (within[k])
+            layers[k] = touched[k] ? 0 : n;
+      }
+  }
+
+
+  template <int dim>
+  void
+  BodyVicinity<dim>::find_facets()
+  {
+    first_facet.reserve(box.size() + 1);
+    first_facet.push_back(0);
+    for_each(box, [&](const GridIndex<dim> &cell) {
+      if (layers[box.position(cell)] == 0)
+        {
+          dealii::Point<dim> lower, upper;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              lower[d] = grid->faces(d)->row(d).position(cell[d]);
+              upper[d] = grid->faces(d)->row(d).position(cell[d] + 1);
+            }
+          const auto found = surfaces->facets_near(std::make_pair(lower, upper));
+          facets.insert(facets.end(), found.begin(), found.end());
+        }
+      first_facet.push_back(facets.size());
+    });
   }
 
 
@@ -85,7 +204,7 @@ namespace undine
     lowest.fill(infinity);
     highest.fill(-infinity);
     for_each(box, [&](const GridIndex<dim> &cell) {
-      if (!vicinity[box.position(cell)])
+      if (layers[box.position(cell)] > margin)
         return;
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -119,10 +238,44 @@ namespace undine
     for (int s = 0; s < n_samples; ++s)
       {
         const auto cell = cell_or_image_at(*grid, from + double(s) / (n_samples - 1) * (to - from));
-        if (!box.contains(cell) || vicinity[box.position(cell)])
+        if (!box.contains(cell) || layers[box.position(cell)] <= margin)
           return true;
       }
     return false;
+  }
+
+
+  template <int dim>
+  bool
+  BodyVicinity<dim>::is_next_to_body(const dealii::Point<dim> &place) const
+  {
+    if (grid == nullptr)
+      return false;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (place[d] < lowest[d] || place[d] > highest[d])
+        return false;
+    const auto cell = cell_or_image_at(*grid, place);
+    return !box.contains(cell) || layers[box.position(cell)] <= 1;
+  }
+
+
+  template <int dim>
+  template <class Action>
+  void
+  BodyVicinity<dim>::until_facet(const IndexBox<dim>      &cells,
+                                 const dealii::Point<dim> &from,
+                                 const dealii::Point<dim> &to,
+                                 const Action             &action) const
+  {
+    bool stop = false;
+    for_each(cells, [&](const GridIndex<dim> &cell) {
+      const auto position = box.position(cell);
+      const auto begin = first_facet[position], end = first_facet[position + 1];
+      if (stop || begin == end || !passes_cell(*grid, cell, from, to))
+        return;
+      for (auto k = begin; !stop && k < end; ++k)
+        stop = action(facets[k]);
+    });
   }
 
 
@@ -132,20 +285,66 @@ namespace undine
   {
     if (grid == nullptr)
       return true;
-    const auto    begin = cell_or_image_at(*grid, from), end = cell_or_image_at(*grid, to);
-    IndexBox<dim> cells;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        cells.lower[d] = std::min(begin[d], end[d]);
-        cells.upper[d] = std::max(begin[d], end[d]) + 1;
-      }
-    if (!(cells.intersection(box) == cells))
+    const auto cells = cells_between(cell_or_image_at(*grid, from), cell_or_image_at(*grid, to));
+    if (!holds(box, cells))
       return false;
     bool clear = true;
-    for_each(cells, [&](const GridIndex<dim> &cell) {
-      clear = clear && touched[box.position(cell)] == 0;
-    });
+    for_each(cells,
+             [&](const GridIndex<dim> &cell) { clear = clear && layers[box.position(cell)] > 0; });
     return clear;
+  }
+
+
+  template <int dim>
+  typename BodyVicinity<dim>::Place
+  BodyVicinity<dim>::place(const dealii::Point<dim> &point) const
+  {
+    return {point, grid == nullptr ? GridIndex<dim>{} : cell_or_image_at(*grid, point)};
+  }
+
+
+  template <int dim>
+  bool
+  BodyVicinity<dim>::is_hidden(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
+  {
+    return is_hidden(place(from), place(to));
+  }
+
+
+  template <int dim>
+  bool
+  BodyVicinity<dim>::is_hidden(const Place &from, const Place &to) const
+  {
+    if (surfaces == nullptr)
+      return false;
+    const auto cells = cells_between(from.cell, to.cell);
+    if (!holds(box, cells))
+      return surfaces->first_hit(from.point, to.point) <= 1;
+    bool hidden = false;
+    until_facet(cells, from.point, to.point, [&](const FacetImage &facet) {
+      hidden = surfaces->first_hit(facet, from.point, to.point) <= 1;
+      return hidden;
+    });
+    return hidden;
+  }
+
+
+  template <int dim>
+  double
+  BodyVicinity<dim>::first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
+  {
+    constexpr std::size_t short_way = 27; // cells; through more of them a tree is faster
+    double                result    = std::numeric_limits<double>::infinity();
+    if (surfaces == nullptr)
+      return result;
+    const auto cells = cells_between(cell_or_image_at(*grid, from), cell_or_image_at(*grid, to));
+    if (cells.size() > short_way || !holds(box, cells))
+      return surfaces->first_hit(from, to);
+    until_facet(cells, from, to, [&](const FacetImage &facet) {
+      result = std::min(result, surfaces->first_hit(facet, from, to));
+      return false;
+    });
+    return result;
   }
 
 

@@ -91,7 +91,8 @@ namespace undine
     , start_time(time)
     , step(dt)
     , ghost_width(layers_within(model, longest_way(model, velocity, time, dt), dt))
-    , body_vicinity(model.grid(), velocity[0].open_parts(), bodies.open_parts, ghost_width)
+    , body_vicinity(
+        model.grid(), velocity[0].open_parts(), bodies.open_parts, bodies.obstruction, ghost_width)
   {
     complete(frozen_velocity, model, ghost_width, time);
     if (among.obstruction != nullptr)
@@ -153,7 +154,7 @@ namespace undine
   dealii::Tensor<1, dim>
   Flow<dim>::velocity_at(const dealii::Point<dim> &place) const
   {
-    if (!body_vicinity.is_near(place, place))
+    if (!body_vicinity.is_next_to_body(place))
       return interpolate(frozen_velocity, place);
     dealii::Tensor<1, dim> result;
     for (unsigned int axis = 0; axis < dim; ++axis)
@@ -206,7 +207,7 @@ namespace undine
     dealii::Point<dim> end   = place + way;
     if (body_vicinity.is_near(place, end))
       {
-        const double hit = among.obstruction->first_hit(place, end);
+        const double hit = body_vicinity.first_hit(place, end);
         if (hit <= 1)
           return {place + share * hit * way, false};
       }

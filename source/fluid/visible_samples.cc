@@ -18,6 +18,30 @@ namespace undine
     /// Share of the way from a point to the centroid of its part: far less than is smoothed
     /// otherwise, far more than rounding.
     constexpr double side_share = 1e-10;
+
+
+    /// The point that a boundary point continues; others themselves.
+    template <int dim>
+    GridIndex<dim>
+    inside(const Lattice<dim> &lattice, GridIndex<dim> index)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!lattice.row(d).periodic())
+          index[d] = std::clamp(index[d], 0, lattice.row(d).size() - 1);
+      return index;
+    }
+
+
+    /// The place of a point of the lattice; faces are in the cells above them.
+    template <int dim>
+    typename BodyVicinity<dim>::Place
+    located(const Lattice<dim> &lattice, const GridIndex<dim> &index)
+    {
+      auto cell = inside(lattice, index);
+      if (const auto axis = lattice.normal_axis(); axis < dim && !lattice.row(axis).periodic())
+        cell[axis] = std::min(cell[axis], lattice.row(axis).size() - 2);
+      return {lattice.point(index), cell};
+    }
   } // namespace
 
 
@@ -29,14 +53,39 @@ namespace undine
     : field(field_)
     , obstruction(obstruction_)
     , vicinity(vicinity_)
-    , kinds(field.shared_lattice())
   {
-    if (const auto *divided = field.divided())
-      for_each(kinds.owned(), [&](const GridIndex<dim> &index) {
-        kinds(index) = static_cast<int>(divided->kind(index));
-      });
-    kinds.exchange(width);
+    gather_sights(width);
     gather_parts(width);
+  }
+
+
+  template <int dim>
+  void
+  VisibleSamples<dim>::gather_sights(const GridIndex<dim> &width)
+  {
+    using Kind          = typename LatticeParts<dim>::Kind;
+    const auto &lattice = field.lattice();
+    const auto &stored  = field.stored();
+    sights.assign(stored.size(), Sight::value);
+    if (const auto *divided = field.divided())
+      {
+        Field<dim> kinds(field.shared_lattice());
+        for_each(kinds.owned(), [&](const GridIndex<dim> &index) {
+          kinds(index) = static_cast<int>(divided->kind(index));
+        });
+        kinds.exchange(width);
+        for_each(stored, [&](const GridIndex<dim> &index) {
+          const auto kind = static_cast<Kind>(static_cast<int>(kinds(inside(lattice, index))));
+          sights[stored.position(index)] = kind == Kind::whole    ? Sight::value
+                                           : kind == Kind::closed ? Sight::nothing
+                                                                  : Sight::parts;
+        });
+      }
+    obstruction.for_each_swept(lattice, stored, [&](const GridIndex<dim> &index) {
+      auto &sight = sights[stored.position(index)];
+      if (sight == Sight::value)
+        sight = Sight::nothing;
+    });
   }
 
 
@@ -95,44 +144,28 @@ namespace undine
 
 
   template <int dim>
-  bool
-  VisibleSamples<dim>::is_visible(const dealii::Point<dim> &sample,
-                                  const dealii::Point<dim> &place) const
-  {
-    return vicinity.is_clear(place, sample) ||
-           obstruction.first_hit(place, sample) == std::numeric_limits<double>::infinity();
-  }
-
-
-  template <int dim>
   std::optional<double>
   VisibleSamples<dim>::value_of(const GridIndex<dim> &index,
                                 const Eye            &eye,
                                 const bool            all_visible) const
   {
-    using Kind          = typename LatticeParts<dim>::Kind;
     const auto &lattice = field.lattice();
-    auto        inside  = index; // a boundary point continues what lies inside
-    for (unsigned int d = 0; d < dim; ++d)
-      if (!lattice.row(d).periodic())
-        inside[d] = std::clamp(inside[d], 0, lattice.row(d).size() - 1);
-    const auto kind = static_cast<Kind>(static_cast<int>(kinds(inside)));
-    if (kind == Kind::closed)
+    const auto  sight   = sights[field.stored().position(index)];
+    if (sight == Sight::nothing)
       return {};
-    if (kind == Kind::whole)
+    if (sight == Sight::value)
       {
-        const auto sample = lattice.point(index);
-        const bool counts =
-          (all_visible || is_visible(sample, eye.place)) && !obstruction.swept(sample);
-        return counts ? std::optional<double>(field(index)) : std::nullopt;
+        const bool hidden = !all_visible && vicinity.is_hidden(eye.place, located(lattice, index));
+        return hidden ? std::nullopt : std::optional<double>(field(index));
       }
+    const auto point = inside(lattice, index);
     const auto found =
-      parts.find(IndexBox<dim>{{}, lattice.shape()}.position(lattice.wrapped(inside)));
+      parts.find(IndexBox<dim>{{}, lattice.shape()}.position(lattice.wrapped(point)));
     if (found == parts.end())
       return {};
-    const bool is_own = eye.own != nullptr && inside == *eye.own;
+    const bool is_own = eye.own != nullptr && point == *eye.own;
     return value_of_parts(
-      found->second, lattice.point(inside) - lattice.point(lattice.wrapped(inside)), eye, is_own);
+      found->second, lattice.point(point) - lattice.point(lattice.wrapped(point)), eye, is_own);
   }
 
 
@@ -145,9 +178,10 @@ namespace undine
   {
     double sum = 0, total = 0, nearest = std::numeric_limits<double>::infinity();
     for (const auto &sample : samples)
-      if (is_visible(sample.place + image, eye.place))
+      if (const dealii::Point<dim> place = sample.place + image;
+          !vicinity.is_hidden(eye.place, vicinity.place(place)))
         {
-          const double distance = (sample.place + image - eye.place).norm();
+          const double distance = place.distance(eye.place.point);
           if (only_nearest && distance >= nearest)
             continue;
           if (only_nearest)
@@ -164,7 +198,7 @@ namespace undine
   std::optional<double>
   VisibleSamples<dim>::at(const dealii::Point<dim> &place) const
   {
-    return multilinear(place, {place, nullptr});
+    return multilinear(place, {vicinity.place(place), nullptr});
   }
 
 
@@ -176,7 +210,7 @@ namespace undine
   {
     const auto &lattice = field.lattice();
     const auto  point   = lattice.point(index);
-    const Eye   eye{foot, place == point ? nullptr : &index};
+    const Eye   eye{vicinity.place(foot), place == point ? nullptr : &index};
     if (foot == place)
       if (const auto own = value_of(index, eye, false))
         return own;
@@ -234,7 +268,7 @@ namespace undine
     auto upper = lower;
     for (unsigned int d = 0; d < dim; ++d)
       ++upper[d];
-    const bool all_visible = is_visible_box(lower, upper, eye.place);
+    const bool all_visible = is_visible_box(lower, upper, eye.place.point);
     double     sum = 0, total = 0, raised_sum = 0, raised_total = 0;
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {

@@ -3,6 +3,7 @@
 #include <undine/interface/simplex.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace undine
@@ -29,62 +30,6 @@ namespace undine
 
       double enter = 0, leave = 1;
     };
-
-
-    /// A ridge of a facet, and the direction in the facet's plane that points out across it.
-    template <int dim>
-    struct Rim
-    {
-      dealii::Point<dim>     place;
-      dealii::Tensor<1, dim> outward; ///< unit
-    };
-
-    std::array<Rim<2>, 2>
-    rims(const FacetNodes<2> &facet, const dealii::Tensor<1, 2> &)
-    {
-      auto way = facet[1] - facet[0];
-      way /= way.norm();
-      return {{{facet[0], -way}, {facet[1], way}}};
-    }
-
-    std::array<Rim<3>, 3>
-    rims(const FacetNodes<3> &facet, const dealii::Tensor<1, 3> &normal)
-    {
-      std::array<Rim<3>, 3> result;
-      for (unsigned int k = 0; k < 3; ++k)
-        {
-          const auto way    = facet[(k + 1) % 3] - facet[k];
-          result[k].place   = facet[k];
-          result[k].outward = dealii::cross_product_3d(way, normal);
-          result[k].outward /= result[k].outward.norm();
-        }
-      return result;
-    }
-
-
-    /// The part of a way that lies in the box around a facet, widened by `thickness`.
-    template <int dim>
-    bool
-    clip_by_box(ClippedWay               &way,
-                const FacetNodes<dim>    &facet,
-                const dealii::Point<dim> &from,
-                const dealii::Point<dim> &to,
-                const double              thickness)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          double lower = facet[0][d], upper = lower;
-          for (const auto &node : facet)
-            {
-              lower = std::min(lower, node[d]);
-              upper = std::max(upper, node[d]);
-            }
-          if (!way.keep_behind(lower - thickness - from[d], lower - thickness - to[d]) ||
-              !way.keep_behind(from[d] - upper - thickness, to[d] - upper - thickness))
-            return false;
-        }
-      return true;
-    }
 
 
     /// The point of a segment nearest to a place, as share of the way from a to b.
@@ -167,32 +112,80 @@ namespace undine
   } // namespace
 
 
+  template <>
+  void
+  ThickFacet<2>::set_rims(const FacetNodes<2> &nodes)
+  {
+    auto way = nodes[1] - nodes[0];
+    way /= way.norm();
+    rims = {{{nodes[0], -way}, {nodes[1], way}}};
+  }
+
+
+  template <>
+  void
+  ThickFacet<3>::set_rims(const FacetNodes<3> &nodes)
+  {
+    for (unsigned int k = 0; k < 3; ++k)
+      {
+        const auto way  = nodes[(k + 1) % 3] - nodes[k];
+        rims[k].place   = nodes[k];
+        rims[k].outward = dealii::cross_product_3d(way, normal);
+        rims[k].outward /= rims[k].outward.norm();
+      }
+  }
+
+
+  template <int dim>
+  ThickFacet<dim>::ThickFacet(const FacetNodes<dim> &nodes, const double thickness_)
+    : thickness(thickness_)
+    , lower(nodes[0])
+    , upper(nodes[0])
+    , in_plane(nodes[0])
+    , normal(area_vector(nodes))
+  {
+    for (const auto &node : nodes)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = std::min(lower[d], node[d]);
+          upper[d] = std::max(upper[d], node[d]);
+        }
+    const double area = normal.norm();
+    has_area          = area > 0;
+    if (!has_area)
+      return;
+    normal /= area;
+    set_rims(nodes);
+  }
+
+
   template <int dim>
   double
-  first_hit(const FacetNodes<dim>    &facet,
-            const dealii::Point<dim> &from,
-            const dealii::Point<dim> &to,
-            const double              thickness)
+  ThickFacet<dim>::first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
   {
     constexpr double nowhere = std::numeric_limits<double>::infinity();
-    ClippedWay       in_box;
-    if (!clip_by_box<dim>(in_box, facet, from, to, thickness))
+    // Most ways stay on one side of its plane. Ends far away lose digits: those in doubt go on.
+    const double above_start = normal * (from - in_plane), above_end = normal * (to - in_plane);
+    const double doubt = thickness + 1e-12 * (std::abs(above_start) + std::abs(above_end));
+    if (std::min(above_start, above_end) > doubt || std::max(above_start, above_end) < -doubt)
       return nowhere;
-    auto         normal = area_vector(facet);
-    const double area   = normal.norm();
-    if (!(area > 0))
+    ClippedWay in_box;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!in_box.keep_behind(lower[d] - thickness - from[d], lower[d] - thickness - to[d]) ||
+          !in_box.keep_behind(from[d] - upper[d] - thickness, to[d] - upper[d] - thickness))
+        return nowhere;
+    if (!has_area)
       return nowhere;
-    normal /= area;
 
     // Distances of places near the facet: of far ends of a long way they would lose digits.
     const dealii::Point<dim> start = from + in_box.enter * (to - from);
     const dealii::Point<dim> end   = from + in_box.leave * (to - from);
     ClippedWay               way;
-    const double             a = normal * (start - facet[0]), b = normal * (end - facet[0]);
+    const double             a = normal * (start - in_plane), b = normal * (end - in_plane);
     if (!way.keep_behind(a - thickness, b - thickness) ||
         !way.keep_behind(-a - thickness, -b - thickness))
       return nowhere;
-    for (const auto &rim : rims(facet, normal))
+    for (const auto &rim : rims)
       if (!way.keep_behind(rim.outward * (start - rim.place) - thickness,
                            rim.outward * (end - rim.place) - thickness))
         return nowhere;
@@ -256,8 +249,7 @@ namespace undine
 
   // clang-format off
 #define INSTANTIATE(dim)                                                                           \
-  template double first_hit<dim>(const FacetNodes<dim> &, const dealii::Point<dim> &,                   \
-                            const dealii::Point<dim> &, const double);                             \
+  template class ThickFacet<dim>;                                                                    \
   template bool passes_over<dim>(const FacetNodes<dim> &, const FacetNodes<dim> &,                      \
                             const std::array<unsigned int, dim> &, const dealii::Point<dim> &,     \
                             const double);

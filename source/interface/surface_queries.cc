@@ -68,6 +68,9 @@ namespace undine
     }
 
 
+    constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+
     /// Call action(shift) for the vectors of whole periods by which the box [lower, upper] can be
     /// moved to meet `target`; in directions that are not periodic it is not moved.
     template <int dim, class Action>
@@ -91,6 +94,25 @@ namespace undine
           shift[d] = index[d] * periods[d];
         action(shift);
       });
+    }
+
+
+    /// Call action(a, b) for the images of the places a and b, moved together by whole periods,
+    /// whose box, widened by `thickness`, may meet `target`.
+    template <int dim, class Action>
+    void
+    for_each_image(const dealii::Point<dim>       &a,
+                   const dealii::Point<dim>       &b,
+                   const dealii::BoundingBox<dim> &target,
+                   const std::array<double, dim>  &periods,
+                   const double                    thickness,
+                   const Action                   &action)
+    {
+      const auto corners = box_around(a, b, thickness).get_boundary_points();
+      for_each_shift<dim>(
+        corners.first, corners.second, target, periods, [&](const dealii::Tensor<1, dim> &shift) {
+          action(dealii::Point<dim>(a + shift), dealii::Point<dim>(b + shift));
+        });
     }
   } // namespace
 
@@ -137,18 +159,18 @@ namespace undine
       }
     thickness = tolerance * largest;
 
-    std::vector<Leaf<dim>> boxes, swept_boxes;
-    const auto            &facets = moved.surface->facets();
-    for (unsigned int facet = 0; facet < facets.size(); ++facet)
+    std::vector<Leaf<dim>> leaves;
+    for (unsigned int facet = 0; facet < moved.surface->facets().size(); ++facet)
       {
         const auto after = nodes(facet), before = old_nodes(facet);
-        boxes.emplace_back(box_around(after, thickness), facet);
+        thick_facets.emplace_back(after, thickness);
+        leaves.emplace_back(box_around(after, thickness), facet);
         if (after == before)
           continue;
-        swept_boxes.emplace_back(boxes.back().first, facet);
+        swept_boxes.push_back(leaves.back());
         swept_boxes.back().first.merge_with(box_around(before, thickness));
       }
-    trees = std::make_unique<const Trees>(boxes, swept_boxes);
+    trees = std::make_unique<const Trees>(leaves, swept_boxes);
   }
 
 
@@ -182,23 +204,66 @@ namespace undine
   double
   SurfaceQueries<dim>::first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
   {
-    double result = std::numeric_limits<double>::infinity();
+    double result = nowhere;
     if (trees->facets.empty())
       return result;
-    const auto box     = box_around(from, to, thickness);
-    const auto try_way = [&](const dealii::Tensor<1, dim> &shift) {
-      const dealii::Point<dim> start = from + shift, end = to + shift;
-      for_each_near(
-        trees->facets, box_around(start, end, thickness), [&](const unsigned int facet) {
-          result = std::min(result, undine::first_hit<dim>(nodes(facet), start, end, thickness));
-        });
-    };
-    for_each_shift<dim>(box.get_boundary_points().first,
-                        box.get_boundary_points().second,
+    for_each_image<dim>(
+      from, to, trees->box, periods, thickness, [&](const auto &start, const auto &end) {
+        for_each_near(
+          trees->facets, box_around(start, end, thickness), [&](const unsigned int facet) {
+            result = std::min(result, thick_facets[facet].first_hit(start, end));
+          });
+      });
+    return result;
+  }
+
+
+  template <int dim>
+  double
+  SurfaceQueries<dim>::first_hit(const FacetImage         &image,
+                                 const dealii::Point<dim> &from,
+                                 const dealii::Point<dim> &to) const
+  {
+    return thick_facets[image.facet].first_hit(from + image.to_facet, to + image.to_facet);
+  }
+
+
+  template <int dim>
+  std::vector<typename SurfaceQueries<dim>::FacetImage>
+  SurfaceQueries<dim>::facets_near(const dealii::BoundingBox<dim> &box) const
+  {
+    std::vector<FacetImage> result;
+    if (trees->facets.empty())
+      return result;
+    const auto corners = box.get_boundary_points();
+    for_each_image<dim>(corners.first,
+                        corners.second,
                         trees->box,
                         periods,
-                        try_way);
+                        thickness,
+                        [&](const auto &lower, const auto &upper) {
+                          for_each_near(trees->facets,
+                                        box_around(lower, upper, thickness),
+                                        [&](const unsigned int facet) {
+                                          result.push_back({facet, lower - corners.first});
+                                        });
+                        });
     return result;
+  }
+
+
+  template <int dim>
+  bool
+  SurfaceQueries<dim>::passes_over(const unsigned int facet, const dealii::Point<dim> &place) const
+  {
+    const auto                   &numbers = moved.surface->facets()[facet];
+    std::array<unsigned int, dim> order;
+    for (unsigned int k = 0; k < dim; ++k)
+      order[k] = k;
+    std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+      return numbers[a] < numbers[b];
+    });
+    return undine::passes_over<dim>(old_nodes(facet), nodes(facet), order, place, thickness);
   }
 
 
@@ -209,25 +274,46 @@ namespace undine
     bool result = false;
     if (trees->swept.empty())
       return result;
-    for_each_shift<dim>(
-      place, place, trees->swept_box, periods, [&](const dealii::Tensor<1, dim> &shift) {
-        const dealii::Point<dim> moved_place = place + shift;
-        for_each_near(
-          trees->swept, box_around(moved_place, thickness), [&](const unsigned int facet) {
-            if (result)
-              return;
-            const auto                   &numbers = moved.surface->facets()[facet];
-            std::array<unsigned int, dim> order;
-            for (unsigned int k = 0; k < dim; ++k)
-              order[k] = k;
-            std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
-              return numbers[a] < numbers[b];
-            });
-            result =
-              passes_over<dim>(old_nodes(facet), nodes(facet), order, moved_place, thickness);
-          });
+    for_each_image<dim>(
+      place, place, trees->swept_box, periods, thickness, [&](const auto &image, const auto &) {
+        for_each_near(trees->swept, box_around(image, thickness), [&](const unsigned int facet) {
+          result = result || passes_over(facet, image);
+        });
       });
     return result;
+  }
+
+
+  template <int dim>
+  void
+  SurfaceQueries<dim>::for_each_swept(
+    const Lattice<dim>                                &lattice,
+    const IndexBox<dim>                               &box,
+    const std::function<void(const GridIndex<dim> &)> &action) const
+  {
+    if (swept_boxes.empty() || box.empty())
+      return;
+    auto last = box.upper;
+    for (int &index : last.values)
+      --index;
+    const auto lowest = lattice.point(box.lower), highest = lattice.point(last);
+    for (const auto &[swept_box, facet] : swept_boxes)
+      for_each_image<dim>(
+        lowest, highest, swept_box, periods, thickness, [&](const auto &image, const auto &) {
+          const dealii::Tensor<1, dim> shift = image - lowest;
+          IndexBox<dim>                points;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const auto &row = lattice.row(d);
+              points.lower[d] = row.locate(swept_box.lower_bound(d) - shift[d]).lower;
+              points.upper[d] = row.locate(swept_box.upper_bound(d) - shift[d]).lower + 2;
+            }
+          for_each(points.intersection(box), [&](const GridIndex<dim> &index) {
+            const dealii::Point<dim> place = lattice.point(index) + shift;
+            if (swept_box.point_inside(place) && passes_over(facet, place))
+              action(index);
+          });
+        });
   }
 
 

@@ -119,8 +119,8 @@ namespace undine
   {
     const auto &open_parts = state.fluid.pressure.open_parts();
     if (surfaces)
-      vicinity =
-        BodyVicinity<dim>(model.grid(), open_parts, open_parts, all_directions<dim>(layers));
+      vicinity = BodyVicinity<dim>(
+        model.grid(), open_parts, open_parts, surfaces.get(), all_directions<dim>(layers));
     auto velocity = state.fluid.velocity;
     for (auto &component : velocity.components)
       component.exchange(layers);
@@ -160,7 +160,7 @@ namespace undine
   std::optional<double>
   FluidSampler<dim>::value(const Sampled &sampled, const dealii::Point<dim> &place) const
   {
-    if (surfaces && vicinity.is_near(place, place))
+    if (surfaces && vicinity.is_next_to_body(place))
       return sampled.visible->at(place);
     return interpolate(sampled.field, place);
   }
@@ -237,7 +237,7 @@ namespace undine
   bool
   FluidSampler<dim>::is_clear(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
   {
-    return !surfaces || surfaces->first_hit(from, to) == std::numeric_limits<double>::infinity();
+    return !vicinity.is_hidden(from, to);
   }
 
 

@@ -4,6 +4,7 @@
 
 #include <undine/fluid/field.h>
 #include <undine/fluid/mac_grid.h>
+#include <undine/fluid/obstruction.h>
 
 #include <array>
 #include <cstdint>
@@ -21,36 +22,89 @@ namespace undine
     /// So many cells around a place take part in interpolation there.
     static constexpr int margin = 3;
 
+    /// A place and the cell that it is in, or that cell's image beyond a periodic side.
+    struct Place
+    {
+      dealii::Point<dim> point;
+      GridIndex<dim>     cell;
+    };
+
     /// No bodies.
     BodyVicinity() = default;
 
-    /// `before` and `now`: what bodies leave of the grid, nullptr: everything. Answers for cells of
-    /// this rank and `width` layers around them. Collective.
+    /// `before` and `now`: what bodies leave of the grid, nullptr: everything; their surfaces,
+    /// which must outlive this, nullptr: none. Answers for cells of this rank and `width` layers
+    /// around them. Collective.
     BodyVicinity(const MacGrid<dim>                          &grid,
                  const std::shared_ptr<const OpenParts<dim>> &before,
                  const std::shared_ptr<const OpenParts<dim>> &now,
+                 const Obstruction<dim>                      *obstruction,
                  const GridIndex<dim>                        &width);
 
-    /// True unless all cells on the straight way and `margin` cells around them are fluid, before
-    /// and now.
+    /// True unless all cells on the straight way and `margin` cells around them are fluid, before,
+    /// now and in between.
     bool
     is_near(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
+
+    /// True unless the cell at a place and those around it are: then multilinear interpolation
+    /// there sees all its samples.
+    bool
+    is_next_to_body(const dealii::Point<dim> &place) const;
 
     /// True if the box with these corners has no part in a cell that is not fluid all over: nothing
     /// can hide one corner from the other.
     bool
     is_clear(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
 
+    /// Does a surface hide one place from the other? @{
+    bool
+    is_hidden(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
+
+    bool
+    is_hidden(const Place &from, const Place &to) const;
+    /// @}
+
+    Place
+    place(const dealii::Point<dim> &point) const;
+
+    /// The share of the way at which a surface is met, see Obstruction.
+    double
+    first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
+
   private:
+    void
+    mark_swept_cells();
+
+    void
+    measure_layers();
+
+    void
+    find_facets();
+
     void
     find_extent();
 
-    const MacGrid<dim>       *grid = nullptr; ///< nullptr: no bodies
-    IndexBox<dim>             box;
-    std::vector<std::uint8_t> touched;  ///< cells with a body in them
-    std::vector<std::uint8_t> vicinity; ///< and `margin` layers around
+    using FacetImage = typename Obstruction<dim>::FacetImage;
 
-    /// Around all of `vicinity` [m]; infinite where it reaches a boundary or along periodic axes.
+    /// Call action(image) for the facets in those of the cells that the way passes, until it
+    /// returns true; for some more than once.
+    template <class Action>
+    void
+    until_facet(const IndexBox<dim>      &cells,
+                const dealii::Point<dim> &from,
+                const dealii::Point<dim> &to,
+                const Action             &action) const;
+
+    const MacGrid<dim>       *grid     = nullptr; ///< nullptr: no bodies
+    const Obstruction<dim>   *surfaces = nullptr;
+    IndexBox<dim>             box;
+    std::vector<std::uint8_t> layers; ///< 0: a body is in the cell, 1: beside that, ... margin + 1
+
+    std::vector<unsigned int> first_facet; ///< of each cell, in `facets`
+    std::vector<FacetImage>   facets;      ///< of cells with a body in them
+
+    /// Around all cells within `margin` layers [m]; infinite where it reaches a boundary or along
+    /// periodic axes.
     std::array<double, dim> lowest, highest;
   };
 } // namespace undine

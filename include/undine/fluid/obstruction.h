@@ -2,8 +2,14 @@
 #ifndef undine_fluid_obstruction_h
 #define undine_fluid_obstruction_h
 
+#include <undine/fluid/lattice.h>
+
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
+
+#include <functional>
+#include <vector>
 
 namespace undine
 {
@@ -20,10 +26,34 @@ namespace undine
     virtual double
     first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const = 0;
 
+    /// A facet, or its image beyond periodic sides.
+    struct FacetImage
+    {
+      unsigned int           facet;
+      dealii::Tensor<1, dim> to_facet; ///< shift from the image to the facet
+    };
+
+    /// Those that may have a part in `box`.
+    virtual std::vector<FacetImage>
+    facets_near(const dealii::BoundingBox<dim> &box) const = 0;
+
+    /// first_hit() if there were nothing else.
+    virtual double
+    first_hit(const FacetImage         &image,
+              const dealii::Point<dim> &from,
+              const dealii::Point<dim> &to) const = 0;
+
     /// True if a surface has passed over `place` in the last motion: what was measured there before
     /// says nothing about the fluid that is there now.
     virtual bool
     swept(const dealii::Point<dim> &place) const = 0;
+
+    /// Call `action` for all points of a lattice, boundary points and images included, that are in
+    /// `box` and were swept; for some more than once.
+    virtual void
+    for_each_swept(const Lattice<dim>                                &lattice,
+                   const IndexBox<dim>                               &box,
+                   const std::function<void(const GridIndex<dim> &)> &action) const = 0;
 
     /// Velocity of the surface point nearest to `place` [m/s].
     virtual dealii::Tensor<1, dim>

@@ -6,8 +6,9 @@
 #include <undine/fluid/field.h>
 #include <undine/fluid/obstruction.h>
 
-#include <map>
+#include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace undine
@@ -48,11 +49,19 @@ namespace undine
       double             measure;
     };
 
+    /// What can be seen of a point of the lattice.
+    enum class Sight : std::uint8_t
+    {
+      value,  ///< the whole point
+      parts,  ///< those of a divided point
+      nothing ///< closed, or swept by a surface
+    };
+
+    void
+    gather_sights(const GridIndex<dim> &width);
+
     void
     gather_parts(const GridIndex<dim> &width);
-
-    bool
-    is_visible(const dealii::Point<dim> &sample, const dealii::Point<dim> &place) const;
 
     /// Can nothing hide the points in a box of the lattice from an eye in it?
     bool
@@ -67,7 +76,7 @@ namespace undine
     /// Who looks.
     struct Eye
     {
-      dealii::Point<dim>    place;
+      typename BodyVicinity<dim>::Place place;
       const GridIndex<dim> *own; ///< sees only the nearest part of this point; nullptr: no such
     };
 
@@ -86,11 +95,12 @@ namespace undine
                    const Eye                    &eye,
                    const bool                    only_nearest) const;
 
-    const Field<dim>                          &field;
-    const Obstruction<dim>                    &obstruction;
-    const BodyVicinity<dim>                   &vicinity;
-    Field<dim>                                 kinds; ///< LatticeParts::Kind of each point
-    std::map<std::size_t, std::vector<Sample>> parts; ///< by position in the whole lattice
+    const Field<dim>        &field;
+    const Obstruction<dim>  &obstruction;
+    const BodyVicinity<dim> &vicinity;
+    std::vector<Sight>       sights; ///< by position in field.stored()
+    std::unordered_map<std::size_t, std::vector<Sample>>
+      parts; ///< by position in the whole lattice
   };
 } // namespace undine
 

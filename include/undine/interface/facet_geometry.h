@@ -13,15 +13,38 @@ namespace undine
   template <int dim>
   using FacetNodes = std::array<dealii::Point<dim>, dim>;
 
-  /// The share of the way from `from` to `to` at which it comes within `thickness` [m] of a facet's
-  /// plane and its rims; infinity if it does not. Facets without area are never met: their
-  /// neighbours cover them.
+  /// A facet as ways meet it: as thick as rounding, and as much wider. Facets without area are
+  /// never met: their neighbours cover them.
   template <int dim>
-  double
-  first_hit(const FacetNodes<dim>    &facet,
-            const dealii::Point<dim> &from,
-            const dealii::Point<dim> &to,
-            const double              thickness);
+  class ThickFacet
+  {
+  public:
+    /// `thickness` [m] to either side.
+    ThickFacet(const FacetNodes<dim> &nodes, const double thickness);
+
+    /// The share of the way from `from` to `to` at which it comes within `thickness` of the facet's
+    /// plane and its rims; infinity if it does not.
+    double
+    first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
+
+  private:
+    /// A ridge of a facet, and the direction in the facet's plane that points out across it.
+    struct Rim
+    {
+      dealii::Point<dim>     place;
+      dealii::Tensor<1, dim> outward; ///< unit
+    };
+
+    void
+    set_rims(const FacetNodes<dim> &nodes);
+
+    double                 thickness;
+    dealii::Point<dim>     lower, upper; ///< corners of the box around it
+    bool                   has_area;
+    dealii::Point<dim>     in_plane;
+    dealii::Tensor<1, dim> normal; ///< unit
+    std::array<Rim, dim>   rims;
+  };
 
   /// The point of a facet that is nearest to a place, by its barycentric coordinates. @{
   std::array<double, 2>

@@ -4,10 +4,12 @@
 
 #include <undine/fluid/mac_grid.h>
 #include <undine/fluid/obstruction.h>
+#include <undine/interface/facet_geometry.h>
 #include <undine/interface/surface.h>
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace undine
@@ -40,11 +42,26 @@ namespace undine
 
     ~SurfaceQueries();
 
+    using FacetImage = typename Obstruction<dim>::FacetImage;
+
     double
     first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const override;
 
+    std::vector<FacetImage>
+    facets_near(const dealii::BoundingBox<dim> &box) const override;
+
+    double
+    first_hit(const FacetImage         &image,
+              const dealii::Point<dim> &from,
+              const dealii::Point<dim> &to) const override;
+
     bool
     swept(const dealii::Point<dim> &place) const override;
+
+    void
+    for_each_swept(const Lattice<dim>                                &lattice,
+                   const IndexBox<dim>                               &box,
+                   const std::function<void(const GridIndex<dim> &)> &action) const override;
 
     dealii::Tensor<1, dim>
     nearest_velocity(const dealii::Point<dim> &place) const override;
@@ -58,9 +75,16 @@ namespace undine
     std::array<dealii::Point<dim>, dim>
     old_nodes(const unsigned int facet) const;
 
+    /// Does the way of a facet lead over `place`?
+    bool
+    passes_over(const unsigned int facet, const dealii::Point<dim> &place) const;
+
     MovedSurface<dim>            moved;
     std::array<double, dim>      periods; ///< [m]; 0: not periodic
     double                       thickness;
+    std::vector<ThickFacet<dim>> thick_facets;
+    std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>>
+                                 swept_boxes; ///< around the ways of those that moved
     std::unique_ptr<const Trees> trees;
   };
 } // namespace undine

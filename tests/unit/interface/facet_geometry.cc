@@ -105,21 +105,21 @@ TEST_CASE("A facet passes over the prism between its places", "[interface]")
 
 TEST_CASE("Ways that touch a facet, begin or end on it, meet it", "[interface]")
 {
-  const FacetNodes<3> facet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  const ThickFacet<3> facet(FacetNodes<3>{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, 1e-13);
   const double        inf = std::numeric_limits<double>::infinity();
-  CHECK(first_hit<3>(facet, {.2, .2, 1}, {.2, .2, -1}, 1e-13) == Approx(.5));
-  CHECK(first_hit<3>(facet, {.2, .2, 0}, {.2, .2, -1}, 1e-13) == Approx(0).margin(1e-12));
-  CHECK(first_hit<3>(facet, {.2, .2, 1}, {.2, .2, 0}, 1e-13) == Approx(1));
-  CHECK(first_hit<3>(facet, {-1, .25, 0}, {1, .25, 0}, 1e-13) == Approx(.5)); // in its plane
-  CHECK(first_hit<3>(facet, {.2, .2, 0}, {.3, .2, 0}, 1e-13) == 0);           // wholly on it
-  CHECK(first_hit<3>(facet, {-1, 1, 0}, {1, -1, 0}, 1e-13) == Approx(.5));    // through a node
-  CHECK(first_hit<3>(facet, {.2, .2, 1}, {.2, .2, 1e-6}, 1e-13) == inf);
-  CHECK(first_hit<3>(facet, {.5, .5 + 1e-6, 1}, {.5, .5 + 1e-6, -1}, 1e-13) == inf);
-  const FacetNodes<3> line{{{0, 0, 0}, {1, 0, 0}, {.5, 0, 0}}};
-  CHECK(first_hit<3>(line, {.2, 0, 1}, {.2, 0, -1}, 1e-13) == inf); // no area: its neighbours' task
+  CHECK(facet.first_hit({.2, .2, 1}, {.2, .2, -1}) == Approx(.5));
+  CHECK(facet.first_hit({.2, .2, 0}, {.2, .2, -1}) == Approx(0).margin(1e-12));
+  CHECK(facet.first_hit({.2, .2, 1}, {.2, .2, 0}) == Approx(1));
+  CHECK(facet.first_hit({-1, .25, 0}, {1, .25, 0}) == Approx(.5)); // in its plane
+  CHECK(facet.first_hit({.2, .2, 0}, {.3, .2, 0}) == 0);           // wholly on it
+  CHECK(facet.first_hit({-1, 1, 0}, {1, -1, 0}) == Approx(.5));    // through a node
+  CHECK(facet.first_hit({.2, .2, 1}, {.2, .2, 1e-6}) == inf);
+  CHECK(facet.first_hit({.5, .5 + 1e-6, 1}, {.5, .5 + 1e-6, -1}) == inf);
+  const ThickFacet<3> line(FacetNodes<3>{{{0, 0, 0}, {1, 0, 0}, {.5, 0, 0}}}, 1e-13);
+  CHECK(line.first_hit({.2, 0, 1}, {.2, 0, -1}) == inf); // no area: its neighbours' task
 
-  const FacetNodes<2> segment{{{0, 0}, {1, 0}}};
-  CHECK(first_hit<2>(segment, {1, 1}, {1, -1}, 1e-13) == Approx(.5));
-  CHECK(first_hit<2>(segment, {-1, 0}, {1, 0}, 1e-13) == Approx(.5));
-  CHECK(first_hit<2>(segment, {1 + 1e-6, 1}, {1 + 1e-6, -1}, 1e-13) == inf);
+  const ThickFacet<2> segment(FacetNodes<2>{{{0, 0}, {1, 0}}}, 1e-13);
+  CHECK(segment.first_hit({1, 1}, {1, -1}) == Approx(.5));
+  CHECK(segment.first_hit({-1, 0}, {1, 0}) == Approx(.5));
+  CHECK(segment.first_hit({1 + 1e-6, 1}, {1 + 1e-6, -1}) == inf);
 }
