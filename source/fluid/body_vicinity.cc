@@ -177,21 +177,22 @@ namespace undine
   void
   BodyVicinity<dim>::find_facets()
   {
-    first_facet.reserve(box.size() + 1);
-    first_facet.push_back(0);
+    facets_of_cell.assign(box.size(), 0);
+    cell_facets.resize(1);
     for_each(box, [&](const GridIndex<dim> &cell) {
-      if (layers[box.position(cell)] == 0)
+      if (layers[box.position(cell)] > 0)
+        return;
+      dealii::Point<dim> lower, upper;
+      for (unsigned int d = 0; d < dim; ++d)
         {
-          dealii::Point<dim> lower, upper;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              lower[d] = grid->faces(d)->row(d).position(cell[d]);
-              upper[d] = grid->faces(d)->row(d).position(cell[d] + 1);
-            }
-          const auto found = surfaces->facets_near(std::make_pair(lower, upper));
-          facets.insert(facets.end(), found.begin(), found.end());
+          lower[d] = grid->faces(d)->row(d).position(cell[d]);
+          upper[d] = grid->faces(d)->row(d).position(cell[d] + 1);
         }
-      first_facet.push_back(facets.size());
+      const auto images = surfaces->facets_near(std::make_pair(lower, upper));
+      if (images.empty())
+        return;
+      facets_of_cell[box.position(cell)] = cell_facets.size();
+      cell_facets.push_back({images, surfaces->slab_around(images)});
     });
   }
 
@@ -233,14 +234,16 @@ namespace undine
     int        longest = 0;
     for (unsigned int d = 0; d < dim; ++d)
       longest = std::max(longest, std::abs(end[d] - begin[d]));
+    const auto counts = [&](const GridIndex<dim> &cell) {
+      return !box.contains(cell) || layers[box.position(cell)] <= margin;
+    };
+    if (counts(begin) || counts(end))
+      return true;
     // The margin bridges the cells between samples.
-    const int n_samples = 2 + longest / margin;
-    for (int s = 0; s < n_samples; ++s)
-      {
-        const auto cell = cell_or_image_at(*grid, from + double(s) / (n_samples - 1) * (to - from));
-        if (!box.contains(cell) || layers[box.position(cell)] <= margin)
-          return true;
-      }
+    const int n_ways = 1 + longest / margin;
+    for (int s = 1; s < n_ways; ++s)
+      if (counts(cell_or_image_at(*grid, from + double(s) / n_ways * (to - from))))
+        return true;
     return false;
   }
 
@@ -269,25 +272,33 @@ namespace undine
   {
     bool stop = false;
     for_each(cells, [&](const GridIndex<dim> &cell) {
-      const auto position = box.position(cell);
-      const auto begin = first_facet[position], end = first_facet[position + 1];
-      if (stop || begin == end || !passes_cell(*grid, cell, from, to))
+      const auto number = facets_of_cell[box.position(cell)];
+      if (stop || number == 0)
         return;
-      for (auto k = begin; !stop && k < end; ++k)
-        stop = action(facets[k]);
+      const auto &in_cell = cell_facets[number];
+      if (in_cell.slab.leaves_open(from, to) || !passes_cell(*grid, cell, from, to))
+        return;
+      for (std::size_t k = 0; !stop && k < in_cell.images.size(); ++k)
+        stop = action(in_cell.images[k]);
     });
   }
 
 
   template <int dim>
   bool
-  BodyVicinity<dim>::is_clear(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
+  BodyVicinity<dim>::is_clear(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
   {
     if (grid == nullptr)
       return true;
-    const auto cells = cells_between(cell_or_image_at(*grid, from), cell_or_image_at(*grid, to));
+    const auto cells = cells_between(begin, end);
     if (!holds(box, cells))
       return false;
+    int longest = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      longest = std::max(longest, std::abs(end[d] - begin[d]));
+    const int free_layers = layers[box.position(begin)];
+    if (free_layers == 0 || free_layers > longest)
+      return free_layers > 0;
     bool clear = true;
     for_each(cells,
              [&](const GridIndex<dim> &cell) { clear = clear && layers[box.position(cell)] > 0; });

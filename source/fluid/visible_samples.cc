@@ -158,14 +158,15 @@ namespace undine
         const bool hidden = !all_visible && vicinity.is_hidden(eye.place, located(lattice, index));
         return hidden ? std::nullopt : std::optional<double>(field(index));
       }
-    const auto point = inside(lattice, index);
-    const auto found =
-      parts.find(IndexBox<dim>{{}, lattice.shape()}.position(lattice.wrapped(point)));
+    const auto point = inside(lattice, index), own = lattice.wrapped(point);
+    const auto found = parts.find(IndexBox<dim>{{}, lattice.shape()}.position(own));
     if (found == parts.end())
       return {};
-    const bool is_own = eye.own != nullptr && point == *eye.own;
-    return value_of_parts(
-      found->second, lattice.point(point) - lattice.point(lattice.wrapped(point)), eye, is_own);
+    const bool             is_own = eye.own != nullptr && point == *eye.own;
+    dealii::Tensor<1, dim> image; // where what is known of the point appears here
+    if (!(point == own))
+      image = lattice.point(point) - lattice.point(own);
+    return value_of_parts(found->second, image, eye, is_own);
   }
 
 
@@ -245,10 +246,10 @@ namespace undine
                                       const GridIndex<dim>     &upper,
                                       const dealii::Point<dim> &eye) const
   {
-    const auto below = field.lattice().point(lower), above = field.lattice().point(upper);
-    bool       result = vicinity.is_clear(below, above);
+    const auto below = located(field.lattice(), lower), above = located(field.lattice(), upper);
+    bool       result = vicinity.is_clear(below.cell, above.cell);
     for (unsigned int d = 0; d < dim; ++d)
-      result = result && eye[d] >= below[d] && eye[d] <= above[d];
+      result = result && eye[d] >= below.point[d] && eye[d] <= above.point[d];
     return result;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/interface/facet_geometry.h>
+#include <undine/interface/simplex.h>
 #include <undine/interface/surface_queries.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -249,6 +250,32 @@ namespace undine
                                         });
                         });
     return result;
+  }
+
+
+  template <int dim>
+  typename Obstruction<dim>::Slab
+  SurfaceQueries<dim>::slab_around(const std::vector<FacetImage> &images) const
+  {
+    typename Obstruction<dim>::Slab slab;
+    double                          largest = 0; // area of a facet
+    for (const auto &image : images)
+      if (const auto normal = area_vector(nodes(image.facet)); normal.norm() > largest)
+        {
+          largest     = normal.norm();
+          slab.normal = normal / largest;
+        }
+    slab.lower = nowhere, slab.upper = -nowhere;
+    for (const auto &image : images)
+      for (const auto &node : nodes(image.facet))
+        {
+          const double height = slab.normal * (node - image.to_facet);
+          slab.lower          = std::min(slab.lower, height);
+          slab.upper          = std::max(slab.upper, height);
+        }
+    const double rim = 100 * thickness; // what places may lose by rounding
+    slab.lower -= rim, slab.upper += rim;
+    return slab;
   }
 
 

@@ -51,10 +51,10 @@ namespace undine
     bool
     is_next_to_body(const dealii::Point<dim> &place) const;
 
-    /// True if the box with these corners has no part in a cell that is not fluid all over: nothing
-    /// can hide one corner from the other.
+    /// True if all cells of the box with two corners in these cells are fluid all over: nothing can
+    /// hide one place in it from another.
     bool
-    is_clear(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
+    is_clear(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
 
     /// Does a surface hide one place from the other? @{
     bool
@@ -100,8 +100,15 @@ namespace undine
     IndexBox<dim>             box;
     std::vector<std::uint8_t> layers; ///< 0: a body is in the cell, 1: beside that, ... margin + 1
 
-    std::vector<unsigned int> first_facet; ///< of each cell, in `facets`
-    std::vector<FacetImage>   facets;      ///< of cells with a body in them
+    /// The facets in one cell.
+    struct CellFacets
+    {
+      std::vector<FacetImage>         images;
+      typename Obstruction<dim>::Slab slab; ///< around them
+    };
+
+    std::vector<unsigned int> facets_of_cell; ///< positions in `cell_facets`
+    std::vector<CellFacets>   cell_facets;    ///< the first is empty
 
     /// Around all cells within `margin` layers [m]; infinite where it reaches a boundary or along
     /// periodic axes.

@@ -37,6 +37,26 @@ namespace undine
     virtual std::vector<FacetImage>
     facets_near(const dealii::BoundingBox<dim> &box) const = 0;
 
+    /// The space between two parallel planes.
+    struct Slab
+    {
+      dealii::Tensor<1, dim> normal; ///< unit
+      double                 lower;  ///< of normal * x [m]
+      double                 upper;
+
+      /// Are two places on the same side of it?
+      bool
+      leaves_open(const dealii::Point<dim> &a, const dealii::Point<dim> &b) const
+      {
+        const double at_a = normal * a, at_b = normal * b;
+        return (at_a > upper && at_b > upper) || (at_a < lower && at_b < lower);
+      }
+    };
+
+    /// One that holds these facets, as thin as one of them suggests.
+    virtual Slab
+    slab_around(const std::vector<FacetImage> &images) const = 0;
+
     /// first_hit() if there were nothing else.
     virtual double
     first_hit(const FacetImage         &image,

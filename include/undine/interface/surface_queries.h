@@ -50,6 +50,9 @@ namespace undine
     std::vector<FacetImage>
     facets_near(const dealii::BoundingBox<dim> &box) const override;
 
+    typename Obstruction<dim>::Slab
+    slab_around(const std::vector<FacetImage> &images) const override;
+
     double
     first_hit(const FacetImage         &image,
               const dealii::Point<dim> &from,
