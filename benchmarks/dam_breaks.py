@@ -9,13 +9,14 @@ usage: benchmarks/dam_breaks.py [SCENE...] [--program PROGRAM] [--executor host|
 Fronts: z / a over T = t sqrt(2 g / a), a the column's width; the mean and the largest deviation from each experiment
 before T = 2 and from then on. Pressures: over rho g H, time over sqrt(H / g); the largest mean over 15 ms of the 200
 values a second in the first hit (that is before 4), and the mean from 4 to 5. Peaks scatter from run to run, as they do in
-the experiment: --runs repeats these runs with gravity a millionth larger each time; printed are means, and of peaks the
+the experiment: --runs repeats these runs with gravity a millionth larger each time; printed are medians, and of peaks the
 least and the largest.
 """
 import argparse
 import csv
 import math
 import os
+import statistics
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -93,17 +94,17 @@ def impact(scene, arguments, gravity):
 
 def compare_pressure(scene, arguments):
     runs = [impact(scene, arguments, GRAVITY * (1 + 1e-6 * k)) for k in range(arguments.runs)]
-    mean = {name: sum(figures[name] for figures in runs) / len(runs) for name in runs[0]}
-    print(f"{scene}: {len(runs)} runs of {mean['seconds']:.1f} s, the front arrives at {mean['arrival']:.2f} "
+    middle = {name: statistics.median(figures[name] for figures in runs) for name in runs[0]}
+    print(f"{scene}: {len(runs)} runs of {middle['seconds']:.1f} s, the front arrives at {middle['arrival']:.2f} "
           "(experiment 2.42)")
     for probe, name in PROBES.items():
         rows = reference(name)
         measured = max(float(row["p_star"]) for row in rows if float(row["t_star"]) < HIT)
         peaks = [figures[f"{probe} peak"] for figures in runs]
         plateau = [float(row["p_star"]) for row in rows if HIT <= float(row["t_star"]) < PLATEAU_END]
-        print(f"  {probe}: first peak {mean[f'{probe} peak']:.2f} ({min(peaks):.2f} to {max(peaks):.2f}), experiment "
-              f"{measured:.2f} ({100 * (mean[f'{probe} peak'] / measured - 1):+.0f} %); "
-              f"after it {mean[f'{probe} plateau']:.2f}, experiment {sum(plateau) / len(plateau):.2f}", flush=True)
+        print(f"  {probe}: first peak {middle[f'{probe} peak']:.2f} ({min(peaks):.2f} to {max(peaks):.2f}), experiment "
+              f"{measured:.2f} ({100 * (middle[f'{probe} peak'] / measured - 1):+.0f} %); "
+              f"after it {middle[f'{probe} plateau']:.2f}, experiment {sum(plateau) / len(plateau):.2f}", flush=True)
 
 
 def main():

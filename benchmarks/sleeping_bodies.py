@@ -4,7 +4,8 @@
 
 usage: benchmarks/sleeping_bodies.py [PROGRAM] [--case NAME]... [--rounds N] [--check] [--profile]
 
-One body vibrates; three equal ones rest beside it, without a fluid or in one. Prints a table: seconds of a processor per step
+One body vibrates; three equal ones rest beside it, without a fluid or in one. In '3D jet' it is the first sheet of
+prm/jet_two_sheets.prm that swings; three stiff ones stand behind it. Prints a table: seconds of a processor per step
 of the three runs; the share (1 + 3 asleep - 1) / (4 - 1) of what three bodies cost awake; and how far displacements of the run
 with sleep are from those of the run without it, over the bound 2 V T of doc/effects.md. Steps are those after all three
 have fallen asleep; runs take turns, and medians are printed. --check fails where displacements differ by more than 2 V T or
@@ -25,10 +26,11 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "tests"))
 import scene_tools  # noqa: E402
 
-SPEED, TIME = 1e-2, 0.25  # V [m/s], T [s]: half a period of the bodies
+TIME = 0.25  # T [s]: half a period of the bodies
 STEP = 0.02  # s
 FIRST, LAST = 14, 34  # steps between which runs are compared: the three sleep after the thirteenth
 PLACES = (0.3, 0.8, 1.2, 1.6)  # of the bodies [m]
+JET_PLACES = (0.703, 1.003, 1.303, 1.603)  # of the sheets in the jet
 
 
 @dataclass
@@ -39,6 +41,8 @@ class Case:
     fluid: str  # cells of the grid; empty: no fluid
     bound: float
     scheme: str = "simultaneous"
+    jet: bool = False
+    speed: float = 1e-2  # V [m/s]
 
 
 CASES = {
@@ -46,8 +50,32 @@ CASES = {
     "alone, 3D": Case(3, "2, 8, 4", "", 0.05),
     "in a fluid, 2D": Case(2, "8, 32", "80, 40", 0.05),
     "in a fluid, 3D": Case(3, "2, 8, 4", "40, 20, 12", 0.05),
+    "3D jet": Case(3, "1, 10, 6", "48, 24, 24", 0.05, jet=True, speed=0.1),
     "time splitting, 2D": Case(2, "8, 32", "80, 40", 0.05, "time_splitting"),
 }
+
+JET = CASES["3D jet"]
+
+
+def sheet(name, x, modulus, speed):
+    """A sheet in the way of the jet, as in prm/jet_two_sheets.prm."""
+    return f"""
+  subsection {name}
+    set Shape           = box
+    set Lower corner    = {x}, -0.05, 0.3
+    set Upper corner    = {x + 0.02:.3f}, 0.6, 0.7
+    set Cells           = {JET.cells}
+    set Density         = 1100
+    set Young's modulus = {modulus}
+    set Poisson's ratio = 0.3
+    set Initial velocity = {speed} * max(0, y); 0; 0
+    subsection Boundaries
+      subsection foot
+        set Where = -y
+        set Kind  = clamp
+      end
+    end
+  end"""
 
 
 def body(name, x, speed, case):
@@ -93,21 +121,51 @@ subsection Fluid
 end"""
 
 
+def jet(case):
+    return f"""
+subsection Domain
+  set Upper corner = 2, 1, 1
+  set Cells        = {case.fluid}
+end
+subsection Fluid
+  set Density = 1.2
+  subsection Boundaries
+    subsection jet
+      set Sides    = left
+      set Region   = 0.15^2 - (y - 0.58)^2 - (z - 0.5)^2
+      set Kind     = inflow
+      set Velocity = 6; 0; 0
+    end
+    subsection open
+      set Sides = right, top, back, front
+      set Kind  = outflow
+    end
+  end
+end"""
+
+
+def bodies_of(case, n_bodies):
+    if case.jet:
+        return "".join(sheet(f"body_{k}", x, *((1e6, 0.5) if k == 0 else (1e10, 0)))
+                       for k, x in enumerate(JET_PLACES[:n_bodies]))
+    return "".join(body(f"body_{k}", x, 0.4 if k == 0 else 0.01, case) for k, x in enumerate(PLACES[:n_bodies]))
+
+
 def scene(case, n_bodies, sleeps, probes=""):
-    bodies = "".join(body(f"body_{k}", x, 0.4 if k == 0 else 0.01, case) for k, x in enumerate(PLACES[:n_bodies]))
+    surroundings = jet(case) if case.jet else fluid(case) if case.fluid else ""
     effects = "subsection convection\nend\n" if case.fluid else ""
     if sleeps:
-        effects += f"subsection sleep\n  set Speed = {SPEED}\n  set Time = {TIME}\nend\n"
+        effects += f"subsection sleep\n  set Speed = {case.speed}\n  set Time = {TIME}\nend\n"
     return f"""
 set Dimension = {case.dimension}
 set Scheme = {case.scheme}
 subsection Time
   set End           = 100
-  set Step          = {STEP}
+  set Step          = {1 / 30 if case.jet else STEP}
   set Maximum steps = {LAST}
 end
-{fluid(case) if case.fluid else ""}
-subsection Bodies{bodies}
+{surroundings}
+subsection Bodies{bodies_of(case, n_bodies)}
 end
 subsection Effects
 {effects}
@@ -167,7 +225,7 @@ def per_step(program, text):
 
 def difference(program, case):
     """Largest difference of the bodies' tops, with sleep and without, over 2 V T."""
-    probes = "".join(probe(k, x, case) for k, x in enumerate(PLACES))
+    probes = "".join(probe(k, x, case) for k, x in enumerate(JET_PLACES if case.jet else PLACES))
     with_sleep = run(program, scene(case, 4, True, probes), LAST).columns
     without = run(program, scene(case, 4, False, probes), LAST).columns
     largest = 0
@@ -176,7 +234,7 @@ def difference(program, case):
             largest = max([largest] + [abs(a - b) for a, b in zip(with_sleep[name], without[name])])
     if any(with_sleep[f"asleep body_{k}"][FIRST] != 1 for k in (1, 2, 3)):
         sys.exit("sleeping_bodies.py: bodies that rest do not sleep")
-    return largest / (2 * SPEED * TIME)
+    return largest / (2 * case.speed * TIME)
 
 
 def main():
