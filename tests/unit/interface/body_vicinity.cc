@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/body_vicinity.h>
+#include <undine/interface/surface_queries.h>
+
+#include <catch2/catch.hpp>
+#include <interface/balls.h>
+#include <interface/immersed.h>
+
+#include <set>
+
+using namespace undine_tests;
+
+namespace
+{
+  /// A ball that has moved by less than a cell, and a thin sheet at rest, in cells of uneven sizes.
+  template <int dim>
+  class BallAndSheet
+  {
+  public:
+    explicit BallAndSheet(const std::array<bool, dim> &periodic)
+      : bodies(both())
+      , before(planes(), bodies.surface(), bodies.nodes, periodic)
+      , after(planes(), bodies.surface(), places_after(), periodic)
+      , queries(after.grid,
+                {&after.surface,
+                 bodies.nodes,
+                 after.positions,
+                 std::vector<dealii::Tensor<1, dim>>(bodies.nodes.size())})
+      , width(all_directions<dim>(3))
+      , vicinity(after.grid, before.parts.open, after.parts.open, &queries, width)
+    {
+    }
+
+    const MacGrid<dim> &
+    grid() const
+    {
+      return after.grid;
+    }
+
+    /// A place in one of the cells of this rank, or within the layers around them.
+    dealii::Point<dim>
+    known_place(Random &random, const int layers) const
+    {
+      const auto         known = grid().cells()->with_ghosts(rank(), all_directions<dim>(layers));
+      dealii::Point<dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const auto &faces = grid().faces(d)->row(d);
+          const int   first = grid().periodic(d) ? known.lower[d] : std::max(0, known.lower[d]);
+          const int   last =
+            grid().periodic(d) ? known.upper[d] : std::min(known.upper[d], grid().cells_along()[d]);
+          result[d] = random.between(faces.position(first), faces.position(last));
+        }
+      return result;
+    }
+
+    unsigned int
+    rank() const
+    {
+      return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    }
+
+    Bodies<dim>         bodies;
+    Immersed<dim>       before, after;
+    SurfaceQueries<dim> queries;
+    GridIndex<dim>      width;
+    BodyVicinity<dim>   vicinity;
+
+  private:
+    static constexpr double radius = 1.3;
+
+    static typename MacGrid<dim>::Planes
+    planes()
+    {
+      typename MacGrid<dim>::Planes result;
+      for (auto &of_axis : result)
+        for (int i = 0; i <= 16; ++i)
+          of_axis.push_back(.5 * i + .2 * std::sin(2 * M_PI * i / 16));
+      return result;
+    }
+
+    static Bodies<dim>
+    both()
+    {
+      Random random(7);
+      auto   result = ball<dim>(2, radius).shift(all_equal<dim>(2.6) - dealii::Point<dim>());
+      auto   half   = all_equal<dim>(.9);
+      half[dim - 1] = 1e-6;
+      std::array<int, dim> cells;
+      cells.fill(4);
+      cells[dim - 1] = 1;
+      result.append(box<dim>(-half, half, cells)
+                      .rotate(random)
+                      .shift(all_equal<dim>(5.7) - dealii::Point<dim>()));
+      return result;
+    }
+
+    std::vector<dealii::Point<dim>>
+    places_after() const
+    {
+      auto result = bodies.nodes;
+      for (auto &x : result)
+        if (x.distance(all_equal<dim>(2.6)) < 1.01 * radius)
+          x += all_equal<dim>(.31) - dealii::Point<dim>();
+      return result;
+    }
+  };
+
+
+  template <int dim>
+  std::array<bool, dim>
+  periodic_axes(const bool periodic)
+  {
+    std::array<bool, dim> result{};
+    result[0] = periodic;
+    return result;
+  }
+
+
+  /// Facets kept by cells against the tree of all facets.
+  template <int dim>
+  void
+  compare_sight(const BallAndSheet<dim> &scene)
+  {
+    Random random(3 + scene.rank());
+    int    hidden = 0, wrong = 0;
+    for (const double reach : {.2, 1., 4.})
+      for (int number = 0; number < 2000; ++number)
+        {
+          const auto   from  = scene.known_place(random, 1);
+          const auto   to    = from + random_point<dim>(random, reach);
+          const double exact = scene.queries.first_hit(from, to);
+          const auto  &near  = scene.vicinity;
+          hidden += exact <= 1;
+          wrong += near.is_hidden(from, to) != (exact <= 1);
+          wrong += near.is_hidden(near.place(from), near.place(to)) != (exact <= 1);
+          const double found = near.first_hit(from, to);
+          wrong += exact <= 1 ? std::abs(found - exact) > 1e-12 : found <= 1;
+        }
+    CHECK(wrong == 0);
+    CHECK(dealii::Utilities::MPI::sum(hidden, MPI_COMM_WORLD) > 300);
+  }
+
+
+  /// Is a cell whole, before and now? By its volumes.
+  template <int dim>
+  bool
+  is_whole(const BallAndSheet<dim> &scene, const GridIndex<dim> &cell)
+  {
+    const auto whole = [&](const Immersed<dim> &immersed) {
+      return immersed.open().cells.kind(cell) == LatticeParts<dim>::Kind::whole;
+    };
+    return whole(scene.before) && whole(scene.after);
+  }
+
+
+  /// What is said to be clear holds whole cells only.
+  template <int dim>
+  void
+  check_clear_boxes(const BallAndSheet<dim> &scene)
+  {
+    Random     random(5);
+    const auto owned = scene.grid().cells()->owned();
+    int        clear = 0, wrong = 0;
+    for (int number = 0; number < 3000; ++number)
+      {
+        IndexBox<dim>  box;
+        GridIndex<dim> begin, end;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const int n = owned.upper[d] - owned.lower[d];
+            begin[d]    = owned.lower[d] + random.below(n);
+            end[d] = std::clamp(begin[d] + random.below(5) - 2, owned.lower[d], owned.upper[d] - 1);
+            box.lower[d] = std::min(begin[d], end[d]);
+            box.upper[d] = std::max(begin[d], end[d]) + 1;
+          }
+        bool whole = true;
+        for_each(box, [&](const GridIndex<dim> &cell) { whole = whole && is_whole(scene, cell); });
+        const bool found = scene.vicinity.is_clear(begin, end);
+        clear += found;
+        wrong += found && !whole;
+      }
+    CHECK(wrong == 0);
+    CHECK(dealii::Utilities::MPI::sum(clear, MPI_COMM_WORLD) > 300);
+  }
+
+
+  /// Far from bodies nothing is met; next to none a cell's neighbours are seen.
+  template <int dim>
+  void
+  check_distances(const BallAndSheet<dim> &scene)
+  {
+    Random random(11 + scene.rank());
+    int    far = 0, apart = 0, wrong = 0;
+    for (int number = 0; number < 5000; ++number)
+      {
+        const auto from = scene.known_place(random, 0), to = from + random_point<dim>(random, .8);
+        if (!scene.vicinity.is_near(from, to))
+          {
+            ++far;
+            // Cells are at least 0.42 wide.
+            const auto beside = from + random_point<dim>(random, 3 * .42 / std::sqrt(dim));
+            wrong += scene.queries.first_hit(from, to) <= 1;
+            wrong += scene.queries.first_hit(from, beside) <= 1;
+          }
+        if (!scene.vicinity.is_next_to_body(from))
+          {
+            ++apart;
+            const auto beside = from + random_point<dim>(random, .42 / std::sqrt(dim));
+            wrong += scene.queries.first_hit(from, beside) <= 1 || scene.queries.swept(beside);
+          }
+      }
+    CHECK(wrong == 0);
+    CHECK(dealii::Utilities::MPI::sum(far, MPI_COMM_WORLD) > 100);
+    CHECK(dealii::Utilities::MPI::sum(apart, MPI_COMM_WORLD) >
+          dealii::Utilities::MPI::sum(far, MPI_COMM_WORLD));
+  }
+
+
+  /// The points of a lattice that were swept, one by one and by facets.
+  template <int dim>
+  void
+  compare_swept(const BallAndSheet<dim> &scene, const Lattice<dim> &lattice)
+  {
+    const auto    box = lattice.with_ghosts(scene.rank(), scene.width);
+    std::set<int> found;
+    scene.queries.for_each_swept(lattice, box, [&](const GridIndex<dim> &index) {
+      REQUIRE(box.contains(index));
+      found.insert(box.position(index));
+    });
+    unsigned int wrong = 0;
+    for_each(box, [&](const GridIndex<dim> &index) {
+      const bool listed = found.count(box.position(index)) > 0;
+      wrong += listed != scene.queries.swept(lattice.point(index));
+    });
+    CHECK(wrong == 0);
+    CHECK(dealii::Utilities::MPI::sum(found.size(), MPI_COMM_WORLD) > 4);
+  }
+
+
+  /// The facets of a box have all that ways in it meet, and ways beside their slab meet none.
+  template <int dim>
+  void
+  compare_boxes(const BallAndSheet<dim> &scene)
+  {
+    Random random(13 + scene.rank());
+    int    hits = 0, open = 0, wrong = 0;
+    for (int number = 0; number < 500; ++number)
+      {
+        const auto lower  = scene.known_place(random, 0);
+        const auto upper  = lower + all_equal<dim>(.6) - dealii::Point<dim>();
+        const auto images = scene.queries.facets_near(std::make_pair(lower, upper));
+        const auto slab   = scene.queries.slab_around(images);
+        for (int way = 0; way < 20; ++way)
+          {
+            dealii::Point<dim> from, to;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                from[d] = random.between(lower[d], upper[d]);
+                to[d]   = random.between(lower[d], upper[d]);
+              }
+            double first = std::numeric_limits<double>::infinity();
+            for (const auto &image : images)
+              first = std::min(first, scene.queries.first_hit(image, from, to));
+            const double exact = scene.queries.first_hit(from, to);
+            wrong += exact <= 1 ? std::abs(first - exact) > 1e-12 : first <= 1;
+            hits += exact <= 1;
+            if (!images.empty() && slab.leaves_open(from, to))
+              {
+                ++open;
+                wrong += exact <= 1;
+              }
+          }
+      }
+    CHECK(wrong == 0);
+    CHECK(dealii::Utilities::MPI::sum(hits, MPI_COMM_WORLD) > 50);
+    CHECK(dealii::Utilities::MPI::sum(open, MPI_COMM_WORLD) > 50);
+  }
+} // namespace
+
+
+TEMPLATE_TEST_CASE_SIG("The cells around bodies", "[interface][mpi]", ((int dim), dim), 2, 3)
+{
+  for (const bool periodic : {false, true})
+    {
+      INFO("periodic: " << periodic);
+      const BallAndSheet<dim> scene(periodic_axes<dim>(periodic));
+      compare_sight(scene);
+      check_clear_boxes(scene);
+      check_distances(scene);
+      compare_boxes(scene);
+      compare_swept(scene, *scene.grid().cells());
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        compare_swept(scene, *scene.grid().faces(axis));
+    }
+}
+
+
+TEST_CASE("Without bodies no place is near one", "[interface]")
+{
+  const BodyVicinity<2> vicinity;
+  CHECK_FALSE(vicinity.is_near({0, 0}, {1, 1}));
+  CHECK_FALSE(vicinity.is_next_to_body({0, 0}));
+  CHECK_FALSE(vicinity.is_hidden(dealii::Point<2>(0, 0), dealii::Point<2>(1, 1)));
+  CHECK(vicinity.first_hit({0, 0}, {1, 1}) > 1);
+  CHECK(vicinity.is_clear({}, {}));
+}
