@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace undine
 {
@@ -58,6 +60,42 @@ namespace undine
           cells.upper[d] = std::max(begin[d], end[d]) + 1;
         }
       return cells;
+    }
+
+
+    /// Lower corner of one cell, upper one of another.
+    template <int dim>
+    std::pair<dealii::Point<dim>, dealii::Point<dim>>
+    corners_of(const MacGrid<dim> &grid, const GridIndex<dim> &lower, const GridIndex<dim> &upper)
+    {
+      std::pair<dealii::Point<dim>, dealii::Point<dim>> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const auto &planes = grid.faces(d)->row(d);
+          result.first[d]    = planes.position(lower[d]);
+          result.second[d]   = planes.position(upper[d] + 1);
+        }
+      return result;
+    }
+
+
+    /// Widen a slab so that it holds what a patch holds.
+    template <int dim>
+    void
+    widen(typename Obstruction<dim>::Slab &slab, const typename Obstruction<dim>::Patch &patch)
+    {
+      // n x = n m + o (x - m) + (n - o) (x - m) with the other normal o and the middle m
+      auto other = patch.slab;
+      if (slab.normal * other.normal < 0)
+        {
+          other.normal = -other.normal;
+          std::swap(other.lower, other.upper);
+          other.lower = -other.lower, other.upper = -other.upper;
+        }
+      const double turned = (slab.normal - other.normal).norm() * patch.radius;
+      const double shift  = (slab.normal - other.normal) * patch.middle;
+      slab.lower          = std::min(slab.lower, other.lower + shift - turned);
+      slab.upper          = std::max(slab.upper, other.upper + shift + turned);
     }
 
 
@@ -182,17 +220,13 @@ namespace undine
     for_each(box, [&](const GridIndex<dim> &cell) {
       if (layers[box.position(cell)] > 0)
         return;
-      dealii::Point<dim> lower, upper;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d] = grid->faces(d)->row(d).position(cell[d]);
-          upper[d] = grid->faces(d)->row(d).position(cell[d] + 1);
-        }
-      const auto images = surfaces->facets_near(std::make_pair(lower, upper));
+      const dealii::BoundingBox<dim> space(corners_of(*grid, cell, cell));
+      const auto                     images = surfaces->facets_near(space);
       if (images.empty())
         return;
+      const auto patch                   = surfaces->patch(images);
       facets_of_cell[box.position(cell)] = cell_facets.size();
-      cell_facets.push_back({images, surfaces->slab_around(images)});
+      cell_facets.push_back({images, patch, surfaces->is_wall(images, patch.slab, space)});
     });
   }
 
@@ -276,7 +310,7 @@ namespace undine
       if (stop || number == 0)
         return;
       const auto &in_cell = cell_facets[number];
-      if (in_cell.slab.leaves_open(from, to) || !passes_cell(*grid, cell, from, to))
+      if (in_cell.patch.slab.leaves_open(from, to) || !passes_cell(*grid, cell, from, to))
         return;
       for (std::size_t k = 0; !stop && k < in_cell.images.size(); ++k)
         stop = action(in_cell.images[k]);
@@ -303,6 +337,40 @@ namespace undine
     for_each(cells,
              [&](const GridIndex<dim> &cell) { clear = clear && layers[box.position(cell)] > 0; });
     return clear;
+  }
+
+
+  template <int dim>
+  std::optional<typename BodyVicinity<dim>::Wall>
+  BodyVicinity<dim>::wall_in(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
+  {
+    constexpr double alike = 0.92; // 23 degrees: with 45 for facets all are oriented the same way
+    if (surfaces == nullptr)
+      return {};
+    const auto cells = cells_between(begin, end);
+    if (!holds(box, cells))
+      return {};
+    std::optional<Wall> wall;
+    bool                parted = true;
+    for_each(cells, [&](const GridIndex<dim> &cell) {
+      const auto number = facets_of_cell[box.position(cell)];
+      if (number == 0 || !parted)
+        return;
+      const auto &in_cell = cell_facets[number];
+      parted              = in_cell.is_wall;
+      if (!parted)
+        return;
+      if (!wall)
+        wall = Wall{in_cell.patch.slab, {}, {}};
+      else if (std::abs(wall->slab.normal * in_cell.patch.slab.normal) < alike)
+        parted = false;
+      else
+        widen<dim>(wall->slab, in_cell.patch);
+    });
+    if (!parted || !wall)
+      return {};
+    std::tie(wall->lower, wall->upper) = corners_of(*grid, begin, end);
+    return wall;
   }
 
 

@@ -2,9 +2,6 @@
 #include <undine/fluid/interpolation.h>
 #include <undine/fluid/visible_samples.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
 #include <limits>
 
 namespace undine
@@ -18,128 +15,19 @@ namespace undine
     /// Share of the way from a point to the centroid of its part: far less than is smoothed
     /// otherwise, far more than rounding.
     constexpr double side_share = 1e-10;
-
-
-    /// The point that a boundary point continues; others themselves.
-    template <int dim>
-    GridIndex<dim>
-    inside(const Lattice<dim> &lattice, GridIndex<dim> index)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        if (!lattice.row(d).periodic())
-          index[d] = std::clamp(index[d], 0, lattice.row(d).size() - 1);
-      return index;
-    }
-
-
-    /// The place of a point of the lattice; faces are in the cells above them.
-    template <int dim>
-    typename BodyVicinity<dim>::Place
-    located(const Lattice<dim> &lattice, const GridIndex<dim> &index)
-    {
-      auto cell = inside(lattice, index);
-      if (const auto axis = lattice.normal_axis(); axis < dim && !lattice.row(axis).periodic())
-        cell[axis] = std::min(cell[axis], lattice.row(axis).size() - 2);
-      return {lattice.point(index), cell};
-    }
   } // namespace
 
 
   template <int dim>
   VisibleSamples<dim>::VisibleSamples(const Field<dim>        &field_,
                                       const GridIndex<dim>    &width,
-                                      const Obstruction<dim>  &obstruction_,
+                                      const Obstruction<dim>  &obstruction,
                                       const BodyVicinity<dim> &vicinity_)
     : field(field_)
-    , obstruction(obstruction_)
     , vicinity(vicinity_)
+    , points(field, width, obstruction, vicinity)
+    , parted(field, points, vicinity)
   {
-    gather_sights(width);
-    gather_parts(width);
-  }
-
-
-  template <int dim>
-  void
-  VisibleSamples<dim>::gather_sights(const GridIndex<dim> &width)
-  {
-    using Kind          = typename LatticeParts<dim>::Kind;
-    const auto &lattice = field.lattice();
-    const auto &stored  = field.stored();
-    sights.assign(stored.size(), Sight::value);
-    if (const auto *divided = field.divided())
-      {
-        Field<dim> kinds(field.shared_lattice());
-        for_each(kinds.owned(), [&](const GridIndex<dim> &index) {
-          kinds(index) = static_cast<int>(divided->kind(index));
-        });
-        kinds.exchange(width);
-        for_each(stored, [&](const GridIndex<dim> &index) {
-          const auto kind = static_cast<Kind>(static_cast<int>(kinds(inside(lattice, index))));
-          sights[stored.position(index)] = kind == Kind::whole    ? Sight::value
-                                           : kind == Kind::closed ? Sight::nothing
-                                                                  : Sight::parts;
-        });
-      }
-    obstruction.for_each_swept(lattice, stored, [&](const GridIndex<dim> &index) {
-      auto &sight = sights[stored.position(index)];
-      if (sight == Sight::value)
-        sight = Sight::nothing;
-    });
-  }
-
-
-  template <int dim>
-  void
-  VisibleSamples<dim>::gather_parts(const GridIndex<dim> &width)
-  {
-    const auto         &lattice = field.lattice();
-    const IndexBox<dim> whole{{}, lattice.shape()};
-    const auto         *divided = field.divided();
-    const unsigned int  n_ranks = lattice.blocks().n_ranks();
-    using Named                 = std::array<double, dim + 3>; // position, place, value, measure
-    std::map<unsigned int, std::vector<Named>> outgoing;
-    for (unsigned int rank = 0; divided && rank < n_ranks; ++rank)
-      {
-        const auto box = lattice.with_ghosts(rank, width);
-        for (std::size_t k = 0; k < field.parts().size(); ++k)
-          if (const auto &part = divided->all()[k]; divided->owns(k))
-            {
-              // Images of the rank's box may reach the part across a periodic side.
-              bool wanted = true;
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  const int period = lattice.row(d).periodic() ? lattice.row(d).size() : 0;
-                  bool      inside = false;
-                  for (const int shift : {-period, 0, period})
-                    inside = inside || (part.index[d] + shift >= box.lower[d] &&
-                                        part.index[d] + shift < box.upper[d]);
-                  wanted = wanted && inside;
-                }
-              if (!wanted)
-                continue;
-              Named named{};
-              named[0] = whole.position(part.index);
-              for (unsigned int d = 0; d < dim; ++d)
-                named[1 + d] = part.place[d];
-              named[dim + 1] = field.parts()[k];
-              named[dim + 2] = part.measure;
-              outgoing[rank].push_back(named);
-            }
-      }
-    const auto received =
-      dealii::Utilities::MPI::some_to_some(lattice.blocks().communicator(), outgoing);
-    for (const auto &message : received)
-      for (const auto &named : message.second)
-        {
-          Sample sample;
-          for (unsigned int d = 0; d < dim; ++d)
-            sample.place[d] = named[1 + d];
-          sample.value   = named[dim + 1];
-          sample.measure = named[dim + 2];
-          if (!obstruction.swept(sample.place))
-            parts[static_cast<std::size_t>(named[0])].push_back(sample);
-        }
   }
 
 
@@ -149,48 +37,38 @@ namespace undine
                                 const Eye            &eye,
                                 const bool            all_visible) const
   {
-    const auto &lattice = field.lattice();
-    const auto  sight   = sights[field.stored().position(index)];
-    if (sight == Sight::nothing)
-      return {};
-    if (sight == Sight::value)
+    switch (points.kind(index))
       {
-        const bool hidden = !all_visible && vicinity.is_hidden(eye.place, located(lattice, index));
-        return hidden ? std::nullopt : std::optional<double>(field(index));
+        case SampledPoints<dim>::Kind::value:
+          if (all_visible || !vicinity.is_hidden(eye.place, points.located(index)))
+            return field(index);
+          return {};
+        case SampledPoints<dim>::Kind::parts:
+          return value_of_parts(index, eye);
+        default:
+          return {};
       }
-    const auto point = inside(lattice, index), own = lattice.wrapped(point);
-    const auto found = parts.find(IndexBox<dim>{{}, lattice.shape()}.position(own));
-    if (found == parts.end())
-      return {};
-    const bool             is_own = eye.own != nullptr && point == *eye.own;
-    dealii::Tensor<1, dim> image; // where what is known of the point appears here
-    if (!(point == own))
-      image = lattice.point(point) - lattice.point(own);
-    return value_of_parts(found->second, image, eye, is_own);
   }
 
 
   template <int dim>
   std::optional<double>
-  VisibleSamples<dim>::value_of_parts(const std::vector<Sample>    &samples,
-                                      const dealii::Tensor<1, dim> &image,
-                                      const Eye                    &eye,
-                                      const bool                    only_nearest) const
+  VisibleSamples<dim>::value_of_parts(const GridIndex<dim> &index, const Eye &eye) const
   {
-    double sum = 0, total = 0, nearest = std::numeric_limits<double>::infinity();
-    for (const auto &sample : samples)
-      if (const dealii::Point<dim> place = sample.place + image;
-          !vicinity.is_hidden(eye.place, vicinity.place(place)))
-        {
-          const double distance = place.distance(eye.place.point);
-          if (only_nearest && distance >= nearest)
-            continue;
-          if (only_nearest)
-            sum = total = 0;
-          nearest = distance;
-          sum += sample.measure * sample.value;
-          total += sample.measure;
-        }
+    const bool only_nearest = eye.own != nullptr && points.inside(index) == *eye.own;
+    double     sum = 0, total = 0, nearest = std::numeric_limits<double>::infinity();
+    points.for_each_sample(index, [&](const Sample &sample) {
+      if (vicinity.is_hidden(eye.place, sample.place))
+        return;
+      const double distance = only_nearest ? sample.place.point.distance(eye.place.point) : 0;
+      if (only_nearest && distance >= nearest)
+        return;
+      if (only_nearest)
+        sum = total = 0;
+      nearest = distance;
+      sum += sample.measure * sample.value;
+      total += sample.measure;
+    });
     return total > 0 ? std::optional<double>(sum / total) : std::nullopt;
   }
 
@@ -246,7 +124,7 @@ namespace undine
                                       const GridIndex<dim>     &upper,
                                       const dealii::Point<dim> &eye) const
   {
-    const auto below = located(field.lattice(), lower), above = located(field.lattice(), upper);
+    const auto below = points.located(lower), above = points.located(upper);
     bool       result = vicinity.is_clear(below.cell, above.cell);
     for (unsigned int d = 0; d < dim; ++d)
       result = result && eye[d] >= below.point[d] && eye[d] <= above.point[d];
@@ -269,8 +147,9 @@ namespace undine
     auto upper = lower;
     for (unsigned int d = 0; d < dim; ++d)
       ++upper[d];
-    const bool all_visible = is_visible_box(lower, upper, eye.place.point);
-    double     sum = 0, total = 0, raised_sum = 0, raised_total = 0;
+    const auto *view        = parted.view(lower, eye.place.point);
+    const bool  all_visible = view == nullptr && is_visible_box(lower, upper, eye.place.point);
+    double      sum = 0, total = 0, raised_sum = 0, raised_total = 0;
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {
         auto   index  = lower;
@@ -281,7 +160,13 @@ namespace undine
             index[d] += higher;
             weight *= higher == 1 ? weights[d] : 1 - weights[d];
           }
-        if (const auto value = value_of(index, eye, all_visible))
+        const bool is_own = eye.own != nullptr && points.inside(index) == *eye.own;
+        const auto value  = view == nullptr || (is_own && view->n_samples[corner] > 1)
+                              ? value_of(index, eye, all_visible)
+                            : view->n_samples[corner] > 0
+                              ? std::optional<double>(view->values[corner])
+                              : std::nullopt;
+        if (value)
           {
             sum += weight * *value;
             total += weight;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace undine
@@ -55,6 +56,19 @@ namespace undine
     /// hide one place in it from another.
     bool
     is_clear(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
+
+    /// The corners of the cells of a box, and a slab if they are parted by a wall, see Obstruction:
+    /// then each surface in the box is in the slab, and hides what is on one of its sides from the
+    /// other; exactly so if it is plane, otherwise also some of what can be seen past its rim just
+    /// outside the box. Nothing if they are not.
+    struct Wall
+    {
+      typename Obstruction<dim>::Slab slab;
+      dealii::Point<dim>              lower, upper;
+    };
+
+    std::optional<Wall>
+    wall_in(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
 
     /// Does a surface hide one place from the other? @{
     bool
@@ -103,8 +117,9 @@ namespace undine
     /// The facets in one cell.
     struct CellFacets
     {
-      std::vector<FacetImage>         images;
-      typename Obstruction<dim>::Slab slab; ///< around them
+      std::vector<FacetImage>          images;
+      typename Obstruction<dim>::Patch patch;
+      bool                             is_wall;
     };
 
     std::vector<unsigned int> facets_of_cell; ///< positions in `cell_facets`

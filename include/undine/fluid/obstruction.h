@@ -44,18 +44,41 @@ namespace undine
       double                 lower;  ///< of normal * x [m]
       double                 upper;
 
+      /// Above, below or, 0, inside.
+      int
+      side(const dealii::Point<dim> &place) const
+      {
+        const double height = normal * place;
+        return height > upper ? 1 : height < lower ? -1 : 0;
+      }
+
       /// Are two places on the same side of it?
       bool
       leaves_open(const dealii::Point<dim> &a, const dealii::Point<dim> &b) const
       {
-        const double at_a = normal * a, at_b = normal * b;
-        return (at_a > upper && at_b > upper) || (at_a < lower && at_b < lower);
+        const int side_of_a = side(a);
+        return side_of_a != 0 && side_of_a == side(b);
       }
     };
 
-    /// One that holds these facets, as thin as one of them suggests.
-    virtual Slab
-    slab_around(const std::vector<FacetImage> &images) const = 0;
+    /// Facets together.
+    struct Patch
+    {
+      Slab               slab; ///< holds them, as thin as one of them suggests
+      dealii::Point<dim> middle;
+      double             radius; ///< of a ball around the middle that holds them [m]
+    };
+
+    virtual Patch
+    patch(const std::vector<FacetImage> &images) const = 0;
+
+    /// Are these facets, all that have a part in `box`, like a wall there: all at less than 45
+    /// degrees to the slab around them, and none with a rim in the box? Then from one side of the
+    /// slab the other cannot be seen within the box.
+    virtual bool
+    is_wall(const std::vector<FacetImage>  &images,
+            const Slab                     &slab,
+            const dealii::BoundingBox<dim> &box) const = 0;
 
     /// first_hit() if there were nothing else.
     virtual double

@@ -5,11 +5,10 @@
 #include <undine/fluid/body_vicinity.h>
 #include <undine/fluid/field.h>
 #include <undine/fluid/obstruction.h>
+#include <undine/fluid/parted_cubes.h>
+#include <undine/fluid/sampled_points.h>
 
-#include <cstdint>
 #include <optional>
-#include <unordered_map>
-#include <vector>
 
 namespace undine
 {
@@ -42,26 +41,8 @@ namespace undine
           const dealii::Point<dim> &foot) const;
 
   private:
-    struct Sample
-    {
-      dealii::Point<dim> place;
-      double             value;
-      double             measure;
-    };
-
-    /// What can be seen of a point of the lattice.
-    enum class Sight : std::uint8_t
-    {
-      value,  ///< the whole point
-      parts,  ///< those of a divided point
-      nothing ///< closed, or swept by a surface
-    };
-
-    void
-    gather_sights(const GridIndex<dim> &width);
-
-    void
-    gather_parts(const GridIndex<dim> &width);
+    using Place  = typename BodyVicinity<dim>::Place;
+    using Sample = typename SampledPoints<dim>::Sample;
 
     /// Can nothing hide the points in a box of the lattice from an eye in it?
     bool
@@ -76,7 +57,7 @@ namespace undine
     /// Who looks.
     struct Eye
     {
-      typename BodyVicinity<dim>::Place place;
+      Place                 place;
       const GridIndex<dim> *own; ///< sees only the nearest part of this point; nullptr: no such
     };
 
@@ -85,22 +66,17 @@ namespace undine
     multilinear(const dealii::Point<dim> &place, const Eye &eye) const;
 
     /// Mean, by measure, of what can be seen of one point of the lattice; `all_visible`: nothing
-    /// can hide it.
+    /// can hide whole points.
     std::optional<double>
     value_of(const GridIndex<dim> &index, const Eye &eye, const bool all_visible) const;
 
     std::optional<double>
-    value_of_parts(const std::vector<Sample>    &samples,
-                   const dealii::Tensor<1, dim> &image,
-                   const Eye                    &eye,
-                   const bool                    only_nearest) const;
+    value_of_parts(const GridIndex<dim> &index, const Eye &eye) const;
 
     const Field<dim>        &field;
-    const Obstruction<dim>  &obstruction;
     const BodyVicinity<dim> &vicinity;
-    std::vector<Sight>       sights; ///< by position in field.stored()
-    std::unordered_map<std::size_t, std::vector<Sample>>
-      parts; ///< by position in the whole lattice
+    SampledPoints<dim>       points;
+    PartedCubes<dim>         parted;
   };
 } // namespace undine
 

@@ -50,8 +50,15 @@ namespace undine
     std::vector<FacetImage>
     facets_near(const dealii::BoundingBox<dim> &box) const override;
 
-    typename Obstruction<dim>::Slab
-    slab_around(const std::vector<FacetImage> &images) const override;
+    using Slab = typename Obstruction<dim>::Slab;
+
+    typename Obstruction<dim>::Patch
+    patch(const std::vector<FacetImage> &images) const override;
+
+    bool
+    is_wall(const std::vector<FacetImage>  &images,
+            const Slab                     &slab,
+            const dealii::BoundingBox<dim> &box) const override;
 
     double
     first_hit(const FacetImage         &image,
@@ -72,6 +79,16 @@ namespace undine
   private:
     struct Trees;
 
+    void
+    find_neighbours();
+
+    /// Has a facet whose normal is less than 90 degrees away from `normal` a ridge near `box`
+    /// beyond which there is none such?
+    bool
+    has_rim(const FacetImage               &image,
+            const dealii::Tensor<1, dim>   &normal,
+            const dealii::BoundingBox<dim> &box) const;
+
     std::array<dealii::Point<dim>, dim>
     nodes(const unsigned int facet) const;
 
@@ -86,6 +103,11 @@ namespace undine
     std::array<double, dim>      periods; ///< [m]; 0: not periodic
     double                       thickness;
     std::vector<ThickFacet<dim>> thick_facets;
+
+    static constexpr unsigned int no_facet = -1;
+
+    std::vector<dealii::Tensor<1, dim>>      normals;         ///< of facets, unit or zero
+    std::vector<std::array<unsigned int, 2>> facets_of_ridge; ///< or no_facet
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>>
                                  swept_boxes; ///< around the ways of those that moved
     std::unique_ptr<const Trees> trees;
