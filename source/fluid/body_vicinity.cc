@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 namespace undine
@@ -226,7 +225,9 @@ namespace undine
         return;
       const auto patch                   = surfaces->patch(images);
       facets_of_cell[box.position(cell)] = cell_facets.size();
-      cell_facets.push_back({images, patch, surfaces->is_wall(images, patch.slab, space)});
+      cell_facets.push_back({{}, patch, surfaces->is_wall(images, patch.slab, space)});
+      for (const auto &image : images)
+        cell_facets.back().facets.push_back({image, surfaces->patch({image}).slab});
     });
   }
 
@@ -312,8 +313,8 @@ namespace undine
       const auto &in_cell = cell_facets[number];
       if (in_cell.patch.slab.leaves_open(from, to) || !passes_cell(*grid, cell, from, to))
         return;
-      for (std::size_t k = 0; !stop && k < in_cell.images.size(); ++k)
-        stop = action(in_cell.images[k]);
+      for (std::size_t k = 0; !stop && k < in_cell.facets.size(); ++k)
+        stop = !in_cell.facets[k].slab.leaves_open(from, to) && action(in_cell.facets[k].image);
     });
   }
 
@@ -341,36 +342,61 @@ namespace undine
 
 
   template <int dim>
-  std::optional<typename BodyVicinity<dim>::Wall>
-  BodyVicinity<dim>::wall_in(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
+  bool
+  BodyVicinity<dim>::knows(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
   {
-    constexpr double alike = 0.92; // 23 degrees: with 45 for facets all are oriented the same way
-    if (surfaces == nullptr)
-      return {};
-    const auto cells = cells_between(begin, end);
-    if (!holds(box, cells))
-      return {};
-    std::optional<Wall> wall;
+    return surfaces != nullptr && holds(box, cells_between(begin, end));
+  }
+
+
+  template <int dim>
+  std::pair<dealii::Point<dim>, dealii::Point<dim>>
+  BodyVicinity<dim>::corners(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
+  {
+    return corners_of(*grid, begin, end);
+  }
+
+
+  template <int dim>
+  std::vector<const typename BodyVicinity<dim>::Facet *>
+  BodyVicinity<dim>::facets(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
+  {
+    std::vector<const Facet *> result;
+    for_each(cells_between(begin, end), [&](const GridIndex<dim> &cell) {
+      for (const auto &facet : cell_facets[facets_of_cell[box.position(cell)]].facets)
+        result.push_back(&facet);
+    });
+    std::sort(result.begin(), result.end(), [](const Facet *a, const Facet *b) {
+      return a->image.facet < b->image.facet;
+    });
+    const auto end_of_unique =
+      std::unique(result.begin(), result.end(), [](const Facet *a, const Facet *b) {
+        return a->image.facet == b->image.facet && a->image.to_facet == b->image.to_facet;
+      });
+    result.erase(end_of_unique, result.end());
+    return result;
+  }
+
+
+  template <int dim>
+  std::optional<typename Obstruction<dim>::Slab>
+  BodyVicinity<dim>::wall(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
+  {
+    constexpr double    alike = 0.92; // 23 degrees: with 45 for facets all are oriented alike
+    std::optional<Slab> slab;
     bool                parted = true;
-    for_each(cells, [&](const GridIndex<dim> &cell) {
+    for_each(cells_between(begin, end), [&](const GridIndex<dim> &cell) {
       const auto number = facets_of_cell[box.position(cell)];
       if (number == 0 || !parted)
         return;
       const auto &in_cell = cell_facets[number];
-      parted              = in_cell.is_wall;
-      if (!parted)
-        return;
-      if (!wall)
-        wall = Wall{in_cell.patch.slab, {}, {}};
-      else if (std::abs(wall->slab.normal * in_cell.patch.slab.normal) < alike)
-        parted = false;
-      else
-        widen<dim>(wall->slab, in_cell.patch);
+      if (!slab)
+        slab = in_cell.patch.slab;
+      parted = in_cell.is_wall && std::abs(slab->normal * in_cell.patch.slab.normal) > alike;
+      if (parted)
+        widen<dim>(*slab, in_cell.patch);
     });
-    if (!parted || !wall)
-      return {};
-    std::tie(wall->lower, wall->upper) = corners_of(*grid, begin, end);
-    return wall;
+    return parted ? slab : std::nullopt;
   }
 
 

@@ -26,7 +26,7 @@ namespace undine
     : field(field_)
     , vicinity(vicinity_)
     , points(field, width, obstruction, vicinity)
-    , parted(field, points, vicinity)
+    , cubes(field.stored(), points, obstruction, vicinity)
   {
   }
 
@@ -144,39 +144,64 @@ namespace undine
         lower[d]           = bracket.lower;
         weights[d]         = bracket.weight;
       }
+    std::array<double, 1 << dim> weight; // of corners
+    unsigned int                 weighted = 0;
+    for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+      {
+        weight[corner] = 1;
+        for (unsigned int d = 0; d < dim; ++d)
+          weight[corner] *= (corner >> d) & 1 ? weights[d] : 1 - weights[d];
+        weighted |= weight[corner] > 0 ? 1u << corner : 0;
+      }
+    double     sum = 0, total = 0, plain_sum = 0, plain_total = 0;
+    const auto add = [&](const unsigned int corners) {
+      const auto values = seen_values(lower, eye, corners);
+      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+        if (values.corners >> corner & 1)
+          {
+            sum += weight[corner] * values.values[corner];
+            total += weight[corner];
+            plain_sum += values.values[corner];
+            plain_total += 1;
+          }
+    };
+    add(weighted);
+    if (total > least_weight)
+      return sum / total;
+    add(~weighted);
+    if (plain_total == 0)
+      return {};
+    return (sum + least_weight * plain_sum) / (total + least_weight * plain_total);
+  }
+
+
+  template <int dim>
+  typename CubeViews<dim>::View
+  VisibleSamples<dim>::seen_values(const GridIndex<dim> &lower,
+                                   const Eye            &eye,
+                                   const unsigned int    corners) const
+  {
+    if (const auto view = cubes.view(lower, eye.place.point, corners, eye.own))
+      return *view;
     auto upper = lower;
     for (unsigned int d = 0; d < dim; ++d)
       ++upper[d];
-    const auto *view        = parted.view(lower, eye.place.point);
-    const bool  all_visible = view == nullptr && is_visible_box(lower, upper, eye.place.point);
-    double      sum = 0, total = 0, raised_sum = 0, raised_total = 0;
+    const bool                    all_visible = is_visible_box(lower, upper, eye.place.point);
+    typename CubeViews<dim>::View result{{}, 0};
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {
-        auto   index  = lower;
-        double weight = 1;
+        if (!(corners >> corner & 1))
+          continue;
+        auto index = lower;
         for (unsigned int d = 0; d < dim; ++d)
+          index[d] += (corner >> d) & 1;
+        if (const auto value = value_of(index, eye, all_visible))
           {
-            const int higher = (corner >> d) & 1;
-            index[d] += higher;
-            weight *= higher == 1 ? weights[d] : 1 - weights[d];
-          }
-        const bool is_own = eye.own != nullptr && points.inside(index) == *eye.own;
-        const auto value  = view == nullptr || (is_own && view->n_samples[corner] > 1)
-                              ? value_of(index, eye, all_visible)
-                            : view->n_samples[corner] > 0
-                              ? std::optional<double>(view->values[corner])
-                              : std::nullopt;
-        if (value)
-          {
-            sum += weight * *value;
-            total += weight;
-            raised_sum += (weight + least_weight) * *value;
-            raised_total += weight + least_weight;
+            result.values[corner] = *value;
+            result.corners |= 1u << corner;
           }
       }
-    if (total > least_weight)
-      return sum / total;
-    return raised_total > 0 ? std::optional<double>(raised_sum / raised_total) : std::nullopt;
+    return result;
   }
 
 

@@ -267,19 +267,17 @@ namespace undine
     std::vector<FacetImage> result;
     if (trees->facets.empty())
       return result;
-    const auto corners = box.get_boundary_points();
-    for_each_image<dim>(corners.first,
-                        corners.second,
-                        trees->box,
-                        periods,
-                        thickness,
-                        [&](const auto &lower, const auto &upper) {
-                          for_each_near(trees->facets,
-                                        box_around(lower, upper, thickness),
-                                        [&](const unsigned int facet) {
-                                          result.push_back({facet, lower - corners.first});
-                                        });
-                        });
+    const auto corners =
+      box_around(box.get_boundary_points().first, box.get_boundary_points().second, thickness)
+        .get_boundary_points();
+    for_each_shift<dim>(
+      corners.first, corners.second, trees->box, periods, [&](const dealii::Tensor<1, dim> &shift) {
+        const dealii::BoundingBox<dim> moved_box(std::make_pair(
+          dealii::Point<dim>(corners.first + shift), dealii::Point<dim>(corners.second + shift)));
+        for_each_near(trees->facets, moved_box, [&](const unsigned int facet) {
+          result.push_back({facet, shift});
+        });
+      });
     return result;
   }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace undine
@@ -57,18 +58,32 @@ namespace undine
     bool
     is_clear(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
 
-    /// The corners of the cells of a box, and a slab if they are parted by a wall, see Obstruction:
-    /// then each surface in the box is in the slab, and hides what is on one of its sides from the
-    /// other; exactly so if it is plane, otherwise also some of what can be seen past its rim just
-    /// outside the box. Nothing if they are not.
-    struct Wall
+    using FacetImage = typename Obstruction<dim>::FacetImage;
+    using Slab       = typename Obstruction<dim>::Slab;
+
+    struct Facet
     {
-      typename Obstruction<dim>::Slab slab;
-      dealii::Point<dim>              lower, upper;
+      FacetImage image;
+      Slab       slab; ///< as thin as the facet
     };
 
-    std::optional<Wall>
-    wall_in(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
+    /// The cells of the box with two corners in `begin` and `end`: does this know the facets in
+    /// them, lower and upper corner, each facet once. @{
+    bool
+    knows(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
+
+    std::pair<dealii::Point<dim>, dealii::Point<dim>>
+    corners(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
+
+    std::vector<const Facet *>
+    facets(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
+    /// @}
+
+    /// A slab around all facets in these cells if they are parted by a wall, see Obstruction: what
+    /// is on one side of it is hidden from the other; exactly that if the wall is plane, otherwise
+    /// perhaps some of what could be seen past a rim just outside the cells. Else nothing.
+    std::optional<Slab>
+    wall(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
 
     /// Does a surface hide one place from the other? @{
     bool
@@ -98,8 +113,6 @@ namespace undine
     void
     find_extent();
 
-    using FacetImage = typename Obstruction<dim>::FacetImage;
-
     /// Call action(image) for the facets in those of the cells that the way passes, until it
     /// returns true; for some more than once.
     template <class Action>
@@ -117,7 +130,7 @@ namespace undine
     /// The facets in one cell.
     struct CellFacets
     {
-      std::vector<FacetImage>          images;
+      std::vector<Facet>               facets;
       typename Obstruction<dim>::Patch patch;
       bool                             is_wall;
     };

@@ -3,9 +3,9 @@
 #define undine_fluid_visible_samples_h
 
 #include <undine/fluid/body_vicinity.h>
+#include <undine/fluid/cube_views.h>
 #include <undine/fluid/field.h>
 #include <undine/fluid/obstruction.h>
-#include <undine/fluid/parted_cubes.h>
 #include <undine/fluid/sampled_points.h>
 
 #include <optional>
@@ -65,6 +65,10 @@ namespace undine
     std::optional<double>
     multilinear(const dealii::Point<dim> &place, const Eye &eye) const;
 
+    /// What `eye` sees of these corners of the cube above point `lower`.
+    typename CubeViews<dim>::View
+    seen_values(const GridIndex<dim> &lower, const Eye &eye, const unsigned int corners) const;
+
     /// Mean, by measure, of what can be seen of one point of the lattice; `all_visible`: nothing
     /// can hide whole points.
     std::optional<double>
@@ -76,7 +80,7 @@ namespace undine
     const Field<dim>        &field;
     const BodyVicinity<dim> &vicinity;
     SampledPoints<dim>       points;
-    PartedCubes<dim>         parted;
+    mutable CubeViews<dim>   cubes; ///< remembered
   };
 } // namespace undine
 

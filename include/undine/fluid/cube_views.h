@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_cube_views_h
+#define undine_fluid_cube_views_h
+
+#include <undine/fluid/body_vicinity.h>
+#include <undine/fluid/sampled_points.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace undine
+{
+  /// What can be seen of the corners of a cube between points of a lattice, from eyes in it, where
+  /// surfaces are about. Which samples lie on which side of each facet is found once for all eyes;
+  /// an eye then looks at the facets between it and what is on their other side, and at none where
+  /// a surface parts the cube like a wall.
+  template <int dim>
+  class CubeViews
+  {
+  public:
+    static constexpr unsigned int n_corners = 1 << dim;
+
+    /// Of the cubes between stored points of a field. Keeps references to the other arguments.
+    CubeViews(const IndexBox<dim>      &stored,
+              const SampledPoints<dim> &points,
+              const Obstruction<dim>   &obstruction,
+              const BodyVicinity<dim>  &vicinity);
+
+    /// The corners that are seen: of each the mean, by measure, of its samples that are.
+    struct View
+    {
+      std::array<double, n_corners> values;
+      unsigned int                  corners; ///< bit by bit
+    };
+
+    /// What `eye` sees of these `corners` of the cube above point `lower`; of its own point, if it
+    /// has one, only the nearest sample. Nothing if the eye is not in the cells of the cube, or so
+    /// close to a surface that it takes a closer look. Remembers the cube.
+    std::optional<View>
+    view(const GridIndex<dim>     &lower,
+         const dealii::Point<dim> &eye,
+         const unsigned int        corners,
+         const GridIndex<dim>     *own);
+
+  private:
+    using Mask = std::uint64_t; ///< a bit for each sample of a cube
+
+    static constexpr unsigned int n_bits = 64;
+
+    struct Sample
+    {
+      dealii::Point<dim> place;
+      double             value;
+      double             measure;
+    };
+
+    /// A facet, or the wall of several, and what of the cube's samples is beyond its slab.
+    struct Screen
+    {
+      typename Obstruction<dim>::Slab       slab;
+      typename Obstruction<dim>::FacetImage facet;
+      Mask                                  above, below;
+    };
+
+    struct Cube
+    {
+      dealii::Point<dim>          lower, upper; ///< of its cells
+      std::size_t                 samples;      ///< where they begin
+      std::array<Mask, n_corners> of_corner;    ///< which of them
+      std::size_t                 screens, screens_end;
+      bool                        is_wall;
+    };
+
+    /// The number of the cube above a point, found or made; 0: not to be used.
+    unsigned int
+    number_of(const GridIndex<dim> &lower);
+
+    unsigned int
+    make(const GridIndex<dim> &lower);
+
+    /// Also says if all of them are in the cube's cells, and not too many.
+    bool
+    add_samples(Cube &cube, const GridIndex<dim> &lower);
+
+    /// As a wall, if it is one that leaves no sample inside.
+    void
+    add_wall(Cube &cube, const typename Obstruction<dim>::Slab &slab);
+
+    Screen
+    screen(const Cube                                  &cube,
+           const typename Obstruction<dim>::Slab       &slab,
+           const typename Obstruction<dim>::FacetImage &facet) const;
+
+    /// Those of the samples `wanted` that an eye sees; nothing if it takes a closer look.
+    std::optional<Mask>
+    visible(const Cube &cube, const dealii::Point<dim> &eye, Mask wanted) const;
+
+    /// Call action(sample) for those of a cube's samples.
+    template <class Action>
+    void
+    for_each_sample(const Cube &cube, Mask mask, const Action &action) const
+    {
+      for (auto k = cube.samples; mask != 0; ++k, mask >>= 1)
+        if (mask & 1)
+          action(samples[k]);
+    }
+
+    double
+    mean(const Cube &cube, const Mask mask) const;
+
+    double
+    nearest(const Cube &cube, const Mask mask, const dealii::Point<dim> &eye) const;
+
+    static constexpr unsigned int unknown = -1;
+
+    const SampledPoints<dim> &points;
+    const Obstruction<dim>   &obstruction;
+    const BodyVicinity<dim>  &vicinity;
+    IndexBox<dim>             box;
+    std::vector<unsigned int> cube_above; ///< each point, in `cubes`, or unknown
+    std::vector<Cube>         cubes;      ///< the first is none
+    std::vector<Sample>       samples;
+    std::vector<Screen>       screens;
+  };
+} // namespace undine
+
+#endif

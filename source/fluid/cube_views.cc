@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/cube_views.h>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace undine
+{
+  namespace
+  {
+    template <int dim>
+    GridIndex<dim>
+    corner_of(GridIndex<dim> lower, const unsigned int corner)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        lower[d] += (corner >> d) & 1;
+      return lower;
+    }
+
+
+    template <int dim>
+    bool
+    is_between(const dealii::Point<dim> &place,
+               const dealii::Point<dim> &lower,
+               const dealii::Point<dim> &upper)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (place[d] < lower[d] || place[d] > upper[d])
+          return false;
+      return true;
+    }
+  } // namespace
+
+
+  template <int dim>
+  CubeViews<dim>::CubeViews(const IndexBox<dim>      &stored,
+                            const SampledPoints<dim> &points_,
+                            const Obstruction<dim>   &obstruction_,
+                            const BodyVicinity<dim>  &vicinity_)
+    : points(points_)
+    , obstruction(obstruction_)
+    , vicinity(vicinity_)
+    , box(stored)
+    , cube_above(box.size(), unknown)
+    , cubes(1)
+  {
+  }
+
+
+  template <int dim>
+  unsigned int
+  CubeViews<dim>::number_of(const GridIndex<dim> &lower)
+  {
+    auto &number = cube_above[box.position(lower)];
+    if (number == unknown)
+      number = make(lower);
+    return number;
+  }
+
+
+  template <int dim>
+  unsigned int
+  CubeViews<dim>::make(const GridIndex<dim> &lower)
+  {
+    const auto begin = points.located(lower).cell;
+    const auto end   = points.located(corner_of(lower, n_corners - 1)).cell;
+    if (!vicinity.knows(begin, end))
+      return 0;
+    Cube cube{{}, {}, samples.size(), {}, screens.size(), 0, false};
+    std::tie(cube.lower, cube.upper) = vicinity.corners(begin, end);
+    if (!add_samples(cube, lower))
+      {
+        samples.resize(cube.samples);
+        return 0;
+      }
+    if (const auto slab = vicinity.wall(begin, end))
+      add_wall(cube, *slab);
+    if (!cube.is_wall)
+      for (const auto *facet : vicinity.facets(begin, end))
+        screens.push_back(screen(cube, facet->slab, facet->image));
+    cube.screens_end = screens.size();
+    cubes.push_back(cube);
+    return cubes.size() - 1;
+  }
+
+
+  template <int dim>
+  bool
+  CubeViews<dim>::add_samples(Cube &cube, const GridIndex<dim> &lower)
+  {
+    bool inside = true;
+    for (unsigned int corner = 0; corner < n_corners; ++corner)
+      points.for_each_sample(
+        corner_of(lower, corner), [&](const typename SampledPoints<dim>::Sample &sample) {
+          cube.of_corner[corner] |= Mask(1) << (samples.size() - cube.samples) % n_bits;
+          samples.push_back({sample.place.point, sample.value, sample.measure});
+          inside = inside && is_between(sample.place.point, cube.lower, cube.upper);
+        });
+    return inside && samples.size() - cube.samples <= n_bits;
+  }
+
+
+  template <int dim>
+  typename CubeViews<dim>::Screen
+  CubeViews<dim>::screen(const Cube                                  &cube,
+                         const typename Obstruction<dim>::Slab       &slab,
+                         const typename Obstruction<dim>::FacetImage &facet) const
+  {
+    Screen result{slab, facet, 0, 0};
+    for (auto k = cube.samples; k < samples.size(); ++k)
+      {
+        const int  side = slab.side(samples[k].place);
+        const Mask bit  = Mask(1) << (k - cube.samples);
+        result.above |= side > 0 ? bit : 0;
+        result.below |= side < 0 ? bit : 0;
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  CubeViews<dim>::add_wall(Cube &cube, const typename Obstruction<dim>::Slab &slab)
+  {
+    const auto wall = screen(cube, slab, {});
+    Mask       all  = 0;
+    for (const Mask of_corner : cube.of_corner)
+      all |= of_corner;
+    cube.is_wall = (wall.above | wall.below) == all;
+    if (cube.is_wall)
+      screens.push_back(wall);
+  }
+
+
+  template <int dim>
+  std::optional<typename CubeViews<dim>::Mask>
+  CubeViews<dim>::visible(const Cube &cube, const dealii::Point<dim> &eye, Mask wanted) const
+  {
+    for (auto s = cube.screens; s < cube.screens_end && wanted != 0; ++s)
+      {
+        const auto &screen = screens[s];
+        const int   side   = screen.slab.side(eye);
+        Mask        beyond = wanted & ~(side > 0 ? screen.above : side < 0 ? screen.below : 0);
+        if (cube.is_wall)
+          return side == 0 ? std::nullopt : std::optional<Mask>(wanted & ~beyond);
+        for (auto k = cube.samples; beyond != 0; ++k, beyond >>= 1)
+          if ((beyond & 1) && obstruction.first_hit(screen.facet, eye, samples[k].place) <= 1)
+            wanted &= ~(Mask(1) << (k - cube.samples));
+      }
+    return wanted;
+  }
+
+
+  template <int dim>
+  std::optional<typename CubeViews<dim>::View>
+  CubeViews<dim>::view(const GridIndex<dim>     &lower,
+                       const dealii::Point<dim> &eye,
+                       const unsigned int        corners,
+                       const GridIndex<dim>     *own)
+  {
+    const auto number = number_of(lower);
+    if (number == 0 || !is_between(eye, cubes[number].lower, cubes[number].upper))
+      return {};
+    const auto &cube   = cubes[number];
+    Mask        wanted = 0;
+    for (unsigned int corner = 0; corner < n_corners; ++corner)
+      wanted |= (corners >> corner & 1) ? cube.of_corner[corner] : 0;
+    const auto seen = visible(cube, eye, wanted);
+    if (!seen)
+      return {};
+    View result{{}, 0};
+    for (unsigned int corner = 0; corner < n_corners; ++corner)
+      if (const Mask mask = *seen & cube.of_corner[corner])
+        {
+          const bool is_own = own != nullptr && points.inside(corner_of(lower, corner)) == *own;
+          result.corners |= 1u << corner;
+          result.values[corner] = is_own ? nearest(cube, mask, eye) : mean(cube, mask);
+        }
+    return result;
+  }
+
+
+  template <int dim>
+  double
+  CubeViews<dim>::mean(const Cube &cube, const Mask mask) const
+  {
+    double sum = 0, total = 0;
+    for_each_sample(cube, mask, [&](const Sample &sample) {
+      sum += sample.measure * sample.value;
+      total += sample.measure;
+    });
+    return sum / total;
+  }
+
+
+  template <int dim>
+  double
+  CubeViews<dim>::nearest(const Cube &cube, const Mask mask, const dealii::Point<dim> &eye) const
+  {
+    double least = std::numeric_limits<double>::infinity(), value = 0;
+    for_each_sample(cube, mask, [&](const Sample &sample) {
+      if (const double distance = sample.place.distance(eye); distance < least)
+        least = distance, value = sample.value;
+    });
+    return value;
+  }
+
+
+  template class CubeViews<2>;
+  template class CubeViews<3>;
+} // namespace undine
