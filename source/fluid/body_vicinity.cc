@@ -60,79 +60,6 @@ namespace undine
         }
       return cells;
     }
-
-
-    /// Lower corner of one cell, upper one of another.
-    template <int dim>
-    std::pair<dealii::Point<dim>, dealii::Point<dim>>
-    corners_of(const MacGrid<dim> &grid, const GridIndex<dim> &lower, const GridIndex<dim> &upper)
-    {
-      std::pair<dealii::Point<dim>, dealii::Point<dim>> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const auto &planes = grid.faces(d)->row(d);
-          result.first[d]    = planes.position(lower[d]);
-          result.second[d]   = planes.position(upper[d] + 1);
-        }
-      return result;
-    }
-
-
-    /// Widen a slab so that it holds what a patch holds.
-    template <int dim>
-    void
-    widen(typename Obstruction<dim>::Slab &slab, const typename Obstruction<dim>::Patch &patch)
-    {
-      // n x = n m + o (x - m) + (n - o) (x - m) with the other normal o and the middle m
-      auto other = patch.slab;
-      if (slab.normal * other.normal < 0)
-        {
-          other.normal = -other.normal;
-          std::swap(other.lower, other.upper);
-          other.lower = -other.lower, other.upper = -other.upper;
-        }
-      const double turned = (slab.normal - other.normal).norm() * patch.radius;
-      const double shift  = (slab.normal - other.normal) * patch.middle;
-      slab.lower          = std::min(slab.lower, other.lower + shift - turned);
-      slab.upper          = std::max(slab.upper, other.upper + shift + turned);
-    }
-
-
-    template <int dim>
-    bool
-    holds(const IndexBox<dim> &box, const IndexBox<dim> &cells)
-    {
-      return cells.intersection(box) == cells;
-    }
-
-
-    /// Does a straight way come through a cell, or past it within rounding?
-    template <int dim>
-    bool
-    passes_cell(const MacGrid<dim>       &grid,
-                const GridIndex<dim>     &cell,
-                const dealii::Point<dim> &from,
-                const dealii::Point<dim> &to)
-    {
-      constexpr double tolerance = 1e-6; // of a cell
-      double           enter = 0, leave = 1;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const auto  &row   = grid.faces(d)->row(d);
-          const double lower = row.position(cell[d]), upper = row.position(cell[d] + 1);
-          const double rim = tolerance * (upper - lower), way = to[d] - from[d];
-          const double to_lower = lower - rim - from[d], to_upper = upper + rim - from[d];
-          if (way == 0)
-            {
-              if (to_lower > 0 || to_upper < 0)
-                return false;
-              continue;
-            }
-          enter = std::max(enter, std::min(to_lower / way, to_upper / way));
-          leave = std::min(leave, std::max(to_lower / way, to_upper / way));
-        }
-      return enter <= leave;
-    }
   } // namespace
 
 
@@ -168,8 +95,13 @@ namespace undine
       mark_swept_cells();
     measure_layers();
     find_extent();
-    if (surfaces != nullptr)
-      find_facets();
+    if (surfaces == nullptr)
+      return;
+    facets = FacetsOfCells<dim>(grid_, *surfaces, box);
+    for_each(box, [&](const GridIndex<dim> &cell) {
+      if (layers[box.position(cell)] == 0)
+        facets.add(cell);
+    });
   }
 
 
@@ -212,28 +144,6 @@ namespace undine
 
   template <int dim>
   void
-  BodyVicinity<dim>::find_facets()
-  {
-    facets_of_cell.assign(box.size(), 0);
-    cell_facets.resize(1);
-    for_each(box, [&](const GridIndex<dim> &cell) {
-      if (layers[box.position(cell)] > 0)
-        return;
-      const dealii::BoundingBox<dim> space(corners_of(*grid, cell, cell));
-      const auto                     images = surfaces->facets_near(space);
-      if (images.empty())
-        return;
-      const auto patch                   = surfaces->patch(images);
-      facets_of_cell[box.position(cell)] = cell_facets.size();
-      cell_facets.push_back({{}, patch, surfaces->is_wall(images, patch.slab, space)});
-      for (const auto &image : images)
-        cell_facets.back().facets.push_back({image, surfaces->patch({image}).slab});
-    });
-  }
-
-
-  template <int dim>
-  void
   BodyVicinity<dim>::find_extent()
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -258,13 +168,22 @@ namespace undine
 
   template <int dim>
   bool
-  BodyVicinity<dim>::is_near(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
+  BodyVicinity<dim>::reaches_extent(const dealii::Point<dim> &from,
+                                    const dealii::Point<dim> &to) const
   {
-    if (grid == nullptr)
-      return false;
     for (unsigned int d = 0; d < dim; ++d)
       if (std::max(from[d], to[d]) < lowest[d] || std::min(from[d], to[d]) > highest[d])
         return false;
+    return true;
+  }
+
+
+  template <int dim>
+  bool
+  BodyVicinity<dim>::is_near(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
+  {
+    if (grid == nullptr || !reaches_extent(from, to))
+      return false;
     const auto begin = cell_or_image_at(*grid, from), end = cell_or_image_at(*grid, to);
     int        longest = 0;
     for (unsigned int d = 0; d < dim; ++d)
@@ -287,35 +206,10 @@ namespace undine
   bool
   BodyVicinity<dim>::is_next_to_body(const dealii::Point<dim> &place) const
   {
-    if (grid == nullptr)
+    if (grid == nullptr || !reaches_extent(place, place))
       return false;
-    for (unsigned int d = 0; d < dim; ++d)
-      if (place[d] < lowest[d] || place[d] > highest[d])
-        return false;
     const auto cell = cell_or_image_at(*grid, place);
     return !box.contains(cell) || layers[box.position(cell)] <= 1;
-  }
-
-
-  template <int dim>
-  template <class Action>
-  void
-  BodyVicinity<dim>::until_facet(const IndexBox<dim>      &cells,
-                                 const dealii::Point<dim> &from,
-                                 const dealii::Point<dim> &to,
-                                 const Action             &action) const
-  {
-    bool stop = false;
-    for_each(cells, [&](const GridIndex<dim> &cell) {
-      const auto number = facets_of_cell[box.position(cell)];
-      if (stop || number == 0)
-        return;
-      const auto &in_cell = cell_facets[number];
-      if (in_cell.patch.slab.leaves_open(from, to) || !passes_cell(*grid, cell, from, to))
-        return;
-      for (std::size_t k = 0; !stop && k < in_cell.facets.size(); ++k)
-        stop = !in_cell.facets[k].slab.leaves_open(from, to) && action(in_cell.facets[k].image);
-    });
   }
 
 
@@ -326,7 +220,7 @@ namespace undine
     if (grid == nullptr)
       return true;
     const auto cells = cells_between(begin, end);
-    if (!holds(box, cells))
+    if (!(cells.intersection(box) == cells))
       return false;
     int longest = 0;
     for (unsigned int d = 0; d < dim; ++d)
@@ -338,65 +232,6 @@ namespace undine
     for_each(cells,
              [&](const GridIndex<dim> &cell) { clear = clear && layers[box.position(cell)] > 0; });
     return clear;
-  }
-
-
-  template <int dim>
-  bool
-  BodyVicinity<dim>::knows(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
-  {
-    return surfaces != nullptr && holds(box, cells_between(begin, end));
-  }
-
-
-  template <int dim>
-  std::pair<dealii::Point<dim>, dealii::Point<dim>>
-  BodyVicinity<dim>::corners(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
-  {
-    return corners_of(*grid, begin, end);
-  }
-
-
-  template <int dim>
-  std::vector<const typename BodyVicinity<dim>::Facet *>
-  BodyVicinity<dim>::facets(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
-  {
-    std::vector<const Facet *> result;
-    for_each(cells_between(begin, end), [&](const GridIndex<dim> &cell) {
-      for (const auto &facet : cell_facets[facets_of_cell[box.position(cell)]].facets)
-        result.push_back(&facet);
-    });
-    std::sort(result.begin(), result.end(), [](const Facet *a, const Facet *b) {
-      return a->image.facet < b->image.facet;
-    });
-    const auto end_of_unique =
-      std::unique(result.begin(), result.end(), [](const Facet *a, const Facet *b) {
-        return a->image.facet == b->image.facet && a->image.to_facet == b->image.to_facet;
-      });
-    result.erase(end_of_unique, result.end());
-    return result;
-  }
-
-
-  template <int dim>
-  std::optional<typename Obstruction<dim>::Slab>
-  BodyVicinity<dim>::wall(const GridIndex<dim> &begin, const GridIndex<dim> &end) const
-  {
-    constexpr double    alike = 0.92; // 23 degrees: with 45 for facets all are oriented alike
-    std::optional<Slab> slab;
-    bool                parted = true;
-    for_each(cells_between(begin, end), [&](const GridIndex<dim> &cell) {
-      const auto number = facets_of_cell[box.position(cell)];
-      if (number == 0 || !parted)
-        return;
-      const auto &in_cell = cell_facets[number];
-      if (!slab)
-        slab = in_cell.patch.slab;
-      parted = in_cell.is_wall && std::abs(slab->normal * in_cell.patch.slab.normal) > alike;
-      if (parted)
-        widen<dim>(*slab, in_cell.patch);
-    });
-    return parted ? slab : std::nullopt;
   }
 
 
@@ -423,10 +258,10 @@ namespace undine
     if (surfaces == nullptr)
       return false;
     const auto cells = cells_between(from.cell, to.cell);
-    if (!holds(box, cells))
+    if (!facets.know(cells))
       return surfaces->first_hit(from.point, to.point) <= 1;
     bool hidden = false;
-    until_facet(cells, from.point, to.point, [&](const FacetImage &facet) {
+    facets.until_facet(cells, from.point, to.point, [&](const auto &facet) {
       hidden = surfaces->first_hit(facet, from.point, to.point) <= 1;
       return hidden;
     });
@@ -440,12 +275,15 @@ namespace undine
   {
     constexpr std::size_t short_way = 27; // cells; through more of them a tree is faster
     double                result    = std::numeric_limits<double>::infinity();
-    if (surfaces == nullptr)
+    if (surfaces == nullptr || !reaches_extent(from, to))
       return result;
-    const auto cells = cells_between(cell_or_image_at(*grid, from), cell_or_image_at(*grid, to));
-    if (cells.size() > short_way || !holds(box, cells))
+    const auto begin = cell_or_image_at(*grid, from), end = cell_or_image_at(*grid, to);
+    const auto cells = cells_between(begin, end);
+    if (cells.size() <= short_way && is_clear(begin, end))
+      return result;
+    if (cells.size() > short_way || !facets.know(cells))
       return surfaces->first_hit(from, to);
-    until_facet(cells, from, to, [&](const FacetImage &facet) {
+    facets.until_facet(cells, from, to, [&](const auto &facet) {
       result = std::min(result, surfaces->first_hit(facet, from, to));
       return false;
     });

@@ -9,6 +9,9 @@ namespace undine
 {
   namespace
   {
+    constexpr double rounding = 1e-12; ///< of places, over the size of cells
+
+
     template <int dim>
     GridIndex<dim>
     corner_of(GridIndex<dim> lower, const unsigned int corner)
@@ -37,10 +40,10 @@ namespace undine
   CubeViews<dim>::CubeViews(const IndexBox<dim>      &stored,
                             const SampledPoints<dim> &points_,
                             const Obstruction<dim>   &obstruction_,
-                            const BodyVicinity<dim>  &vicinity_)
+                            const FacetsOfCells<dim> &facets_)
     : points(points_)
     , obstruction(obstruction_)
-    , vicinity(vicinity_)
+    , facets(facets_)
     , box(stored)
     , cube_above(box.size(), unknown)
     , cubes(1)
@@ -63,21 +66,22 @@ namespace undine
   unsigned int
   CubeViews<dim>::make(const GridIndex<dim> &lower)
   {
-    const auto begin = points.located(lower).cell;
-    const auto end   = points.located(corner_of(lower, n_corners - 1)).cell;
-    if (!vicinity.knows(begin, end))
+    const auto cells = points.cells_around(lower);
+    if (!facets.know(cells))
       return 0;
     Cube cube{{}, {}, samples.size(), {}, screens.size(), 0, false};
-    std::tie(cube.lower, cube.upper) = vicinity.corners(begin, end);
+    std::tie(cube.lower, cube.upper) = facets.corners(cells);
+    const auto rim                   = rounding * (cube.upper - cube.lower);
+    cube.lower -= rim, cube.upper += rim;
     if (!add_samples(cube, lower))
       {
         samples.resize(cube.samples);
         return 0;
       }
-    if (const auto slab = vicinity.wall(begin, end))
+    if (const auto slab = facets.wall(cells))
       add_wall(cube, *slab);
     if (!cube.is_wall)
-      for (const auto *facet : vicinity.facets(begin, end))
+      for (const auto *facet : facets.in(cells))
         screens.push_back(screen(cube, facet->slab, facet->image));
     cube.screens_end = screens.size();
     cubes.push_back(cube);

@@ -205,12 +205,8 @@ namespace undine
     constexpr double   share = 0.98;
     const auto        &grid  = fluid_model.grid();
     dealii::Point<dim> end   = place + way;
-    if (body_vicinity.is_near(place, end))
-      {
-        const double hit = body_vicinity.first_hit(place, end);
-        if (hit <= 1)
-          return {place + share * hit * way, false};
-      }
+    if (const double hit = body_vicinity.first_hit(place, end); hit <= 1)
+      return {place + share * hit * way, false};
     // Each turn ends the way at the first boundary it meets, or bends it along that wall.
     for (unsigned int turn = 0; turn < dim; ++turn)
       {

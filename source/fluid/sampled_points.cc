@@ -182,6 +182,23 @@ namespace undine
   }
 
 
+  template <int dim>
+  IndexBox<dim>
+  SampledPoints<dim>::cells_around(const GridIndex<dim> &lower) const
+  {
+    auto highest = lower;
+    for (int &index : highest.values)
+      ++index;
+    IndexBox<dim> cells{located(lower).cell, located(highest).cell};
+    // The upper face of a cell counts as one of the next.
+    if (const auto axis = field.lattice().normal_axis(); axis < dim)
+      cells.upper[axis] = cells.lower[axis];
+    for (int &index : cells.upper.values)
+      ++index;
+    return cells;
+  }
+
+
   template class SampledPoints<2>;
   template class SampledPoints<3>;
 } // namespace undine

@@ -26,21 +26,19 @@ namespace undine
     : field(field_)
     , vicinity(vicinity_)
     , points(field, width, obstruction, vicinity)
-    , cubes(field.stored(), points, obstruction, vicinity)
+    , cubes(field.stored(), points, obstruction, vicinity.facets_of_cells())
   {
   }
 
 
   template <int dim>
   std::optional<double>
-  VisibleSamples<dim>::value_of(const GridIndex<dim> &index,
-                                const Eye            &eye,
-                                const bool            all_visible) const
+  VisibleSamples<dim>::value_of(const GridIndex<dim> &index, const Eye &eye) const
   {
     switch (points.kind(index))
       {
         case SampledPoints<dim>::Kind::value:
-          if (all_visible || !vicinity.is_hidden(eye.place, points.located(index)))
+          if (!vicinity.is_hidden(vicinity.place(eye.point), points.located(index)))
             return field(index);
           return {};
         case SampledPoints<dim>::Kind::parts:
@@ -55,12 +53,13 @@ namespace undine
   std::optional<double>
   VisibleSamples<dim>::value_of_parts(const GridIndex<dim> &index, const Eye &eye) const
   {
+    const auto place        = vicinity.place(eye.point);
     const bool only_nearest = eye.own != nullptr && points.inside(index) == *eye.own;
     double     sum = 0, total = 0, nearest = std::numeric_limits<double>::infinity();
     points.for_each_sample(index, [&](const Sample &sample) {
-      if (vicinity.is_hidden(eye.place, sample.place))
+      if (vicinity.is_hidden(place, sample.place))
         return;
-      const double distance = only_nearest ? sample.place.point.distance(eye.place.point) : 0;
+      const double distance = only_nearest ? sample.place.point.distance(eye.point) : 0;
       if (only_nearest && distance >= nearest)
         return;
       if (only_nearest)
@@ -77,7 +76,7 @@ namespace undine
   std::optional<double>
   VisibleSamples<dim>::at(const dealii::Point<dim> &place) const
   {
-    return multilinear(place, {vicinity.place(place), nullptr});
+    return multilinear(place, {place, nullptr});
   }
 
 
@@ -89,9 +88,9 @@ namespace undine
   {
     const auto &lattice = field.lattice();
     const auto  point   = lattice.point(index);
-    const Eye   eye{vicinity.place(foot), place == point ? nullptr : &index};
+    const Eye   eye{foot, place == point ? nullptr : &index};
     if (foot == place)
-      if (const auto own = value_of(index, eye, false))
+      if (const auto own = value_of(index, eye))
         return own;
     // A trace of the way to the centroid says on which side of the point the fluid is.
     const dealii::Point<dim> start = point + (foot - place) + side_share * (place - point);
@@ -114,16 +113,6 @@ namespace undine
         lower[d]           = stencil.first;
         upper[d]           = stencil.first + static_cast<int>(stencil.n_points) - 1;
       }
-    return is_visible_box(lower, upper, eye);
-  }
-
-
-  template <int dim>
-  bool
-  VisibleSamples<dim>::is_visible_box(const GridIndex<dim>     &lower,
-                                      const GridIndex<dim>     &upper,
-                                      const dealii::Point<dim> &eye) const
-  {
     const auto below = points.located(lower), above = points.located(upper);
     bool       result = vicinity.is_clear(below.cell, above.cell);
     for (unsigned int d = 0; d < dim; ++d)
@@ -181,12 +170,8 @@ namespace undine
                                    const Eye            &eye,
                                    const unsigned int    corners) const
   {
-    if (const auto view = cubes.view(lower, eye.place.point, corners, eye.own))
+    if (const auto view = cubes.view(lower, eye.point, corners, eye.own))
       return *view;
-    auto upper = lower;
-    for (unsigned int d = 0; d < dim; ++d)
-      ++upper[d];
-    const bool                    all_visible = is_visible_box(lower, upper, eye.place.point);
     typename CubeViews<dim>::View result{{}, 0};
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {
@@ -195,7 +180,7 @@ namespace undine
         auto index = lower;
         for (unsigned int d = 0; d < dim; ++d)
           index[d] += (corner >> d) & 1;
-        if (const auto value = value_of(index, eye, all_visible))
+        if (const auto value = value_of(index, eye))
           {
             result.values[corner] = *value;
             result.corners |= 1u << corner;

@@ -2,6 +2,7 @@
 #ifndef undine_fluid_body_vicinity_h
 #define undine_fluid_body_vicinity_h
 
+#include <undine/fluid/facets_of_cells.h>
 #include <undine/fluid/field.h>
 #include <undine/fluid/mac_grid.h>
 #include <undine/fluid/obstruction.h>
@@ -9,8 +10,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <utility>
 #include <vector>
 
 namespace undine
@@ -58,32 +57,12 @@ namespace undine
     bool
     is_clear(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
 
-    using FacetImage = typename Obstruction<dim>::FacetImage;
-    using Slab       = typename Obstruction<dim>::Slab;
-
-    struct Facet
+    /// The facets in the cells that bodies touch.
+    const FacetsOfCells<dim> &
+    facets_of_cells() const
     {
-      FacetImage image;
-      Slab       slab; ///< as thin as the facet
-    };
-
-    /// The cells of the box with two corners in `begin` and `end`: does this know the facets in
-    /// them, lower and upper corner, each facet once. @{
-    bool
-    knows(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
-
-    std::pair<dealii::Point<dim>, dealii::Point<dim>>
-    corners(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
-
-    std::vector<const Facet *>
-    facets(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
-    /// @}
-
-    /// A slab around all facets in these cells if they are parted by a wall, see Obstruction: what
-    /// is on one side of it is hidden from the other; exactly that if the wall is plane, otherwise
-    /// perhaps some of what could be seen past a rim just outside the cells. Else nothing.
-    std::optional<Slab>
-    wall(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
+      return facets;
+    }
 
     /// Does a surface hide one place from the other? @{
     bool
@@ -108,35 +87,18 @@ namespace undine
     measure_layers();
 
     void
-    find_facets();
-
-    void
     find_extent();
 
-    /// Call action(image) for the facets in those of the cells that the way passes, until it
-    /// returns true; for some more than once.
-    template <class Action>
-    void
-    until_facet(const IndexBox<dim>      &cells,
-                const dealii::Point<dim> &from,
-                const dealii::Point<dim> &to,
-                const Action             &action) const;
+    /// False if the box around a way ends before the extent of the bodies' vicinity.
+    bool
+    reaches_extent(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
 
     const MacGrid<dim>       *grid     = nullptr; ///< nullptr: no bodies
     const Obstruction<dim>   *surfaces = nullptr;
     IndexBox<dim>             box;
     std::vector<std::uint8_t> layers; ///< 0: a body is in the cell, 1: beside that, ... margin + 1
 
-    /// The facets in one cell.
-    struct CellFacets
-    {
-      std::vector<Facet>               facets;
-      typename Obstruction<dim>::Patch patch;
-      bool                             is_wall;
-    };
-
-    std::vector<unsigned int> facets_of_cell; ///< positions in `cell_facets`
-    std::vector<CellFacets>   cell_facets;    ///< the first is empty
+    FacetsOfCells<dim> facets;
 
     /// Around all cells within `margin` layers [m]; infinite where it reaches a boundary or along
     /// periodic axes.

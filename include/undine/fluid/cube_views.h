@@ -2,7 +2,7 @@
 #ifndef undine_fluid_cube_views_h
 #define undine_fluid_cube_views_h
 
-#include <undine/fluid/body_vicinity.h>
+#include <undine/fluid/facets_of_cells.h>
 #include <undine/fluid/sampled_points.h>
 
 #include <array>
@@ -26,7 +26,7 @@ namespace undine
     CubeViews(const IndexBox<dim>      &stored,
               const SampledPoints<dim> &points,
               const Obstruction<dim>   &obstruction,
-              const BodyVicinity<dim>  &vicinity);
+              const FacetsOfCells<dim> &facets);
 
     /// The corners that are seen: of each the mean, by measure, of its samples that are.
     struct View
@@ -117,7 +117,7 @@ namespace undine
 
     const SampledPoints<dim> &points;
     const Obstruction<dim>   &obstruction;
-    const BodyVicinity<dim>  &vicinity;
+    const FacetsOfCells<dim> &facets;
     IndexBox<dim>             box;
     std::vector<unsigned int> cube_above; ///< each point, in `cubes`, or unknown
     std::vector<Cube>         cubes;      ///< the first is none

@@ -73,6 +73,11 @@ namespace undine
     Place
     located(const GridIndex<dim> &index) const;
 
+    /// The cells that hold the cube between the point `lower` and those above it; boundary points
+    /// belong to the cells inside.
+    IndexBox<dim>
+    cells_around(const GridIndex<dim> &lower) const;
+
   private:
     void
     find_kinds(const GridIndex<dim> &width, const Obstruction<dim> &obstruction);

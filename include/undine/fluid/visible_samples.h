@@ -41,23 +41,16 @@ namespace undine
           const dealii::Point<dim> &foot) const;
 
   private:
-    using Place  = typename BodyVicinity<dim>::Place;
     using Sample = typename SampledPoints<dim>::Sample;
 
-    /// Can nothing hide the points in a box of the lattice from an eye in it?
-    bool
-    is_visible_box(const GridIndex<dim>     &lower,
-                   const GridIndex<dim>     &upper,
-                   const dealii::Point<dim> &eye) const;
-
-    /// The same for the points that a cubic at `place` takes.
+    /// Can nothing hide the points that a cubic at `place` takes from an eye among them?
     bool
     is_clear_for_cubics(const dealii::Point<dim> &place, const dealii::Point<dim> &eye) const;
 
     /// Who looks.
     struct Eye
     {
-      Place                 place;
+      dealii::Point<dim>    point;
       const GridIndex<dim> *own; ///< sees only the nearest part of this point; nullptr: no such
     };
 
@@ -69,10 +62,9 @@ namespace undine
     typename CubeViews<dim>::View
     seen_values(const GridIndex<dim> &lower, const Eye &eye, const unsigned int corners) const;
 
-    /// Mean, by measure, of what can be seen of one point of the lattice; `all_visible`: nothing
-    /// can hide whole points.
+    /// Mean, by measure, of what can be seen of one point of the lattice.
     std::optional<double>
-    value_of(const GridIndex<dim> &index, const Eye &eye, const bool all_visible) const;
+    value_of(const GridIndex<dim> &index, const Eye &eye) const;
 
     std::optional<double>
     value_of_parts(const GridIndex<dim> &index, const Eye &eye) const;
