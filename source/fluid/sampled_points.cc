@@ -137,7 +137,7 @@ namespace undine
     const IndexBox<dim> whole{{}, lattice.shape()};
     list_of_point.assign(kinds.size(), 0);
     for_each(field.stored(), [&](const GridIndex<dim> &index) {
-      if (kind(index) != Kind::parts)
+      if (kinds[field.stored().position(index)] != Kind::parts)
         return;
       const auto found = number.find(whole.position(lattice.wrapped(inside(index))));
       if (found != number.end())

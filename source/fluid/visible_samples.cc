@@ -35,28 +35,10 @@ namespace undine
   std::optional<double>
   VisibleSamples<dim>::value_of(const GridIndex<dim> &index, const Eye &eye) const
   {
-    switch (points.kind(index))
-      {
-        case SampledPoints<dim>::Kind::value:
-          if (!vicinity.is_hidden(vicinity.place(eye.point), points.located(index)))
-            return field(index);
-          return {};
-        case SampledPoints<dim>::Kind::parts:
-          return value_of_parts(index, eye);
-        default:
-          return {};
-      }
-  }
-
-
-  template <int dim>
-  std::optional<double>
-  VisibleSamples<dim>::value_of_parts(const GridIndex<dim> &index, const Eye &eye) const
-  {
     const auto place        = vicinity.place(eye.point);
     const bool only_nearest = eye.own != nullptr && points.inside(index) == *eye.own;
     double     sum = 0, total = 0, nearest = std::numeric_limits<double>::infinity();
-    points.for_each_sample(index, [&](const Sample &sample) {
+    points.for_each_sample(index, [&](const auto &sample) {
       if (vicinity.is_hidden(place, sample.place))
         return;
       const double distance = only_nearest ? sample.place.point.distance(eye.point) : 0;

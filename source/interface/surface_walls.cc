@@ -51,8 +51,9 @@ namespace undine
           }
       }
     patch.middle /= std::max<std::size_t>(places.size(), 1);
-    slab.lower = std::numeric_limits<double>::infinity(),
-    slab.upper = -std::numeric_limits<double>::infinity(), patch.radius = 0;
+    slab.lower   = std::numeric_limits<double>::infinity();
+    slab.upper   = -slab.lower;
+    patch.radius = 0;
     for (const auto &place : places)
       {
         slab.lower   = std::min(slab.lower, slab.normal * place);

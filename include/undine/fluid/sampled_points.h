@@ -28,19 +28,6 @@ namespace undine
                   const Obstruction<dim>  &obstruction,
                   const BodyVicinity<dim> &vicinity);
 
-    enum class Kind : std::uint8_t
-    {
-      value, ///< one, of the whole point
-      parts, ///< those of a divided point
-      nothing
-    };
-
-    Kind
-    kind(const GridIndex<dim> &index) const
-    {
-      return kinds[field.stored().position(index)];
-    }
-
     struct Sample
     {
       Place  place;
@@ -79,6 +66,13 @@ namespace undine
     cells_around(const GridIndex<dim> &lower) const;
 
   private:
+    enum class Kind : std::uint8_t
+    {
+      value, ///< one, of the whole point
+      parts, ///< those of a divided point
+      nothing
+    };
+
     void
     find_kinds(const GridIndex<dim> &width, const Obstruction<dim> &obstruction);
 

@@ -26,6 +26,8 @@ namespace undine
                    const Obstruction<dim>  &obstruction,
                    const BodyVicinity<dim> &vicinity);
 
+    VisibleSamples(const VisibleSamples &) = delete;
+
     /// Multilinear weights of the 2^dim points around, those that cannot be seen left out; nothing
     /// if none can.
     std::optional<double>
@@ -41,8 +43,6 @@ namespace undine
           const dealii::Point<dim> &foot) const;
 
   private:
-    using Sample = typename SampledPoints<dim>::Sample;
-
     /// Can nothing hide the points that a cubic at `place` takes from an eye among them?
     bool
     is_clear_for_cubics(const dealii::Point<dim> &place, const dealii::Point<dim> &eye) const;
@@ -65,9 +65,6 @@ namespace undine
     /// Mean, by measure, of what can be seen of one point of the lattice.
     std::optional<double>
     value_of(const GridIndex<dim> &index, const Eye &eye) const;
-
-    std::optional<double>
-    value_of_parts(const GridIndex<dim> &index, const Eye &eye) const;
 
     const Field<dim>        &field;
     const BodyVicinity<dim> &vicinity;
