@@ -51,20 +51,19 @@ CASES = {
     "in a fluid, 2D": Case(2, "8, 32", "80, 40", 0.05),
     "in a fluid, 3D": Case(3, "2, 8, 4", "40, 20, 12", 0.05),
     "3D jet": Case(3, "1, 10, 6", "48, 24, 24", 0.05, jet=True, speed=0.1),
+    "3D jet, finer sheets": Case(3, "1, 16, 10", "48, 24, 24", 0.05, jet=True, speed=0.1),
     "time splitting, 2D": Case(2, "8, 32", "80, 40", 0.05, "time_splitting"),
 }
 
-JET = CASES["3D jet"]
 
-
-def sheet(name, x, modulus, speed):
+def sheet(name, x, modulus, speed, cells):
     """A sheet in the way of the jet, as in prm/jet_two_sheets.prm."""
     return f"""
   subsection {name}
     set Shape           = box
     set Lower corner    = {x}, -0.05, 0.3
     set Upper corner    = {x + 0.02:.3f}, 0.6, 0.7
-    set Cells           = {JET.cells}
+    set Cells           = {cells}
     set Density         = 1100
     set Young's modulus = {modulus}
     set Poisson's ratio = 0.3
@@ -146,7 +145,7 @@ end"""
 
 def bodies_of(case, n_bodies):
     if case.jet:
-        return "".join(sheet(f"body_{k}", x, *((1e6, 0.5) if k == 0 else (1e10, 0)))
+        return "".join(sheet(f"body_{k}", x, *((1e6, 0.5) if k == 0 else (1e10, 0)), case.cells)
                        for k, x in enumerate(JET_PLACES[:n_bodies]))
     return "".join(body(f"body_{k}", x, 0.4 if k == 0 else 0.01, case) for k, x in enumerate(PLACES[:n_bodies]))
 
