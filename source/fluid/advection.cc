@@ -29,9 +29,9 @@ namespace undine
     , lattice(source.lattice())
     , axis(source.lattice().normal_axis())
   {
-    if (const auto *obstruction = flow.bodies().obstruction)
-      samples = std::make_unique<const VisibleSamples<dim>>(
-        source, flow.width(), *obstruction, flow.vicinity());
+    if (flow.bodies().obstruction != nullptr)
+      samples =
+        std::make_unique<const VisibleSamples<dim>>(source, flow.views(source), flow.vicinity());
   }
 
 

@@ -37,17 +37,19 @@ namespace undine
 
 
   template <int dim>
-  CubeViews<dim>::CubeViews(const IndexBox<dim>      &stored,
-                            const SampledPoints<dim> &points_,
-                            const Obstruction<dim>   &obstruction_,
-                            const FacetsOfCells<dim> &facets_)
-    : points(points_)
+  CubeViews<dim>::CubeViews(const Field<dim>        &like,
+                            const GridIndex<dim>    &width,
+                            const Obstruction<dim>  &obstruction_,
+                            const BodyVicinity<dim> &vicinity)
+    : sampled(like, width, obstruction_, vicinity)
     , obstruction(obstruction_)
-    , facets(facets_)
-    , box(stored)
+    , facets(vicinity.facets_of_cells())
+    , box(like.stored())
     , cube_above(box.size(), unknown)
     , cubes(1)
   {
+    for (unsigned int corner = 0; corner < n_corners; ++corner)
+      corner_offsets[corner] = box.position(corner_of(box.lower, corner)) - box.position(box.lower);
   }
 
 
@@ -66,17 +68,29 @@ namespace undine
   unsigned int
   CubeViews<dim>::make(const GridIndex<dim> &lower)
   {
-    const auto cells = points.cells_around(lower);
+    const auto cells = sampled.cells_around(lower);
     if (!facets.know(cells))
       return 0;
-    Cube cube{{}, {}, samples.size(), {}, screens.size(), 0, false};
+    Cube cube{{}, {}, samples.size(), {}, screens.size(), screens.size(), false, false};
     std::tie(cube.lower, cube.upper) = facets.corners(cells);
     const auto rim                   = rounding * (cube.upper - cube.lower);
     cube.lower -= rim, cube.upper += rim;
+    cube.is_clear = is_clear(lower, cells);
+    if (!cube.is_clear && !add_to(cube, lower, cells))
+      return 0;
+    cubes.push_back(cube);
+    return cubes.size() - 1;
+  }
+
+
+  template <int dim>
+  bool
+  CubeViews<dim>::add_to(Cube &cube, const GridIndex<dim> &lower, const IndexBox<dim> &cells)
+  {
     if (!add_samples(cube, lower))
       {
         samples.resize(cube.samples);
-        return 0;
+        return false;
       }
     if (const auto slab = facets.wall(cells))
       add_wall(cube, *slab);
@@ -84,8 +98,18 @@ namespace undine
       for (const auto *facet : facets.in(cells))
         screens.push_back(screen(cube, facet->slab, facet->image));
     cube.screens_end = screens.size();
-    cubes.push_back(cube);
-    return cubes.size() - 1;
+    return true;
+  }
+
+
+  template <int dim>
+  bool
+  CubeViews<dim>::is_clear(const GridIndex<dim> &lower, const IndexBox<dim> &cells) const
+  {
+    for (unsigned int corner = 0; corner < n_corners; ++corner)
+      if (!sampled.is_whole(corner_of(lower, corner)))
+        return false;
+    return facets.in(cells).empty();
   }
 
 
@@ -95,10 +119,10 @@ namespace undine
   {
     bool inside = true;
     for (unsigned int corner = 0; corner < n_corners; ++corner)
-      points.for_each_sample(
+      sampled.for_each_sample(
         corner_of(lower, corner), [&](const typename SampledPoints<dim>::Sample &sample) {
           cube.of_corner[corner] |= Mask(1) << (samples.size() - cube.samples) % n_bits;
-          samples.push_back({sample.place.point, sample.value, sample.measure});
+          samples.push_back({sample.place.point, sample.number, sample.measure});
           inside = inside && is_between(sample.place.point, cube.lower, cube.upper);
         });
     return inside && samples.size() - cube.samples <= n_bits;
@@ -158,7 +182,8 @@ namespace undine
 
   template <int dim>
   std::optional<typename CubeViews<dim>::View>
-  CubeViews<dim>::view(const GridIndex<dim>     &lower,
+  CubeViews<dim>::view(const Values             &values,
+                       const GridIndex<dim>     &lower,
                        const dealii::Point<dim> &eye,
                        const unsigned int        corners,
                        const GridIndex<dim>     *own)
@@ -166,8 +191,10 @@ namespace undine
     const auto number = number_of(lower);
     if (number == 0 || !is_between(eye, cubes[number].lower, cubes[number].upper))
       return {};
-    const auto &cube   = cubes[number];
-    Mask        wanted = 0;
+    const auto &cube = cubes[number];
+    if (cube.is_clear)
+      return clear_view(values, lower, corners);
+    Mask wanted = 0;
     for (unsigned int corner = 0; corner < n_corners; ++corner)
       wanted |= (corners >> corner & 1) ? cube.of_corner[corner] : 0;
     const auto seen = visible(cube, eye, wanted);
@@ -177,21 +204,36 @@ namespace undine
     for (unsigned int corner = 0; corner < n_corners; ++corner)
       if (const Mask mask = *seen & cube.of_corner[corner])
         {
-          const bool is_own = own != nullptr && points.inside(corner_of(lower, corner)) == *own;
+          const bool is_own = own != nullptr && sampled.inside(corner_of(lower, corner)) == *own;
           result.corners |= 1u << corner;
-          result.values[corner] = is_own ? nearest(cube, mask, eye) : mean(cube, mask);
+          result.values[corner] =
+            is_own ? nearest(values, cube, mask, eye) : mean(values, cube, mask);
         }
     return result;
   }
 
 
   template <int dim>
+  typename CubeViews<dim>::View
+  CubeViews<dim>::clear_view(const Values         &values,
+                             const GridIndex<dim> &lower,
+                             const unsigned int    corners) const
+  {
+    View       result{{}, corners};
+    const auto position = box.position(lower);
+    for (unsigned int corner = 0; corner < n_corners; ++corner)
+      result.values[corner] = values[position + corner_offsets[corner]];
+    return result;
+  }
+
+
+  template <int dim>
   double
-  CubeViews<dim>::mean(const Cube &cube, const Mask mask) const
+  CubeViews<dim>::mean(const Values &values, const Cube &cube, const Mask mask) const
   {
     double sum = 0, total = 0;
     for_each_sample(cube, mask, [&](const Sample &sample) {
-      sum += sample.measure * sample.value;
+      sum += sample.measure * values[sample.number];
       total += sample.measure;
     });
     return sum / total;
@@ -200,12 +242,15 @@ namespace undine
 
   template <int dim>
   double
-  CubeViews<dim>::nearest(const Cube &cube, const Mask mask, const dealii::Point<dim> &eye) const
+  CubeViews<dim>::nearest(const Values             &values,
+                          const Cube               &cube,
+                          const Mask                mask,
+                          const dealii::Point<dim> &eye) const
   {
     double least = std::numeric_limits<double>::infinity(), value = 0;
     for_each_sample(cube, mask, [&](const Sample &sample) {
       if (const double distance = sample.place.distance(eye); distance < least)
-        least = distance, value = sample.value;
+        least = distance, value = values[sample.number];
     });
     return value;
   }

@@ -98,7 +98,20 @@ namespace undine
     if (among.obstruction != nullptr)
       for (unsigned int axis = 0; axis < dim; ++axis)
         samples[axis] = std::make_unique<VisibleSamples<dim>>(
-          frozen_velocity[axis], ghost_width, *among.obstruction, body_vicinity);
+          frozen_velocity[axis], views(frozen_velocity[axis]), body_vicinity);
+  }
+
+
+  template <int dim>
+  const std::shared_ptr<CubeViews<dim>> &
+  Flow<dim>::views(const Field<dim> &like) const
+  {
+    for (const auto &made : views_made)
+      if (made->points().is_for(like))
+        return made;
+    views_made.push_back(
+      std::make_shared<CubeViews<dim>>(like, ghost_width, *among.obstruction, body_vicinity));
+    return views_made.back();
   }
 
 

@@ -4,7 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <map>
+#include <unordered_map>
 
 namespace undine
 {
@@ -29,51 +29,27 @@ namespace undine
     }
 
 
-    /// Position of a point in the whole lattice, place, value, measure.
+    /// Position of a point in the whole lattice, place, measure.
     template <int dim>
-    using Named = std::array<double, dim + 3>;
-
-
-    /// The owned parts of a field that each rank may see.
-    template <int dim>
-    std::map<unsigned int, std::vector<Named<dim>>>
-    parts_for_ranks(const Field<dim> &field, const GridIndex<dim> &width)
-    {
-      std::map<unsigned int, std::vector<Named<dim>>> result;
-
-      const auto         &lattice = field.lattice();
-      const IndexBox<dim> whole{{}, lattice.shape()};
-      for (unsigned int rank = 0; rank < lattice.blocks().n_ranks(); ++rank)
-        {
-          const auto box = lattice.with_ghosts(rank, width);
-          for (std::size_t k = 0; k < field.parts().size(); ++k)
-            if (const auto &part = field.divided()->all()[k];
-                field.divided()->owns(k) && reaches(lattice, box, part.index))
-              {
-                Named<dim> named{};
-                named[0] = whole.position(part.index);
-                for (unsigned int d = 0; d < dim; ++d)
-                  named[1 + d] = part.place[d];
-                named[dim + 1] = field.parts()[k];
-                named[dim + 2] = part.measure;
-                result[rank].push_back(named);
-              }
-        }
-      return result;
-    }
+    using Named = std::array<double, dim + 2>;
   } // namespace
 
 
   template <int dim>
-  SampledPoints<dim>::SampledPoints(const Field<dim>        &field_,
+  SampledPoints<dim>::SampledPoints(const Field<dim>        &like,
                                     const GridIndex<dim>    &width,
                                     const Obstruction<dim>  &obstruction,
                                     const BodyVicinity<dim> &vicinity)
-    : field(field_)
-    , kinds(field.stored().size(), Kind::value)
+    : lattice(like.shared_lattice())
+    , open(like.open_parts())
+    , stored(like.stored())
+    , kinds(stored.size(), Kind::value)
   {
     find_kinds(width, obstruction);
-    gather_parts(width, obstruction, vicinity);
+    if (!open)
+      return;
+    find_parts_for_ranks(width);
+    gather_parts(obstruction, vicinity);
   }
 
 
@@ -81,13 +57,13 @@ namespace undine
   void
   SampledPoints<dim>::find_kinds(const GridIndex<dim> &width, const Obstruction<dim> &obstruction)
   {
-    using Left         = typename LatticeParts<dim>::Kind;
-    const auto &stored = field.stored();
-    if (const auto *divided = field.divided())
+    using Left = typename LatticeParts<dim>::Kind;
+    if (open)
       {
-        Field<dim> left(field.shared_lattice());
+        const auto &divided = open->of(*lattice);
+        Field<dim>  left(lattice);
         for_each(left.owned(), [&](const GridIndex<dim> &index) {
-          left(index) = static_cast<int>(divided->kind(index));
+          left(index) = static_cast<int>(divided.kind(index));
         });
         left.exchange(width);
         for_each(stored, [&](const GridIndex<dim> &index) {
@@ -97,7 +73,7 @@ namespace undine
                                                                  : Kind::parts;
         });
       }
-    obstruction.for_each_swept(field.lattice(), stored, [&](const GridIndex<dim> &index) {
+    obstruction.for_each_swept(*lattice, stored, [&](const GridIndex<dim> &index) {
       auto &kind = kinds[stored.position(index)];
       if (kind == Kind::value)
         kind = Kind::nothing;
@@ -107,42 +83,85 @@ namespace undine
 
   template <int dim>
   void
-  SampledPoints<dim>::gather_parts(const GridIndex<dim>    &width,
-                                   const Obstruction<dim>  &obstruction,
+  SampledPoints<dim>::find_parts_for_ranks(const GridIndex<dim> &width)
+  {
+    const auto &divided = open->of(*lattice);
+    for (unsigned int rank = 0; rank < lattice->blocks().n_ranks(); ++rank)
+      {
+        const auto box = lattice->with_ghosts(rank, width);
+        for (unsigned int k = 0; k < divided.all().size(); ++k)
+          if (divided.owns(k) && reaches(*lattice, box, divided.all()[k].index))
+            parts_for_ranks[rank].push_back(k);
+      }
+  }
+
+
+  template <int dim>
+  void
+  SampledPoints<dim>::gather_parts(const Obstruction<dim>  &obstruction,
                                    const BodyVicinity<dim> &vicinity)
   {
-    if (field.divided() == nullptr)
-      return;
-    const auto &lattice  = field.lattice();
-    const auto  received = dealii::Utilities::MPI::some_to_some(lattice.blocks().communicator(),
-                                                               parts_for_ranks(field, width));
+    const IndexBox<dim>                             whole{{}, lattice->shape()};
+    std::map<unsigned int, std::vector<Named<dim>>> to_send;
+    for (const auto &[rank, numbers] : parts_for_ranks)
+      for (const unsigned int k : numbers)
+        {
+          const auto &part = open->of(*lattice).all()[k];
+          Named<dim>  named{};
+          named[0] = whole.position(part.index);
+          for (unsigned int d = 0; d < dim; ++d)
+            named[1 + d] = part.place[d];
+          named[dim + 1] = part.measure;
+          to_send[rank].push_back(named);
+        }
+    const auto received =
+      dealii::Utilities::MPI::some_to_some(lattice->blocks().communicator(), to_send);
     lists.resize(1);
     std::unordered_map<std::size_t, unsigned int> number; // of a point's list
+    std::size_t                                   next = stored.size();
     for (const auto &message : received)
       for (const auto &named : message.second)
         {
-          Sample sample;
+          dealii::Point<dim> place;
           for (unsigned int d = 0; d < dim; ++d)
-            sample.place.point[d] = named[1 + d];
-          sample.place   = vicinity.place(sample.place.point);
-          sample.value   = named[dim + 1];
-          sample.measure = named[dim + 2];
-          if (obstruction.swept(sample.place.point))
+            place[d] = named[1 + d];
+          const Sample sample{vicinity.place(place), next++, named[dim + 1]};
+          if (obstruction.swept(place))
             continue;
           const auto inserted = number.emplace(static_cast<std::size_t>(named[0]), lists.size());
           if (inserted.second)
             lists.emplace_back();
           lists[inserted.first->second].push_back(sample);
         }
-    const IndexBox<dim> whole{{}, lattice.shape()};
     list_of_point.assign(kinds.size(), 0);
-    for_each(field.stored(), [&](const GridIndex<dim> &index) {
-      if (kinds[field.stored().position(index)] != Kind::parts)
+    for_each(stored, [&](const GridIndex<dim> &index) {
+      if (kinds[stored.position(index)] != Kind::parts)
         return;
-      const auto found = number.find(whole.position(lattice.wrapped(inside(index))));
+      const auto found = number.find(whole.position(lattice->wrapped(inside(index))));
       if (found != number.end())
-        list_of_point[field.stored().position(index)] = found->second;
+        list_of_point[stored.position(index)] = found->second;
     });
+  }
+
+
+  template <int dim>
+  typename SampledPoints<dim>::Values
+  SampledPoints<dim>::values(const Field<dim> &field) const
+  {
+    Assert(is_for(field), dealii::ExcInternalError());
+    Values result;
+    result.points   = field.data(stored.lower);
+    result.n_points = stored.size();
+    if (!open)
+      return result;
+    std::map<unsigned int, std::vector<double>> to_send;
+    for (const auto &[rank, numbers] : parts_for_ranks)
+      for (const unsigned int k : numbers)
+        to_send[rank].push_back(field.parts()[k]);
+    for (const auto &message :
+         dealii::Utilities::MPI::some_to_some(lattice->blocks().communicator(), to_send))
+      result.parts.insert(result.parts.end(), message.second.begin(), message.second.end());
+    return result;
   }
 
 
@@ -152,7 +171,7 @@ namespace undine
                                const GridIndex<dim> &point,
                                const GridIndex<dim> &own) const
   {
-    sample.place.point += field.lattice().point(point) - field.lattice().point(own);
+    sample.place.point += lattice->point(point) - lattice->point(own);
     for (unsigned int d = 0; d < dim; ++d)
       sample.place.cell[d] += point[d] - own[d];
     return sample;
@@ -164,7 +183,7 @@ namespace undine
   SampledPoints<dim>::inside(GridIndex<dim> index) const
   {
     for (unsigned int d = 0; d < dim; ++d)
-      if (const auto &row = field.lattice().row(d); !row.periodic())
+      if (const auto &row = lattice->row(d); !row.periodic())
         index[d] = std::clamp(index[d], 0, row.size() - 1);
     return index;
   }
@@ -174,11 +193,10 @@ namespace undine
   typename SampledPoints<dim>::Place
   SampledPoints<dim>::located(const GridIndex<dim> &index) const
   {
-    const auto &lattice = field.lattice();
-    auto        cell    = inside(index);
-    if (const auto axis = lattice.normal_axis(); axis < dim && !lattice.row(axis).periodic())
-      cell[axis] = std::min(cell[axis], lattice.row(axis).size() - 2);
-    return {lattice.point(index), cell};
+    auto cell = inside(index);
+    if (const auto axis = lattice->normal_axis(); axis < dim && !lattice->row(axis).periodic())
+      cell[axis] = std::min(cell[axis], lattice->row(axis).size() - 2);
+    return {lattice->point(index), cell};
   }
 
 
@@ -191,7 +209,7 @@ namespace undine
       ++index;
     IndexBox<dim> cells{located(lower).cell, located(highest).cell};
     // The upper face of a cell counts as one of the next.
-    if (const auto axis = field.lattice().normal_axis(); axis < dim)
+    if (const auto axis = lattice->normal_axis(); axis < dim)
       cells.upper[axis] = cells.lower[axis];
     for (int &index : cells.upper.values)
       ++index;

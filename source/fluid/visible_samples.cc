@@ -19,14 +19,14 @@ namespace undine
 
 
   template <int dim>
-  VisibleSamples<dim>::VisibleSamples(const Field<dim>        &field_,
-                                      const GridIndex<dim>    &width,
-                                      const Obstruction<dim>  &obstruction,
-                                      const BodyVicinity<dim> &vicinity_)
+  VisibleSamples<dim>::VisibleSamples(const Field<dim>                      &field_,
+                                      const std::shared_ptr<CubeViews<dim>> &views_,
+                                      const BodyVicinity<dim>               &vicinity_)
     : field(field_)
     , vicinity(vicinity_)
-    , points(field, width, obstruction, vicinity)
-    , cubes(field.stored(), points, obstruction, vicinity.facets_of_cells())
+    , views(views_)
+    , points(views->points())
+    , values(points.values(field))
   {
   }
 
@@ -47,7 +47,7 @@ namespace undine
       if (only_nearest)
         sum = total = 0;
       nearest = distance;
-      sum += sample.measure * sample.value;
+      sum += sample.measure * values[sample.number];
       total += sample.measure;
     });
     return total > 0 ? std::optional<double>(sum / total) : std::nullopt;
@@ -126,13 +126,13 @@ namespace undine
       }
     double     sum = 0, total = 0, plain_sum = 0, plain_total = 0;
     const auto add = [&](const unsigned int corners) {
-      const auto values = seen_values(lower, eye, corners);
+      const auto seen = seen_values(lower, eye, corners);
       for (unsigned int corner = 0; corner < (1u << dim); ++corner)
-        if (values.corners >> corner & 1)
+        if (seen.corners >> corner & 1)
           {
-            sum += weight[corner] * values.values[corner];
+            sum += weight[corner] * seen.values[corner];
             total += weight[corner];
-            plain_sum += values.values[corner];
+            plain_sum += seen.values[corner];
             plain_total += 1;
           }
     };
@@ -152,7 +152,7 @@ namespace undine
                                    const Eye            &eye,
                                    const unsigned int    corners) const
   {
-    if (const auto view = cubes.view(lower, eye.point, corners, eye.own))
+    if (const auto view = views->view(values, lower, eye.point, corners, eye.own))
       return *view;
     typename CubeViews<dim>::View result{{}, 0};
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)

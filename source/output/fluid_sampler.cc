@@ -152,7 +152,10 @@ namespace undine
   {
     if (surfaces)
       sampled.visible = std::make_unique<VisibleSamples<dim>>(
-        sampled.field, all_directions<dim>(layers), *surfaces, vicinity);
+        sampled.field,
+        std::make_shared<CubeViews<dim>>(
+          sampled.field, all_directions<dim>(layers), *surfaces, vicinity),
+        vicinity);
   }
 
 

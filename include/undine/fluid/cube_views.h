@@ -22,11 +22,21 @@ namespace undine
   public:
     static constexpr unsigned int n_corners = 1 << dim;
 
-    /// Of the cubes between stored points of a field. Keeps references to the other arguments.
-    CubeViews(const IndexBox<dim>      &stored,
-              const SampledPoints<dim> &points,
-              const Obstruction<dim>   &obstruction,
-              const FacetsOfCells<dim> &facets);
+    using Values = typename SampledPoints<dim>::Values;
+
+    /// Of the cubes between stored points of fields like this one, see SampledPoints. Keeps
+    /// references to the surfaces and the vicinity. Collective.
+    CubeViews(const Field<dim>        &like,
+              const GridIndex<dim>    &width,
+              const Obstruction<dim>  &obstruction,
+              const BodyVicinity<dim> &vicinity);
+
+    /// What is looked at.
+    const SampledPoints<dim> &
+    points() const
+    {
+      return sampled;
+    }
 
     /// The corners that are seen: of each the mean, by measure, of its samples that are.
     struct View
@@ -35,11 +45,12 @@ namespace undine
       unsigned int                  corners; ///< bit by bit
     };
 
-    /// What `eye` sees of these `corners` of the cube above point `lower`; of its own point, if it
-    /// has one, only the nearest sample. Nothing if the eye is not in the cells of the cube, or so
-    /// close to a surface that it takes a closer look. Remembers the cube.
+    /// What `eye` sees of the `values` at these `corners` of the cube above point `lower`; of its
+    /// own point, if it has one, only the nearest sample. Nothing if the eye is not in the cells of
+    /// the cube, or so close to a surface that it takes a closer look. Remembers the cube.
     std::optional<View>
-    view(const GridIndex<dim>     &lower,
+    view(const Values             &values,
+         const GridIndex<dim>     &lower,
          const dealii::Point<dim> &eye,
          const unsigned int        corners,
          const GridIndex<dim>     *own);
@@ -52,7 +63,7 @@ namespace undine
     struct Sample
     {
       dealii::Point<dim> place;
-      double             value;
+      std::size_t        number; ///< in Values
       double             measure;
     };
 
@@ -71,6 +82,7 @@ namespace undine
       std::array<Mask, n_corners> of_corner;    ///< which of them
       std::size_t                 screens, screens_end;
       bool                        is_wall;
+      bool                        is_clear; ///< no facets, all corners whole: needs no samples
     };
 
     /// The number of the cube above a point, found or made; 0: not to be used.
@@ -79,6 +91,18 @@ namespace undine
 
     unsigned int
     make(const GridIndex<dim> &lower);
+
+    /// Has it no facets in these cells, and are all its corners whole?
+    bool
+    is_clear(const GridIndex<dim> &lower, const IndexBox<dim> &cells) const;
+
+    /// The values at the corners of a clear cube.
+    View
+    clear_view(const Values &values, const GridIndex<dim> &lower, const unsigned int corners) const;
+
+    /// Samples and screens; false if it is not to be used.
+    bool
+    add_to(Cube &cube, const GridIndex<dim> &lower, const IndexBox<dim> &cells);
 
     /// Also says if all of them are in the cube's cells, and not too many.
     bool
@@ -108,21 +132,25 @@ namespace undine
     }
 
     double
-    mean(const Cube &cube, const Mask mask) const;
+    mean(const Values &values, const Cube &cube, const Mask mask) const;
 
     double
-    nearest(const Cube &cube, const Mask mask, const dealii::Point<dim> &eye) const;
+    nearest(const Values             &values,
+            const Cube               &cube,
+            const Mask                mask,
+            const dealii::Point<dim> &eye) const;
 
     static constexpr unsigned int unknown = -1;
 
-    const SampledPoints<dim> &points;
-    const Obstruction<dim>   &obstruction;
-    const FacetsOfCells<dim> &facets;
-    IndexBox<dim>             box;
-    std::vector<unsigned int> cube_above; ///< each point, in `cubes`, or unknown
-    std::vector<Cube>         cubes;      ///< the first is none
-    std::vector<Sample>       samples;
-    std::vector<Screen>       screens;
+    SampledPoints<dim>                 sampled;
+    const Obstruction<dim>            &obstruction;
+    const FacetsOfCells<dim>          &facets;
+    IndexBox<dim>                      box;
+    std::array<std::size_t, n_corners> corner_offsets; ///< of positions in `box`
+    std::vector<unsigned int>          cube_above;     ///< each point, in `cubes`, or unknown
+    std::vector<Cube>                  cubes;          ///< the first is none
+    std::vector<Sample>                samples;
+    std::vector<Screen>                screens;
   };
 } // namespace undine
 

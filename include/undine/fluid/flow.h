@@ -70,6 +70,11 @@ namespace undine
     const BodyVicinity<dim> &
     vicinity() const;
 
+    /// Of fields like this one, which has what completed() gives it, between bodies; made once for
+    /// all that are alike. Collective.
+    const std::shared_ptr<CubeViews<dim>> &
+    views(const Field<dim> &like) const;
+
     /// [m/s] Near bodies from what can be seen, or the velocity of the nearest surface.
     dealii::Tensor<1, dim>
     velocity_at(const dealii::Point<dim> &place) const;
@@ -102,6 +107,7 @@ namespace undine
     double                                                step;
     GridIndex<dim>                                        ghost_width;
     BodyVicinity<dim>                                     body_vicinity;
+    mutable std::vector<std::shared_ptr<CubeViews<dim>>>  views_made;
     std::array<std::unique_ptr<VisibleSamples<dim>>, dim> samples; ///< nullptr: no bodies
   };
 } // namespace undine

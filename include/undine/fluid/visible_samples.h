@@ -8,6 +8,7 @@
 #include <undine/fluid/obstruction.h>
 #include <undine/fluid/sampled_points.h>
 
+#include <memory>
 #include <optional>
 
 namespace undine
@@ -19,12 +20,11 @@ namespace undine
   class VisibleSamples
   {
   public:
-    /// `field` with ghost layers of this width and boundary points, on what bodies left of the grid
-    /// before their last motion. The references must outlive it. Collective.
-    VisibleSamples(const Field<dim>        &field,
-                   const GridIndex<dim>    &width,
-                   const Obstruction<dim>  &obstruction,
-                   const BodyVicinity<dim> &vicinity);
+    /// Of a field for which views->points().is_for() holds. The references must outlive it.
+    /// Collective.
+    VisibleSamples(const Field<dim>                      &field,
+                   const std::shared_ptr<CubeViews<dim>> &views,
+                   const BodyVicinity<dim>               &vicinity);
 
     VisibleSamples(const VisibleSamples &) = delete;
 
@@ -66,10 +66,12 @@ namespace undine
     std::optional<double>
     value_of(const GridIndex<dim> &index, const Eye &eye) const;
 
-    const Field<dim>        &field;
-    const BodyVicinity<dim> &vicinity;
-    SampledPoints<dim>       points;
-    mutable CubeViews<dim>   cubes; ///< remembered
+    const Field<dim>               &field;
+    const BodyVicinity<dim>        &vicinity;
+    std::shared_ptr<CubeViews<dim>> views; ///< remembered, for this field and others
+    const SampledPoints<dim>       &points;
+
+    const typename SampledPoints<dim>::Values values;
   };
 } // namespace undine
 

@@ -38,11 +38,12 @@ namespace
   /// The mean over a point's samples, or the nearest one, that no facet hides from the eye.
   template <int dim>
   std::optional<double>
-  by_brute_force(const SampledPoints<dim>  &points,
-                 const SurfaceQueries<dim> &queries,
-                 const GridIndex<dim>      &index,
-                 const dealii::Point<dim>  &eye,
-                 const bool                 only_nearest)
+  by_brute_force(const SampledPoints<dim>              &points,
+                 const typename CubeViews<dim>::Values &values,
+                 const SurfaceQueries<dim>             &queries,
+                 const GridIndex<dim>                  &index,
+                 const dealii::Point<dim>              &eye,
+                 const bool                             only_nearest)
   {
     double sum = 0, total = 0, nearest = 1e10;
     points.for_each_sample(index, [&](const auto &sample) {
@@ -52,7 +53,7 @@ namespace
       if (only_nearest)
         sum = total = 0;
       nearest = distance;
-      sum += sample.measure * sample.value;
+      sum += sample.measure * values[sample.number];
       total += sample.measure;
     });
     return total > 0 ? std::optional<double>(sum / total) : std::nullopt;
@@ -61,13 +62,15 @@ namespace
 
   template <int dim>
   void
-  compare(const BallAndSheet<dim>  &scene,
-          const Lattice<dim>       &lattice,
-          const SampledPoints<dim> &points,
-          CubeViews<dim>           &cubes,
-          Counts                   &counts)
+  compare(const BallAndSheet<dim> &scene,
+          const Field<dim>        &field,
+          CubeViews<dim>          &cubes,
+          Counts                  &counts)
   {
-    Random random(5 + scene.rank());
+    const auto &lattice = field.lattice();
+    const auto &points  = cubes.points();
+    const auto  values  = points.values(field);
+    Random      random(5 + scene.rank());
     for (int number = 0; number < 6000; ++number)
       {
         const auto     eye = scene.known_place(random, 1);
@@ -78,14 +81,14 @@ namespace
         const bool has_own = number % 2 == 0;
         const auto corners =
           number % 3 == 0 ? 1u + random.below(CubeViews<dim>::n_corners - 1) : -1u;
-        const auto found = cubes.view(lower, eye, corners, has_own ? &own : nullptr);
+        const auto found = cubes.view(values, lower, eye, corners, has_own ? &own : nullptr);
         for (unsigned int corner = 0; found && corner < CubeViews<dim>::n_corners; ++corner)
           {
             auto index = lower;
             for (unsigned int d = 0; d < dim; ++d)
               index[d] += (corner >> d) & 1;
             const bool is_own = has_own && points.inside(index) == own;
-            const auto exact  = by_brute_force(points, scene.queries, index, eye, is_own);
+            const auto exact  = by_brute_force(points, values, scene.queries, index, eye, is_own);
             const bool seen   = found->corners >> corner & 1;
             if (!(corners >> corner & 1))
               {
@@ -115,13 +118,13 @@ TEMPLATE_TEST_CASE_SIG("Views of cubes are those past all facets, one by one",
       Counts                  counts;
       for (unsigned int axis = 0; axis <= dim; ++axis)
         {
-          const auto lattice = axis < dim ? scene.grid().faces(axis) : scene.grid().cells();
-          Random     random(1);
-          const auto field = random_field(scene, lattice, random);
-          const SampledPoints<dim> points(field, scene.width, scene.queries, scene.vicinity);
-          CubeViews<dim>           cubes(
-            field.stored(), points, scene.queries, scene.vicinity.facets_of_cells());
-          compare(scene, *lattice, points, cubes, counts);
+          const auto     lattice = axis < dim ? scene.grid().faces(axis) : scene.grid().cells();
+          Random         random(1);
+          const auto     field = random_field(scene, lattice, random);
+          CubeViews<dim> cubes(field, scene.width, scene.queries, scene.vicinity);
+          compare(scene, field, cubes, counts);
+          // The same cubes serve other fields.
+          compare(scene, random_field(scene, lattice, random), cubes, counts);
         }
       CHECK(counts.wrong == 0);
       // What could be seen past a rim just outside the cells around may be.
