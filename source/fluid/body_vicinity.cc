@@ -34,19 +34,6 @@ namespace undine
     }
 
 
-    /// The cell at a place; beyond a periodic side the image there, which this rank may know though
-    /// it does not know the cell.
-    template <int dim>
-    GridIndex<dim>
-    cell_or_image_at(const MacGrid<dim> &grid, const dealii::Point<dim> &place)
-    {
-      GridIndex<dim> cell;
-      for (unsigned int d = 0; d < dim; ++d)
-        cell[d] = grid.faces(d)->row(d).locate(place[d]).lower;
-      return cell;
-    }
-
-
     /// The cells of the box with two corners in these cells.
     template <int dim>
     IndexBox<dim>
@@ -72,7 +59,9 @@ namespace undine
   {
     if (!before && !now)
       return;
-    grid            = &grid_;
+    grid = &grid_;
+    for (unsigned int d = 0; d < dim; ++d)
+      planes[d] = &grid->faces(d)->row(d);
     surfaces        = obstruction;
     const auto kind = [](const auto &open, const GridIndex<dim> &cell) {
       return open ? open->cells.kind(cell) : LatticeParts<dim>::Kind::whole;
@@ -179,12 +168,23 @@ namespace undine
 
 
   template <int dim>
+  GridIndex<dim>
+  BodyVicinity<dim>::cell_or_image_at(const dealii::Point<dim> &place) const
+  {
+    GridIndex<dim> cell;
+    for (unsigned int d = 0; d < dim; ++d)
+      cell[d] = planes[d]->locate(place[d]).lower;
+    return cell;
+  }
+
+
+  template <int dim>
   bool
   BodyVicinity<dim>::is_near(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
   {
     if (grid == nullptr || !reaches_extent(from, to))
       return false;
-    const auto begin = cell_or_image_at(*grid, from), end = cell_or_image_at(*grid, to);
+    const auto begin = cell_or_image_at(from), end = cell_or_image_at(to);
     int        longest = 0;
     for (unsigned int d = 0; d < dim; ++d)
       longest = std::max(longest, std::abs(end[d] - begin[d]));
@@ -196,7 +196,7 @@ namespace undine
     // The margin bridges the cells between samples.
     const int n_ways = 1 + longest / margin;
     for (int s = 1; s < n_ways; ++s)
-      if (counts(cell_or_image_at(*grid, from + double(s) / n_ways * (to - from))))
+      if (counts(cell_or_image_at(from + double(s) / n_ways * (to - from))))
         return true;
     return false;
   }
@@ -208,7 +208,7 @@ namespace undine
   {
     if (grid == nullptr || !reaches_extent(place, place))
       return false;
-    const auto cell = cell_or_image_at(*grid, place);
+    const auto cell = cell_or_image_at(place);
     return !box.contains(cell) || layers[box.position(cell)] <= 1;
   }
 
@@ -239,7 +239,7 @@ namespace undine
   typename BodyVicinity<dim>::Place
   BodyVicinity<dim>::place(const dealii::Point<dim> &point) const
   {
-    return {point, grid == nullptr ? GridIndex<dim>{} : cell_or_image_at(*grid, point)};
+    return {point, grid == nullptr ? GridIndex<dim>{} : cell_or_image_at(point)};
   }
 
 
@@ -277,7 +277,7 @@ namespace undine
     double                result    = std::numeric_limits<double>::infinity();
     if (surfaces == nullptr || !reaches_extent(from, to))
       return result;
-    const auto begin = cell_or_image_at(*grid, from), end = cell_or_image_at(*grid, to);
+    const auto begin = cell_or_image_at(from), end = cell_or_image_at(to);
     const auto cells = cells_between(begin, end);
     if (cells.size() <= short_way && is_clear(begin, end))
       return result;

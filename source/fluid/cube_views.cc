@@ -33,6 +33,19 @@ namespace undine
           return false;
       return true;
     }
+
+
+    /// Is a facet in the plane of a slab as thin as rounding?
+    template <int dim>
+    bool
+    is_in_plane(const typename FacetsOfCells<dim>::Facet &facet,
+                const typename Obstruction<dim>::Slab    &slab)
+    {
+      constexpr double parallel = 1e-13; // makes less of a difference than the slab is thick
+      const double     width    = slab.upper - slab.lower;
+      return (facet.slab.normal - slab.normal).norm_square() < parallel * parallel &&
+             facet.slab.lower > slab.lower - width && facet.slab.upper < slab.upper + width;
+    }
   } // namespace
 
 
@@ -71,7 +84,9 @@ namespace undine
     const auto cells = sampled.cells_around(lower);
     if (!facets.know(cells))
       return 0;
-    Cube cube{{}, {}, samples.size(), {}, screens.size(), screens.size(), false, false};
+    Cube cube;
+    cube.samples = samples.size();
+    cube.screens = cube.screens_end  = screens.size();
     std::tie(cube.lower, cube.upper) = facets.corners(cells);
     const auto rim                   = rounding * (cube.upper - cube.lower);
     cube.lower -= rim, cube.upper += rim;
@@ -95,8 +110,7 @@ namespace undine
     if (const auto slab = facets.wall(cells))
       add_wall(cube, *slab);
     if (!cube.is_wall)
-      for (const auto *facet : facets.in(cells))
-        screens.push_back(screen(cube, facet->slab, facet->image));
+      add_screens(cube, cells);
     cube.screens_end = screens.size();
     return true;
   }
@@ -119,45 +133,72 @@ namespace undine
   {
     bool inside = true;
     for (unsigned int corner = 0; corner < n_corners; ++corner)
-      sampled.for_each_sample(
-        corner_of(lower, corner), [&](const typename SampledPoints<dim>::Sample &sample) {
+      {
+        cube.first[corner] = (samples.size() - cube.samples) % n_bits;
+        sampled.for_each_sample(corner_of(lower, corner), [&](const auto &sample) {
           cube.of_corner[corner] |= Mask(1) << (samples.size() - cube.samples) % n_bits;
           samples.push_back({sample.place.point, sample.number, sample.measure});
           inside = inside && is_between(sample.place.point, cube.lower, cube.upper);
         });
+      }
     return inside && samples.size() - cube.samples <= n_bits;
   }
 
 
   template <int dim>
-  typename CubeViews<dim>::Screen
-  CubeViews<dim>::screen(const Cube                                  &cube,
-                         const typename Obstruction<dim>::Slab       &slab,
-                         const typename Obstruction<dim>::FacetImage &facet) const
+  void
+  CubeViews<dim>::part(const Cube &cube, Screen &screen) const
   {
-    Screen result{slab, facet, 0, 0};
+    screen.above = screen.below = 0;
     for (auto k = cube.samples; k < samples.size(); ++k)
       {
-        const int  side = slab.side(samples[k].place);
+        const int  side = screen.slab.side(samples[k].place);
         const Mask bit  = Mask(1) << (k - cube.samples);
-        result.above |= side > 0 ? bit : 0;
-        result.below |= side < 0 ? bit : 0;
+        screen.above |= side > 0 ? bit : 0;
+        screen.below |= side < 0 ? bit : 0;
       }
-    return result;
   }
 
 
   template <int dim>
   void
-  CubeViews<dim>::add_wall(Cube &cube, const typename Obstruction<dim>::Slab &slab)
+  CubeViews<dim>::add_wall(Cube &cube, const Slab &slab)
   {
-    const auto wall = screen(cube, slab, {});
-    Mask       all  = 0;
+    Screen wall{slab, 0, 0, 0, 0};
+    part(cube, wall);
+    Mask all = 0;
     for (const Mask of_corner : cube.of_corner)
       all |= of_corner;
     cube.is_wall = (wall.above | wall.below) == all;
     if (cube.is_wall)
       screens.push_back(wall);
+  }
+
+
+  template <int dim>
+  void
+  CubeViews<dim>::add_screens(Cube &cube, const IndexBox<dim> &cells)
+  {
+    auto in_cells = facets.in(cells);
+    while (!in_cells.empty())
+      {
+        const auto first = facets_of_screens.size();
+        Screen     screen{in_cells.front()->slab, first, 0, 0, 0};
+        const auto rest =
+          std::stable_partition(in_cells.begin(), in_cells.end(), [&](const auto *facet) {
+            return facet == in_cells.front() || is_in_plane<dim>(*facet, screen.slab);
+          });
+        for (auto facet = in_cells.begin(); facet != rest; ++facet)
+          {
+            facets_of_screens.push_back(**facet);
+            screen.slab.lower = std::min(screen.slab.lower, (*facet)->slab.lower);
+            screen.slab.upper = std::max(screen.slab.upper, (*facet)->slab.upper);
+          }
+        in_cells.erase(in_cells.begin(), rest);
+        screen.facets_end = facets_of_screens.size();
+        part(cube, screen);
+        screens.push_back(screen);
+      }
   }
 
 
@@ -173,10 +214,39 @@ namespace undine
         if (cube.is_wall)
           return side == 0 ? std::nullopt : std::optional<Mask>(wanted & ~beyond);
         for (auto k = cube.samples; beyond != 0; ++k, beyond >>= 1)
-          if ((beyond & 1) && obstruction.first_hit(screen.facet, eye, samples[k].place) <= 1)
+          if ((beyond & 1) && hides(screen, eye, samples[k].place))
             wanted &= ~(Mask(1) << (k - cube.samples));
       }
     return wanted;
+  }
+
+
+  template <int dim>
+  bool
+  CubeViews<dim>::hides(const Screen             &screen,
+                        const dealii::Point<dim> &eye,
+                        const dealii::Point<dim> &place) const
+  {
+    // Only facets that the way within the slab comes past can be met.
+    const auto  &slab   = screen.slab;
+    const double at_eye = slab.normal * eye, at_place = slab.normal * place;
+    const auto   share = [&](const double height) { // of the way to the slab's face nearest to it
+      return (std::clamp(height, slab.lower, slab.upper) - at_eye) / (at_place - at_eye);
+    };
+    const auto way   = place - eye;
+    const auto enter = at_place == at_eye ? eye : eye + share(at_eye) * way;
+    const auto leave = at_place == at_eye ? place : eye + share(at_place) * way;
+    for (auto k = screen.facets; k < screen.facets_end; ++k)
+      {
+        const auto &facet  = facets_of_screens[k];
+        bool        passed = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          passed = passed && std::max(enter[d], leave[d]) >= facet.lower[d] &&
+                   std::min(enter[d], leave[d]) <= facet.upper[d];
+        if (passed && obstruction.first_hit(facet.image, eye, place) <= 1)
+          return true;
+      }
+    return false;
   }
 
 
@@ -202,12 +272,12 @@ namespace undine
       return {};
     View result{{}, 0};
     for (unsigned int corner = 0; corner < n_corners; ++corner)
-      if (const Mask mask = *seen & cube.of_corner[corner])
+      if (*seen & cube.of_corner[corner])
         {
           const bool is_own = own != nullptr && sampled.inside(corner_of(lower, corner)) == *own;
           result.corners |= 1u << corner;
           result.values[corner] =
-            is_own ? nearest(values, cube, mask, eye) : mean(values, cube, mask);
+            is_own ? nearest(values, cube, corner, *seen, eye) : mean(values, cube, corner, *seen);
         }
     return result;
   }
@@ -229,10 +299,13 @@ namespace undine
 
   template <int dim>
   double
-  CubeViews<dim>::mean(const Values &values, const Cube &cube, const Mask mask) const
+  CubeViews<dim>::mean(const Values      &values,
+                       const Cube        &cube,
+                       const unsigned int corner,
+                       const Mask         seen) const
   {
     double sum = 0, total = 0;
-    for_each_sample(cube, mask, [&](const Sample &sample) {
+    for_each_sample(cube, corner, seen, [&](const Sample &sample) {
       sum += sample.measure * values[sample.number];
       total += sample.measure;
     });
@@ -244,11 +317,12 @@ namespace undine
   double
   CubeViews<dim>::nearest(const Values             &values,
                           const Cube               &cube,
-                          const Mask                mask,
+                          const unsigned int        corner,
+                          const Mask                seen,
                           const dealii::Point<dim> &eye) const
   {
     double least = std::numeric_limits<double>::infinity(), value = 0;
-    for_each_sample(cube, mask, [&](const Sample &sample) {
+    for_each_sample(cube, corner, seen, [&](const Sample &sample) {
       if (const double distance = sample.place.distance(eye); distance < least)
         least = distance, value = values[sample.number];
     });

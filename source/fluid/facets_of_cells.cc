@@ -56,7 +56,10 @@ namespace undine
     const auto patch = surfaces->patch(images);
     List       list{{}, patch, surfaces->is_wall(images, patch.slab, space)};
     for (const auto &image : images)
-      list.facets.push_back({image, surfaces->patch({image}).slab});
+      {
+        const auto facet = surfaces->patch({image});
+        list.facets.push_back({image, facet.slab, facet.lower, facet.upper});
+      }
     list_of_cell[box.position(cell)] = lists.size();
     lists.push_back(std::move(list));
   }

@@ -54,14 +54,23 @@ namespace undine
     slab.lower   = std::numeric_limits<double>::infinity();
     slab.upper   = -slab.lower;
     patch.radius = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      patch.lower[d] = slab.lower, patch.upper[d] = slab.upper;
     for (const auto &place : places)
       {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            patch.lower[d] = std::min(patch.lower[d], place[d]);
+            patch.upper[d] = std::max(patch.upper[d], place[d]);
+          }
         slab.lower   = std::min(slab.lower, slab.normal * place);
         slab.upper   = std::max(slab.upper, slab.normal * place);
         patch.radius = std::max(patch.radius, place.distance(patch.middle));
       }
     const double rim = 100 * thickness; // what places may lose by rounding
     slab.lower -= rim, slab.upper += rim;
+    for (unsigned int d = 0; d < dim; ++d)
+      patch.lower[d] -= rim, patch.upper[d] += rim;
     return patch;
   }
 

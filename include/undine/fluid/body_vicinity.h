@@ -89,13 +89,19 @@ namespace undine
     void
     find_extent();
 
+    /// The cell at a place; beyond a periodic side the image there, which this rank may know though
+    /// it does not know the cell.
+    GridIndex<dim>
+    cell_or_image_at(const dealii::Point<dim> &place) const;
+
     /// False if the box around a way ends before the extent of the bodies' vicinity.
     bool
     reaches_extent(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
 
-    const MacGrid<dim>       *grid     = nullptr; ///< nullptr: no bodies
-    const Obstruction<dim>   *surfaces = nullptr;
-    IndexBox<dim>             box;
+    const MacGrid<dim>          *grid     = nullptr; ///< nullptr: no bodies
+    const Obstruction<dim>      *surfaces = nullptr;
+    std::array<const Row *, dim> planes{};
+    IndexBox<dim>                box;
     std::vector<std::uint8_t> layers; ///< 0: a body is in the cell, 1: beside that, ... margin + 1
 
     FacetsOfCells<dim> facets;

@@ -67,22 +67,27 @@ namespace undine
       double             measure;
     };
 
-    /// A facet, or the wall of several, and what of the cube's samples is beyond its slab.
+    using Slab  = typename Obstruction<dim>::Slab;
+    using Facet = typename FacetsOfCells<dim>::Facet;
+
+    /// Facets in one plane, or a wall, and what of the cube's samples is on either side of the slab
+    /// around them.
     struct Screen
     {
-      typename Obstruction<dim>::Slab       slab;
-      typename Obstruction<dim>::FacetImage facet;
-      Mask                                  above, below;
+      Slab        slab;
+      std::size_t facets, facets_end;
+      Mask        above, below;
     };
 
     struct Cube
     {
-      dealii::Point<dim>          lower, upper; ///< of its cells
-      std::size_t                 samples;      ///< where they begin
-      std::array<Mask, n_corners> of_corner;    ///< which of them
-      std::size_t                 screens, screens_end;
-      bool                        is_wall;
-      bool                        is_clear; ///< no facets, all corners whole: needs no samples
+      dealii::Point<dim>                  lower, upper; ///< of its cells
+      std::size_t                         samples;      ///< where they begin
+      std::array<Mask, n_corners>         of_corner{};  ///< which of them
+      std::array<std::uint8_t, n_corners> first{};      ///< of a corner's, which follow each other
+      std::size_t                         screens, screens_end;
+      bool                                is_wall  = false;
+      bool                                is_clear = false; ///< no facets, all corners whole
     };
 
     /// The number of the cube above a point, found or made; 0: not to be used.
@@ -110,35 +115,50 @@ namespace undine
 
     /// As a wall, if it is one that leaves no sample inside.
     void
-    add_wall(Cube &cube, const typename Obstruction<dim>::Slab &slab);
+    add_wall(Cube &cube, const Slab &slab);
 
-    Screen
-    screen(const Cube                                  &cube,
-           const typename Obstruction<dim>::Slab       &slab,
-           const typename Obstruction<dim>::FacetImage &facet) const;
+    void
+    add_screens(Cube &cube, const IndexBox<dim> &cells);
+
+    /// Tell the screen which samples of the cube are on which side of it.
+    void
+    part(const Cube &cube, Screen &screen) const;
 
     /// Those of the samples `wanted` that an eye sees; nothing if it takes a closer look.
     std::optional<Mask>
     visible(const Cube &cube, const dealii::Point<dim> &eye, Mask wanted) const;
 
-    /// Call action(sample) for those of a cube's samples.
+    /// Is one of a screen's facets between two places, not both on the same side of it?
+    bool
+    hides(const Screen             &screen,
+          const dealii::Point<dim> &eye,
+          const dealii::Point<dim> &place) const;
+
+    /// Call action(sample) for those of a corner that are among `seen`.
     template <class Action>
     void
-    for_each_sample(const Cube &cube, Mask mask, const Action &action) const
+    for_each_sample(const Cube        &cube,
+                    const unsigned int corner,
+                    const Mask         seen,
+                    const Action      &action) const
     {
-      for (auto k = cube.samples; mask != 0; ++k, mask >>= 1)
-        if (mask & 1)
+      Mask rest = (seen & cube.of_corner[corner]) >> cube.first[corner];
+      for (auto k = cube.samples + cube.first[corner]; rest != 0; ++k, rest >>= 1)
+        if (rest & 1)
           action(samples[k]);
     }
 
+    /// Over what is seen of a corner. @{
     double
-    mean(const Values &values, const Cube &cube, const Mask mask) const;
+    mean(const Values &values, const Cube &cube, const unsigned int corner, const Mask seen) const;
 
     double
     nearest(const Values             &values,
             const Cube               &cube,
-            const Mask                mask,
+            const unsigned int        corner,
+            const Mask                seen,
             const dealii::Point<dim> &eye) const;
+    /// @}
 
     static constexpr unsigned int unknown = -1;
 
@@ -151,6 +171,7 @@ namespace undine
     std::vector<Cube>                  cubes;          ///< the first is none
     std::vector<Sample>                samples;
     std::vector<Screen>                screens;
+    std::vector<Facet>                 facets_of_screens;
   };
 } // namespace undine
 

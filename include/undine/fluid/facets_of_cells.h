@@ -21,8 +21,9 @@ namespace undine
 
     struct Facet
     {
-      FacetImage image;
-      Slab       slab; ///< as thin as the facet
+      FacetImage         image;
+      Slab               slab;         ///< as thin as the facet
+      dealii::Point<dim> lower, upper; ///< corners of the box around it
     };
 
     /// No facets, no cells.

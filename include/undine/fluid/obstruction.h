@@ -64,7 +64,8 @@ namespace undine
     /// Facets together.
     struct Patch
     {
-      Slab               slab; ///< holds them, as thin as one of them suggests
+      Slab               slab;         ///< holds them, as thin as one of them suggests
+      dealii::Point<dim> lower, upper; ///< corners of a box that holds them
       dealii::Point<dim> middle;
       double             radius; ///< of a ball around the middle that holds them [m]
     };
