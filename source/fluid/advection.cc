@@ -72,8 +72,9 @@ namespace undine
     for_each_value(kept, [&](double &value, const auto &place, const GridIndex<dim> &index) {
       const bool is_part =
         divided != nullptr && divided->kind(index) != LatticeParts<dim>::Kind::whole;
-      value = is_part || flow.vicinity().is_near(place, place) ? near.value_at(index, place, place)
-                                                               : source(index);
+      const auto here = flow.vicinity().place(place);
+      value = is_part || flow.vicinity().is_near(here, here) ? near.value_at(index, place, place)
+                                                             : source(index);
     });
     near.finish(kept, condition);
     return kept;

@@ -83,7 +83,8 @@ namespace undine
     if (surfaces != nullptr)
       mark_swept_cells();
     measure_layers();
-    find_extent();
+    touched = CellCounts<dim>(
+      box, [&](const GridIndex<dim> &cell) { return layers[box.position(cell)] == 0; });
     if (surfaces == nullptr)
       return;
     facets = FacetsOfCells<dim>(grid_, *surfaces, box);
@@ -132,42 +133,6 @@ namespace undine
 
 
   template <int dim>
-  void
-  BodyVicinity<dim>::find_extent()
-  {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    lowest.fill(infinity);
-    highest.fill(-infinity);
-    for_each(box, [&](const GridIndex<dim> &cell) {
-      if (layers[box.position(cell)] > margin)
-        return;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const int  last     = grid->cells_along()[d] - 1;
-          const bool periodic = grid->periodic(d);
-          // Places beyond a boundary belong to the cell there.
-          const double low  = periodic || cell[d] <= 0 ? -infinity : grid->planes(d)[cell[d]];
-          const double high = periodic || cell[d] >= last ? infinity : grid->planes(d)[cell[d] + 1];
-          lowest[d]         = std::min(lowest[d], low);
-          highest[d]        = std::max(highest[d], high);
-        }
-    });
-  }
-
-
-  template <int dim>
-  bool
-  BodyVicinity<dim>::reaches_extent(const dealii::Point<dim> &from,
-                                    const dealii::Point<dim> &to) const
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      if (std::max(from[d], to[d]) < lowest[d] || std::min(from[d], to[d]) > highest[d])
-        return false;
-    return true;
-  }
-
-
-  template <int dim>
   GridIndex<dim>
   BodyVicinity<dim>::cell_or_image_at(const dealii::Point<dim> &place) const
   {
@@ -179,24 +144,31 @@ namespace undine
 
 
   template <int dim>
-  bool
-  BodyVicinity<dim>::is_near(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
+  typename BodyVicinity<dim>::Place
+  BodyVicinity<dim>::place(const dealii::Point<dim> &point) const
   {
-    if (grid == nullptr || !reaches_extent(from, to))
+    return {point, grid == nullptr ? GridIndex<dim>{} : cell_or_image_at(point)};
+  }
+
+
+  template <int dim>
+  bool
+  BodyVicinity<dim>::is_near(const Place &from, const Place &to) const
+  {
+    if (grid == nullptr)
       return false;
-    const auto begin = cell_or_image_at(from), end = cell_or_image_at(to);
-    int        longest = 0;
+    int longest = 0;
     for (unsigned int d = 0; d < dim; ++d)
-      longest = std::max(longest, std::abs(end[d] - begin[d]));
+      longest = std::max(longest, std::abs(to.cell[d] - from.cell[d]));
     const auto counts = [&](const GridIndex<dim> &cell) {
       return !box.contains(cell) || layers[box.position(cell)] <= margin;
     };
-    if (counts(begin) || counts(end))
+    if (counts(from.cell) || counts(to.cell))
       return true;
     // The margin bridges the cells between samples.
     const int n_ways = 1 + longest / margin;
     for (int s = 1; s < n_ways; ++s)
-      if (counts(cell_or_image_at(from + double(s) / n_ways * (to - from))))
+      if (counts(cell_or_image_at(from.point + double(s) / n_ways * (to.point - from.point))))
         return true;
     return false;
   }
@@ -204,12 +176,9 @@ namespace undine
 
   template <int dim>
   bool
-  BodyVicinity<dim>::is_next_to_body(const dealii::Point<dim> &place) const
+  BodyVicinity<dim>::is_next_to_body(const Place &place) const
   {
-    if (grid == nullptr || !reaches_extent(place, place))
-      return false;
-    const auto cell = cell_or_image_at(place);
-    return !box.contains(cell) || layers[box.position(cell)] <= 1;
+    return grid != nullptr && (!box.contains(place.cell) || layers[box.position(place.cell)] <= 1);
   }
 
 
@@ -225,29 +194,7 @@ namespace undine
     int longest = 0;
     for (unsigned int d = 0; d < dim; ++d)
       longest = std::max(longest, std::abs(end[d] - begin[d]));
-    const int free_layers = layers[box.position(begin)];
-    if (free_layers == 0 || free_layers > longest)
-      return free_layers > 0;
-    bool clear = true;
-    for_each(cells,
-             [&](const GridIndex<dim> &cell) { clear = clear && layers[box.position(cell)] > 0; });
-    return clear;
-  }
-
-
-  template <int dim>
-  typename BodyVicinity<dim>::Place
-  BodyVicinity<dim>::place(const dealii::Point<dim> &point) const
-  {
-    return {point, grid == nullptr ? GridIndex<dim>{} : cell_or_image_at(point)};
-  }
-
-
-  template <int dim>
-  bool
-  BodyVicinity<dim>::is_hidden(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
-  {
-    return is_hidden(place(from), place(to));
+    return layers[box.position(begin)] > longest || touched.in(cells) == 0;
   }
 
 
@@ -271,20 +218,17 @@ namespace undine
 
   template <int dim>
   double
-  BodyVicinity<dim>::first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
+  BodyVicinity<dim>::first_hit(const Place &from, const Place &to) const
   {
     constexpr std::size_t short_way = 27; // cells; through more of them a tree is faster
     double                result    = std::numeric_limits<double>::infinity();
-    if (surfaces == nullptr || !reaches_extent(from, to))
+    if (surfaces == nullptr || is_clear(from.cell, to.cell))
       return result;
-    const auto begin = cell_or_image_at(from), end = cell_or_image_at(to);
-    const auto cells = cells_between(begin, end);
-    if (cells.size() <= short_way && is_clear(begin, end))
-      return result;
+    const auto cells = cells_between(from.cell, to.cell);
     if (cells.size() > short_way || !facets.know(cells))
-      return surfaces->first_hit(from, to);
-    facets.until_facet(cells, from, to, [&](const auto &facet) {
-      result = std::min(result, surfaces->first_hit(facet, from, to));
+      return surfaces->first_hit(from.point, to.point);
+    facets.until_facet(cells, from.point, to.point, [&](const auto &facet) {
+      result = std::min(result, surfaces->first_hit(facet, from.point, to.point));
       return false;
     });
     return result;

@@ -165,16 +165,16 @@ namespace undine
 
   template <int dim>
   dealii::Tensor<1, dim>
-  Flow<dim>::velocity_at(const dealii::Point<dim> &place) const
+  Flow<dim>::velocity_at(const Place &place) const
   {
     if (!body_vicinity.is_next_to_body(place))
-      return interpolate(frozen_velocity, place);
+      return interpolate(frozen_velocity, place.point);
     dealii::Tensor<1, dim> result;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      if (const auto seen = samples[axis]->at(place))
+      if (const auto seen = samples[axis]->at(place.point))
         result[axis] = *seen;
       else
-        result[axis] = among.obstruction->nearest_velocity(place)[axis];
+        result[axis] = among.obstruction->nearest_velocity(place.point)[axis];
     return result;
   }
 
@@ -203,23 +203,37 @@ namespace undine
 
   template <int dim>
   typename Flow<dim>::Trace
-  Flow<dim>::trace(const dealii::Point<dim> &place, const double dt) const
+  Flow<dim>::trace(const dealii::Point<dim> &point, const double dt) const
   {
-    const auto middle = walk(place, dt / 2 * velocity_at(place));
-    return middle.left_domain ? middle : walk(place, dt * velocity_at(middle.foot));
+    const auto place = body_vicinity.place(point);
+    auto       way   = walk(place, dt / 2 * velocity_at(place));
+    if (!way.left_domain)
+      way = walk(place, dt * velocity_at(way.end));
+    return {way.end.point, way.left_domain, body_vicinity.is_near(place, way.end)};
   }
 
 
   template <int dim>
-  typename Flow<dim>::Trace
-  Flow<dim>::walk(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &way) const
+  typename Flow<dim>::Walk
+  Flow<dim>::walk(const Place &place, const dealii::Tensor<1, dim> &way) const
   {
     // A little is left between path and surface, so that the surface hides what lies beyond.
-    constexpr double   share = 0.98;
-    const auto        &grid  = fluid_model.grid();
-    dealii::Point<dim> end   = place + way;
+    constexpr double share = 0.98;
+    const auto       end   = body_vicinity.place(place.point + way);
     if (const double hit = body_vicinity.first_hit(place, end); hit <= 1)
-      return {place + share * hit * way, false};
+      return {body_vicinity.place(place.point + share * hit * way), false};
+    const auto [kept, left_domain] = kept_in_domain(place.point, way);
+    return {kept == end.point ? end : body_vicinity.place(kept), left_domain};
+  }
+
+
+  template <int dim>
+  std::pair<dealii::Point<dim>, bool>
+  Flow<dim>::kept_in_domain(const dealii::Point<dim>     &place,
+                            const dealii::Tensor<1, dim> &way) const
+  {
+    const auto        &grid = fluid_model.grid();
+    dealii::Point<dim> end  = place + way;
     // Each turn ends the way at the first boundary it meets, or bends it along that wall.
     for (unsigned int turn = 0; turn < dim; ++turn)
       {

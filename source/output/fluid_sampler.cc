@@ -163,7 +163,7 @@ namespace undine
   std::optional<double>
   FluidSampler<dim>::value(const Sampled &sampled, const dealii::Point<dim> &place) const
   {
-    if (surfaces && vicinity.is_next_to_body(place))
+    if (surfaces && vicinity.is_next_to_body(vicinity.place(place)))
       return sampled.visible->at(place);
     return interpolate(sampled.field, place);
   }
@@ -240,7 +240,7 @@ namespace undine
   bool
   FluidSampler<dim>::is_clear(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
   {
-    return !vicinity.is_hidden(from, to);
+    return !vicinity.is_hidden(vicinity.place(from), vicinity.place(to));
   }
 
 

@@ -91,9 +91,8 @@ namespace undine
         return;
       const auto place = source.lattice().point(index);
       const auto trace = flow.trace(place, -flow.dt());
-      carried(index)   = flow.vicinity().is_near(place, trace.foot)
-                                      ? near.value_at(index, place, trace.foot)
-                                      : far(trace, index);
+      carried(index) =
+        trace.near_body ? near.value_at(index, place, trace.foot) : far(trace, index);
     };
     if (condition.neglected_variation() == 0)
       for_each(carried.owned(), carry_one);

@@ -2,6 +2,7 @@
 #ifndef undine_fluid_body_vicinity_h
 #define undine_fluid_body_vicinity_h
 
+#include <undine/fluid/cell_counts.h>
 #include <undine/fluid/facets_of_cells.h>
 #include <undine/fluid/field.h>
 #include <undine/fluid/mac_grid.h>
@@ -42,15 +43,19 @@ namespace undine
                  const Obstruction<dim>                      *obstruction,
                  const GridIndex<dim>                        &width);
 
+    /// In no cell if there are no bodies.
+    Place
+    place(const dealii::Point<dim> &point) const;
+
     /// True unless all cells on the straight way and `margin` cells around them are fluid, before,
     /// now and in between.
     bool
-    is_near(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
+    is_near(const Place &from, const Place &to) const;
 
     /// True unless the cell at a place and those around it are: then multilinear interpolation
     /// there sees all its samples.
     bool
-    is_next_to_body(const dealii::Point<dim> &place) const;
+    is_next_to_body(const Place &place) const;
 
     /// True if all cells of the box with two corners in these cells are fluid all over: nothing can
     /// hide one place in it from another.
@@ -64,20 +69,13 @@ namespace undine
       return facets;
     }
 
-    /// Does a surface hide one place from the other? @{
-    bool
-    is_hidden(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
-
+    /// Does a surface hide one place from the other?
     bool
     is_hidden(const Place &from, const Place &to) const;
-    /// @}
-
-    Place
-    place(const dealii::Point<dim> &point) const;
 
     /// The share of the way at which a surface is met, see Obstruction.
     double
-    first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
+    first_hit(const Place &from, const Place &to) const;
 
   private:
     void
@@ -86,29 +84,18 @@ namespace undine
     void
     measure_layers();
 
-    void
-    find_extent();
-
     /// The cell at a place; beyond a periodic side the image there, which this rank may know though
     /// it does not know the cell.
     GridIndex<dim>
     cell_or_image_at(const dealii::Point<dim> &place) const;
 
-    /// False if the box around a way ends before the extent of the bodies' vicinity.
-    bool
-    reaches_extent(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
-
     const MacGrid<dim>          *grid     = nullptr; ///< nullptr: no bodies
     const Obstruction<dim>      *surfaces = nullptr;
     std::array<const Row *, dim> planes{};
     IndexBox<dim>                box;
-    std::vector<std::uint8_t> layers; ///< 0: a body is in the cell, 1: beside that, ... margin + 1
-
-    FacetsOfCells<dim> facets;
-
-    /// Around all cells within `margin` layers [m]; infinite where it reaches a boundary or along
-    /// periodic axes.
-    std::array<double, dim> lowest, highest;
+    std::vector<std::uint8_t> layers;  ///< 0: a body is in the cell, 1: beside that, ... margin + 1
+    CellCounts<dim>           touched; ///< those with a body
+    FacetsOfCells<dim>        facets;
   };
 } // namespace undine
 

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace undine
@@ -24,6 +25,7 @@ namespace undine
     {
       dealii::Point<dim> foot;
       bool left_domain; ///< it met an opening or an inflow there before its time was up
+      bool near_body;   ///< it came near one, see BodyVicinity
     };
 
     /// The bodies among which the fluid moves.
@@ -75,10 +77,6 @@ namespace undine
     const std::shared_ptr<CubeViews<dim>> &
     views(const Field<dim> &like) const;
 
-    /// [m/s] Near bodies from what can be seen, or the velocity of the nearest surface.
-    dealii::Tensor<1, dim>
-    velocity_at(const dealii::Point<dim> &place) const;
-
     /// Ghost layers that a field needs to be known at every foot.
     const GridIndex<dim> &
     width() const;
@@ -96,9 +94,25 @@ namespace undine
     trace(const dealii::Point<dim> &place, const double dt) const;
 
   private:
+    using Place = typename BodyVicinity<dim>::Place;
+
+    /// [m/s] Near bodies from what can be seen, or the velocity of the nearest surface.
+    dealii::Tensor<1, dim>
+    velocity_at(const Place &place) const;
+
+    struct Walk
+    {
+      Place end;
+      bool  left_domain;
+    };
+
     /// The end of a straight way from a place in the domain, kept in the domain.
-    Trace
-    walk(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &way) const;
+    Walk
+    walk(const Place &place, const dealii::Tensor<1, dim> &way) const;
+
+    /// The same where no bodies are, and if it left the domain.
+    std::pair<dealii::Point<dim>, bool>
+    kept_in_domain(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &way) const;
 
     const FluidModel<dim>                                &fluid_model;
     Bodies                                                among;

@@ -58,10 +58,8 @@ namespace undine
       for (const auto &[index, found] : predictions)
         {
           const auto place = field.lattice().point(index);
-          if (flow.vicinity().is_near(place, place))
-            continue;
           const auto trace = flow.trace(place, flow.dt());
-          if (trace.left_domain || flow.vicinity().is_near(place, trace.foot))
+          if (trace.left_domain || trace.near_body)
             continue;
           const double returned = interpolate(predicted, trace.foot);
           const double value    = found.value + (source(index) - returned) / 2;

@@ -22,10 +22,10 @@ namespace
           const auto   to    = from + random_point<dim>(random, reach);
           const double exact = scene.queries.first_hit(from, to);
           const auto  &near  = scene.vicinity;
+          const auto   begin = near.place(from), end = near.place(to);
           hidden += exact <= 1;
-          wrong += near.is_hidden(from, to) != (exact <= 1);
-          wrong += near.is_hidden(near.place(from), near.place(to)) != (exact <= 1);
-          const double found = near.first_hit(from, to);
+          wrong += near.is_hidden(begin, end) != (exact <= 1);
+          const double found = near.first_hit(begin, end);
           wrong += exact <= 1 ? std::abs(found - exact) > 1e-12 : found <= 1;
         }
     CHECK(wrong == 0);
@@ -86,7 +86,8 @@ namespace
     for (int number = 0; number < 5000; ++number)
       {
         const auto from = scene.known_place(random, 0), to = from + random_point<dim>(random, .8);
-        if (!scene.vicinity.is_near(from, to))
+        const auto begin = scene.vicinity.place(from), end = scene.vicinity.place(to);
+        if (!scene.vicinity.is_near(begin, end))
           {
             ++far;
             // Cells are at least 0.42 wide.
@@ -94,7 +95,7 @@ namespace
             wrong += scene.queries.first_hit(from, to) <= 1;
             wrong += scene.queries.first_hit(from, beside) <= 1;
           }
-        if (!scene.vicinity.is_next_to_body(from))
+        if (!scene.vicinity.is_next_to_body(begin))
           {
             ++apart;
             const auto beside = from + random_point<dim>(random, .42 / std::sqrt(dim));
@@ -190,9 +191,10 @@ TEMPLATE_TEST_CASE_SIG("The cells around bodies", "[interface][mpi]", ((int dim)
 TEST_CASE("Without bodies no place is near one", "[interface]")
 {
   const BodyVicinity<2> vicinity{};
-  CHECK_FALSE(vicinity.is_near({0, 0}, {1, 1}));
-  CHECK_FALSE(vicinity.is_next_to_body({0, 0}));
-  CHECK_FALSE(vicinity.is_hidden(dealii::Point<2>(0, 0), dealii::Point<2>(1, 1)));
-  CHECK(vicinity.first_hit({0, 0}, {1, 1}) > 1);
+  const auto            here = vicinity.place({0, 0}), there = vicinity.place({1, 1});
+  CHECK_FALSE(vicinity.is_near(here, there));
+  CHECK_FALSE(vicinity.is_next_to_body(here));
+  CHECK_FALSE(vicinity.is_hidden(here, there));
+  CHECK(vicinity.first_hit(here, there) > 1);
   CHECK(vicinity.is_clear({}, {}));
 }
