@@ -8,18 +8,20 @@ One body vibrates; three equal ones rest beside it, without a fluid or in one. I
 prm/jet_two_sheets.prm that swings; three stiff ones stand behind it. Prints a table: seconds of a processor per step
 of the three runs; the share (1 + 3 asleep - 1) / (4 - 1) of what three bodies cost awake; and how far displacements of the run
 with sleep are from those of the run without it, over the bound 2 V T of doc/effects.md. Steps are those after all three
-have fallen asleep; runs take turns, and medians are printed. --check fails where displacements differ by more than 2 V T or
-where the share is above that of the case. --profile prints seconds per step and phase instead. One rank; --rounds 5
-takes about ten minutes.
+have fallen asleep. All runs of a round advance together, a third of a second each in turn, so that a machine that is now fast
+and now slow is so for all alike; medians over rounds are printed. --check fails where displacements differ by more than 2 V T or
+where the share is above that of the case. --profile prints seconds per step and phase instead, of runs one after the
+other. One rank; --rounds 5 takes about ten minutes.
 """
 import argparse
 import os
 import re
-import resource
+import signal
 import statistics as medians
 import subprocess
 import sys
 import tempfile
+import time
 from dataclasses import dataclass
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -186,7 +188,6 @@ def probe(k, x, case):
 @dataclass
 class Result:
     """What a run took and found."""
-    seconds: float  # of a processor, which others that use the machine do not change much
     phases: dict  # (level, name): seconds of the clock, summed over phases of a name
     columns: dict  # of `statistics`
 
@@ -197,9 +198,7 @@ def run(program, text, steps):
         with open(name, "w", encoding="utf-8") as file:
             file.write(text)
         command = [program, name, "--output", folder + "/out", "--set", f"Time/Maximum steps={steps}"]
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         done = subprocess.run(command, capture_output=True, text=True, check=False)
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
         if done.returncode:
             sys.exit(f"sleeping_bodies.py: {done.stdout[-800:]}{done.stderr[-800:]}")
         phases = {}
@@ -211,15 +210,56 @@ def run(program, text, steps):
                     phases[phase] = phases.get(phase, 0) + float(found[4])
         names, _, rows = scene_tools.parse(scene_tools.statistics(folder + "/out"))
         columns = {column: [row[k] for row in rows] for k, column in enumerate(names)}
-        return Result(after.ru_utime - before.ru_utime, phases, columns)
+        return Result(phases, columns)
 
 
-def per_step(program, text):
-    """(seconds, seconds by phase) of a step: the difference of a long and a short run."""
+def phases_per_step(program, text):
+    """Seconds by phase of a step: the difference of a long and a short run."""
     short, whole = run(program, text, FIRST), run(program, text, LAST)
-    n_steps = LAST - FIRST
-    phases = {phase: (whole.phases[phase] - short.phases.get(phase, 0)) / n_steps for phase in whole.phases}
-    return (whole.seconds - short.seconds) / n_steps, phases
+    return {phase: (whole.phases[phase] - short.phases.get(phase, 0)) / (LAST - FIRST) for phase in whole.phases}
+
+
+class Runner:
+    """A run that advances only during its turns."""
+
+    def __init__(self, program, text, steps, folder):
+        os.makedirs(folder)
+        name = os.path.join(folder, "scene.prm")
+        with open(name, "w", encoding="utf-8") as file:
+            file.write(text)
+        self.steps, self.log, self.seconds = steps, folder + "/out/log.txt", None
+        self.process = subprocess.Popen([program, name, "--output", folder + "/out", "--set", f"Time/Maximum steps={steps}"],
+                                        stdout=subprocess.DEVNULL)
+        os.kill(self.process.pid, signal.SIGSTOP)
+
+    def turn(self, length):
+        os.kill(self.process.pid, signal.SIGCONT)
+        time.sleep(length)
+        done, status, used = os.wait4(self.process.pid, os.WNOHANG)
+        if not done:
+            os.kill(self.process.pid, signal.SIGSTOP)
+            return
+        self.process.returncode, self.seconds = os.waitstatus_to_exitcode(status), used.ru_utime
+        if self.process.returncode:
+            sys.exit(f"sleeping_bodies.py: a run failed, see {self.log}")
+
+    def progress(self):
+        """The share of its steps that is done."""
+        if not os.path.exists(self.log):
+            return 0
+        with open(self.log, encoding="utf-8") as file:
+            steps = [int(found[1]) for found in re.finditer(r"^ +(\d+) +[\d.]", file.read(), re.MULTILINE)]
+        return (steps[-1] if steps else 0) / self.steps
+
+
+def seconds_per_step(program, texts):
+    """Seconds of a processor per step of each scene, whose runs advance together."""
+    with tempfile.TemporaryDirectory() as folder:
+        runners = [Runner(program, text, steps, f"{folder}/{k}_{steps}")
+                   for k, text in enumerate(texts) for steps in (FIRST, LAST)]
+        while left := [runner for runner in runners if runner.seconds is None]:
+            min(left, key=Runner.progress).turn(0.33)
+        return [(whole.seconds - short.seconds) / (LAST - FIRST) for short, whole in zip(runners[::2], runners[1::2])]
 
 
 def difference(program, case):
@@ -251,11 +291,11 @@ def main():
     for name in options.case or CASES:
         case = CASES[name]
         texts = [scene(case, 1, False), scene(case, 4, True), scene(case, 4, False)]
-        found = [[per_step(options.program, text) for text in texts] for _ in range(options.rounds)]
         if options.profile:
-            print_profile(name, found)
+            print_profile(name, [[phases_per_step(options.program, text) for text in texts] for _ in range(options.rounds)])
             continue
-        one, asleep, four = (medians.median(of_round[k][0] for of_round in found) for k in range(3))
+        found = [seconds_per_step(options.program, texts) for _ in range(options.rounds)]
+        one, asleep, four = (medians.median(of_round[k] for of_round in found) for k in range(3))
         share, off = (asleep - one) / (four - one), difference(options.program, case)
         print(f"| {name} | {one:.4f} | {asleep:.4f} | {four:.4f} | {100 * share:.1f} % | {off:.2g} |", flush=True)
         failed |= share > case.bound or off > 1
@@ -265,8 +305,8 @@ def main():
 
 def print_profile(name, found):
     print(f"\n{name}: ms per step with 1 body, 1 + 3 asleep, 4 awake")
-    for phase in found[0][2][1]:
-        row = [1e3 * medians.median(of_round[k][1].get(phase, 0) for of_round in found) for k in range(3)]
+    for phase in found[0][2]:
+        row = [1e3 * medians.median(of_round[k].get(phase, 0) for of_round in found) for k in range(3)]
         print(f"{'  ' * phase[0] + phase[1]:32}" + "".join(f"{value:10.3f}" for value in row))
 
 
