@@ -8,15 +8,15 @@ One body vibrates; three equal ones rest beside it, without a fluid or in one. I
 prm/jet_two_sheets.prm that swings; three stiff ones stand behind it. Prints a table: seconds of a processor per step
 of the three runs; the share (1 + 3 asleep - 1) / (4 - 1) of what three bodies cost awake; and how far displacements of the run
 with sleep are from those of the run without it, over the bound 2 V T of doc/effects.md. Steps are those after all three
-have fallen asleep. All runs of a round advance together, a third of a second each in turn, so that a machine that is now fast
-and now slow is so for all alike; medians over rounds are printed. --check fails where displacements differ by more than 2 V T or
+have fallen asleep. Runs take turns, and of each step the fastest of the rounds counts: others that use the machine make it
+slower, never faster. --check fails where displacements differ by more than 2 V T or
 where the share is above that of the case. --profile prints seconds per step and phase instead, of runs one after the
 other. One rank; --rounds 5 takes about ten minutes.
 """
 import argparse
+import contextlib
 import os
 import re
-import signal
 import statistics as medians
 import subprocess
 import sys
@@ -219,47 +219,33 @@ def phases_per_step(program, text):
     return {phase: (whole.phases[phase] - short.phases.get(phase, 0)) / (LAST - FIRST) for phase in whole.phases}
 
 
-class Runner:
-    """A run that advances only during its turns."""
-
-    def __init__(self, program, text, steps, folder):
-        os.makedirs(folder)
-        name = os.path.join(folder, "scene.prm")
+def seconds_of_steps(program, text):
+    """Seconds of a processor that each step from FIRST to LAST takes."""
+    with tempfile.TemporaryDirectory() as folder:
+        name, log = folder + "/scene.prm", folder + "/out/log.txt"
         with open(name, "w", encoding="utf-8") as file:
             file.write(text)
-        self.steps, self.log, self.seconds = steps, folder + "/out/log.txt", None
-        self.process = subprocess.Popen([program, name, "--output", folder + "/out", "--set", f"Time/Maximum steps={steps}"],
-                                        stdout=subprocess.DEVNULL)
-        os.kill(self.process.pid, signal.SIGSTOP)
-
-    def turn(self, length):
-        os.kill(self.process.pid, signal.SIGCONT)
-        time.sleep(length)
-        done, status, used = os.wait4(self.process.pid, os.WNOHANG)
-        if not done:
-            os.kill(self.process.pid, signal.SIGSTOP)
-            return
-        self.process.returncode, self.seconds = os.waitstatus_to_exitcode(status), used.ru_utime
-        if self.process.returncode:
-            sys.exit(f"sleeping_bodies.py: a run failed, see {self.log}")
-
-    def progress(self):
-        """The share of its steps that is done."""
-        if not os.path.exists(self.log):
-            return 0
-        with open(self.log, encoding="utf-8") as file:
-            steps = [int(found[1]) for found in re.finditer(r"^ +(\d+) +[\d.]", file.read(), re.MULTILINE)]
-        return (steps[-1] if steps else 0) / self.steps
+        process = subprocess.Popen([program, name, "--output", folder + "/out"], stdout=subprocess.DEVNULL)
+        ends, size = {}, 0
+        while process.poll() is None:
+            time.sleep(0.003)
+            with contextlib.suppress(OSError), open(f"/proc/{process.pid}/schedstat", encoding="ascii") as stat:
+                used = int(stat.read().split()[0]) * 1e-9
+                if os.path.getsize(log) != size:
+                    size = os.path.getsize(log)
+                    with open(log, encoding="utf-8") as file:
+                        steps = re.findall(r"^ +(\d+) +[\d.]", file.read(), re.MULTILINE)
+                    if steps:
+                        ends.setdefault(int(steps[-1]), used)
+        if process.returncode or not all(step in ends for step in range(FIRST, LAST)):
+            sys.exit(f"sleeping_bodies.py: a run ended with {process.returncode}, after {len(ends)} steps")
+        return [ends[step] - ends[step - 1] for step in range(FIRST + 1, LAST)]
 
 
-def seconds_per_step(program, texts):
-    """Seconds of a processor per step of each scene, whose runs advance together."""
-    with tempfile.TemporaryDirectory() as folder:
-        runners = [Runner(program, text, steps, f"{folder}/{k}_{steps}")
-                   for k, text in enumerate(texts) for steps in (FIRST, LAST)]
-        while left := [runner for runner in runners if runner.seconds is None]:
-            min(left, key=Runner.progress).turn(0.33)
-        return [(whole.seconds - short.seconds) / (LAST - FIRST) for short, whole in zip(runners[::2], runners[1::2])]
+def seconds_per_step(program, texts, rounds):
+    """Of each scene the mean over steps, each as fast as the fastest of the rounds, in which scenes take turns."""
+    found = [[seconds_of_steps(program, text) for text in texts] for _ in range(rounds)]
+    return [medians.mean(map(min, zip(*(of_round[k] for of_round in found)))) for k in range(len(texts))]
 
 
 def difference(program, case):
@@ -294,8 +280,7 @@ def main():
         if options.profile:
             print_profile(name, [[phases_per_step(options.program, text) for text in texts] for _ in range(options.rounds)])
             continue
-        found = [seconds_per_step(options.program, texts) for _ in range(options.rounds)]
-        one, asleep, four = (medians.median(of_round[k] for of_round in found) for k in range(3))
+        one, asleep, four = seconds_per_step(options.program, texts, options.rounds)
         share, off = (asleep - one) / (four - one), difference(options.program, case)
         print(f"| {name} | {one:.4f} | {asleep:.4f} | {four:.4f} | {100 * share:.1f} % | {off:.2g} |", flush=True)
         failed |= share > case.bound or off > 1

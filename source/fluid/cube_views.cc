@@ -182,15 +182,14 @@ namespace undine
     auto in_cells = facets.in(cells);
     while (!in_cells.empty())
       {
-        const auto first = facets_of_screens.size();
-        Screen     screen{in_cells.front()->slab, first, 0, 0, 0};
-        const auto rest =
-          std::stable_partition(in_cells.begin(), in_cells.end(), [&](const auto *facet) {
-            return facet == in_cells.front() || is_in_plane<dim>(*facet, screen.slab);
-          });
+        const auto *leader = in_cells.front();
+        Screen      screen{leader->slab, facets_of_screens.size(), 0, 0, 0};
+        const auto  rest = std::partition(in_cells.begin(), in_cells.end(), [&](const auto *facet) {
+          return facet == leader || is_in_plane<dim>(*facet, leader->slab);
+        });
         for (auto facet = in_cells.begin(); facet != rest; ++facet)
           {
-            facets_of_screens.push_back(**facet);
+            facets_of_screens.push_back(*facet);
             screen.slab.lower = std::min(screen.slab.lower, (*facet)->slab.lower);
             screen.slab.upper = std::max(screen.slab.upper, (*facet)->slab.upper);
           }
@@ -227,22 +226,25 @@ namespace undine
                         const dealii::Point<dim> &eye,
                         const dealii::Point<dim> &place) const
   {
-    // Only facets that the way within the slab comes past can be met.
+    // Only facets that the way comes past within the slab can be met: around its place in the
+    // middle of the slab, or anywhere if it leads along.
     const auto  &slab   = screen.slab;
-    const double at_eye = slab.normal * eye, at_place = slab.normal * place;
-    const auto   share = [&](const double height) { // of the way to the slab's face nearest to it
-      return (std::clamp(height, slab.lower, slab.upper) - at_eye) / (at_place - at_eye);
-    };
-    const auto way   = place - eye;
-    const auto enter = at_place == at_eye ? eye : eye + share(at_eye) * way;
-    const auto leave = at_place == at_eye ? place : eye + share(at_place) * way;
+    const double at_eye = slab.normal * eye, descent = at_eye - slab.normal * place;
+    const double half  = (slab.upper - slab.lower) / 2;
+    const bool   along = std::abs(descent) < 4 * half;
+    const double share = along ? .5 : (at_eye - slab.lower - half) / descent;
+    const double reach = along ? 1 : half / std::abs(descent);
+    const auto   way   = place - eye;
     for (auto k = screen.facets; k < screen.facets_end; ++k)
       {
-        const auto &facet  = facets_of_screens[k];
+        const auto &facet  = *facets_of_screens[k];
         bool        passed = true;
         for (unsigned int d = 0; d < dim; ++d)
-          passed = passed && std::max(enter[d], leave[d]) >= facet.lower[d] &&
-                   std::min(enter[d], leave[d]) <= facet.upper[d];
+          {
+            const double middle = eye[d] + share * way[d], extent = reach * std::abs(way[d]);
+            passed =
+              passed && middle + extent >= facet.lower[d] && middle - extent <= facet.upper[d];
+          }
         if (passed && obstruction.first_hit(facet.image, eye, place) <= 1)
           return true;
       }

@@ -171,7 +171,7 @@ namespace undine
     std::vector<Cube>                  cubes;          ///< the first is none
     std::vector<Sample>                samples;
     std::vector<Screen>                screens;
-    std::vector<Facet>                 facets_of_screens;
+    std::vector<const Facet *>         facets_of_screens;
   };
 } // namespace undine
 
