@@ -57,7 +57,7 @@ namespace undine
     : sampled(like, width, obstruction_, vicinity)
     , obstruction(obstruction_)
     , facets(vicinity.facets_of_cells())
-    , box(like.stored())
+    , box(sampled.stored_points())
     , cube_above(box.size(), unknown)
     , cubes(1)
   {

@@ -10,7 +10,8 @@
 
 namespace undine_tests
 {
-  /// A ball that has moved by less than a cell, and a thin sheet at rest, in cells of uneven sizes.
+  /// A ball that has moved by less than a cell, a thin sheet at rest, and a speck that leaves all
+  /// faces of its cell whole, in cells of uneven sizes.
   template <int dim>
   class BallAndSheet
   {
@@ -90,6 +91,7 @@ namespace undine_tests
       result.append(box<dim>(-half, half, cells)
                       .rotate(random)
                       .shift(all_equal<dim>(5.7) - dealii::Point<dim>()));
+      result.append(ball<dim>(1, .15).shift(all_equal<dim>(7.14) - dealii::Point<dim>()));
       return result;
     }
 
