@@ -32,7 +32,7 @@ TIME = 0.25  # T [s]: half a period of the bodies
 STEP = 0.02  # s
 FIRST, LAST = 14, 34  # steps between which runs are compared: the three sleep after the thirteenth
 PLACES = (0.3, 0.8, 1.2, 1.6)  # of the bodies [m]
-JET_PLACES = (0.703, 1.003, 1.303, 1.603)  # of the sheets in the jet
+JET_PLACES = (0.703, 1.087, 1.387, 1.687)  # of the sheets in the jet, which the first does not reach
 
 
 @dataclass

@@ -10,6 +10,7 @@ namespace undine
   namespace
   {
     constexpr double rounding = 1e-12; ///< of places, over the size of cells
+    constexpr double flatness = 0.02;  ///< height of a screen over the size of cells
 
 
     template <int dim>
@@ -35,16 +36,18 @@ namespace undine
     }
 
 
-    /// Is a facet in the plane of a slab as thin as rounding?
+    /// Do two boxes have a place in common?
     template <int dim>
     bool
-    is_in_plane(const typename FacetsOfCells<dim>::Facet &facet,
-                const typename Obstruction<dim>::Slab    &slab)
+    meet(const dealii::Point<dim> &lower,
+         const dealii::Point<dim> &upper,
+         const dealii::Point<dim> &other_lower,
+         const dealii::Point<dim> &other_upper)
     {
-      constexpr double parallel = 1e-13; // makes less of a difference than the slab is thick
-      const double     width    = slab.upper - slab.lower;
-      return (facet.slab.normal - slab.normal).norm_square() < parallel * parallel &&
-             facet.slab.lower > slab.lower - width && facet.slab.upper < slab.upper + width;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (lower[d] > other_upper[d] || upper[d] < other_lower[d])
+          return false;
+      return true;
     }
   } // namespace
 
@@ -164,7 +167,8 @@ namespace undine
   void
   CubeViews<dim>::add_wall(Cube &cube, const Slab &slab)
   {
-    Screen wall{slab, 0, 0, 0, 0};
+    Screen wall{};
+    wall.slab = slab;
     part(cube, wall);
     Mask all = 0;
     for (const Mask of_corner : cube.of_corner)
@@ -179,21 +183,33 @@ namespace undine
   void
   CubeViews<dim>::add_screens(Cube &cube, const IndexBox<dim> &cells)
   {
+    double height = cube.upper[0] - cube.lower[0];
+    for (unsigned int d = 1; d < dim; ++d)
+      height = std::min(height, cube.upper[d] - cube.lower[d]);
+    height *= flatness;
     auto in_cells = facets.in(cells);
     while (!in_cells.empty())
       {
         const auto *leader = in_cells.front();
-        Screen      screen{leader->slab, facets_of_screens.size(), 0, 0, 0};
-        const auto  rest = std::partition(in_cells.begin(), in_cells.end(), [&](const auto *facet) {
-          return facet == leader || is_in_plane<dim>(*facet, leader->slab);
-        });
-        for (auto facet = in_cells.begin(); facet != rest; ++facet)
-          {
-            facets_of_screens.push_back(*facet);
-            screen.slab.lower = std::min(screen.slab.lower, (*facet)->slab.lower);
-            screen.slab.upper = std::max(screen.slab.upper, (*facet)->slab.upper);
-          }
-        in_cells.erase(in_cells.begin(), rest);
+        Screen      screen{};
+        screen.slab      = leader->patch.slab;
+        screen.lower     = leader->patch.lower;
+        screen.upper     = leader->patch.upper;
+        screen.facets    = facets_of_screens.size();
+        const auto taken = [&](const Facet *facet) {
+          const auto slab = facet->patch.widened(screen.slab);
+          if (facet != leader && slab.upper - slab.lower > height)
+            return false;
+          screen.slab = slab;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              screen.lower[d] = std::min(screen.lower[d], facet->patch.lower[d]);
+              screen.upper[d] = std::max(screen.upper[d], facet->patch.upper[d]);
+            }
+          facets_of_screens.push_back(facet);
+          return true;
+        };
+        in_cells.erase(std::remove_if(in_cells.begin(), in_cells.end(), taken), in_cells.end());
         screen.facets_end = facets_of_screens.size();
         part(cube, screen);
         screens.push_back(screen);
@@ -228,24 +244,27 @@ namespace undine
   {
     // Only facets that the way comes past within the slab can be met: around its place in the
     // middle of the slab, or anywhere if it leads along.
-    const auto  &slab   = screen.slab;
-    const double at_eye = slab.normal * eye, descent = at_eye - slab.normal * place;
-    const double half  = (slab.upper - slab.lower) / 2;
-    const bool   along = std::abs(descent) < 4 * half;
-    const double share = along ? .5 : (at_eye - slab.lower - half) / descent;
-    const double reach = along ? 1 : half / std::abs(descent);
-    const auto   way   = place - eye;
+    const auto        &slab   = screen.slab;
+    const double       at_eye = slab.normal * eye, descent = at_eye - slab.normal * place;
+    const double       half  = (slab.upper - slab.lower) / 2;
+    const bool         along = std::abs(descent) < 4 * half;
+    const double       share = along ? .5 : (at_eye - slab.lower - half) / descent;
+    const double       reach = along ? 1 : half / std::abs(descent);
+    dealii::Point<dim> lower, upper; // corners of a box around that part of the way
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double way    = place[d] - eye[d];
+        const double middle = eye[d] + share * way, extent = reach * std::abs(way);
+        lower[d] = middle - extent;
+        upper[d] = middle + extent;
+      }
+    if (!meet(lower, upper, screen.lower, screen.upper))
+      return false;
     for (auto k = screen.facets; k < screen.facets_end; ++k)
       {
-        const auto &facet  = *facets_of_screens[k];
-        bool        passed = true;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double middle = eye[d] + share * way[d], extent = reach * std::abs(way[d]);
-            passed =
-              passed && middle + extent >= facet.lower[d] && middle - extent <= facet.upper[d];
-          }
-        if (passed && obstruction.first_hit(facet.image, eye, place) <= 1)
+        const auto &facet = *facets_of_screens[k];
+        if (meet(lower, upper, facet.patch.lower, facet.patch.upper) &&
+            obstruction.first_hit(facet.image, eye, place) <= 1)
           return true;
       }
     return false;
@@ -291,10 +310,11 @@ namespace undine
                              const GridIndex<dim> &lower,
                              const unsigned int    corners) const
   {
-    View       result{{}, corners};
+    View       result{{}, corners & ((1u << n_corners) - 1)};
     const auto position = box.position(lower);
     for (unsigned int corner = 0; corner < n_corners; ++corner)
-      result.values[corner] = values[position + corner_offsets[corner]];
+      if (corners >> corner & 1)
+        result.values[corner] = values[position + corner_offsets[corner]];
     return result;
   }
 
@@ -306,6 +326,9 @@ namespace undine
                        const unsigned int corner,
                        const Mask         seen) const
   {
+    const Mask of_corner = seen & cube.of_corner[corner];
+    if (of_corner == Mask(1) << cube.first[corner])
+      return values[samples[cube.samples + cube.first[corner]].number];
     double sum = 0, total = 0;
     for_each_sample(cube, corner, seen, [&](const Sample &sample) {
       sum += sample.measure * values[sample.number];

@@ -3,32 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace undine
 {
-  namespace
-  {
-    /// Widen a slab so that it holds what a patch holds.
-    template <int dim>
-    void
-    widen(typename Obstruction<dim>::Slab &slab, const typename Obstruction<dim>::Patch &patch)
-    {
-      // n x = n m + o (x - m) + (n - o) (x - m) with the other normal o and the middle m
-      auto other = patch.slab;
-      if (slab.normal * other.normal < 0)
-        {
-          other.normal = -other.normal;
-          std::swap(other.lower, other.upper);
-          other.lower = -other.lower, other.upper = -other.upper;
-        }
-      const double turned = (slab.normal - other.normal).norm() * patch.radius;
-      const double shift  = (slab.normal - other.normal) * patch.middle;
-      slab.lower          = std::min(slab.lower, other.lower + shift - turned);
-      slab.upper          = std::max(slab.upper, other.upper + shift + turned);
-    }
-  } // namespace
-
-
   template <int dim>
   FacetsOfCells<dim>::FacetsOfCells(const MacGrid<dim>     &grid_,
                                     const Obstruction<dim> &surfaces_,
@@ -50,18 +28,30 @@ namespace undine
     for (int &upper : only.upper.values)
       ++upper;
     const dealii::BoundingBox<dim> space(corners(only));
-    const auto                     images = surfaces->facets_near(space);
-    if (images.empty())
+    const auto                     near = surfaces->facets_near(space);
+    if (near.empty())
       return;
-    const auto patch = surfaces->patch(images);
-    List       list{{}, patch, surfaces->is_wall(images, patch.slab, space)};
-    for (const auto &image : images)
-      {
-        const auto facet = surfaces->patch({image});
-        list.facets.push_back({image, facet.slab, facet.lower, facet.upper});
-      }
+    const auto patch = surfaces->patch(near);
+    List       list{{}, patch, surfaces->is_wall(near, patch.slab, space)};
+    list.facets.reserve(near.size());
+    for (const auto &image : near)
+      list.facets.push_back(number_of(image));
     list_of_cell[box.position(cell)] = lists.size();
     lists.push_back(std::move(list));
+  }
+
+
+  template <int dim>
+  unsigned int
+  FacetsOfCells<dim>::number_of(const FacetImage &image)
+  {
+    const auto [begin, end] = images.equal_range(image.facet);
+    for (auto known = begin; known != end; ++known)
+      if (facets[known->second].image.to_facet == image.to_facet)
+        return known->second;
+    images.emplace(image.facet, facets.size());
+    facets.push_back({image, surfaces->patch({image})});
+    return facets.size() - 1;
   }
 
 
@@ -86,16 +76,11 @@ namespace undine
   {
     std::vector<const Facet *> result;
     for_each(cells, [&](const GridIndex<dim> &cell) {
-      for (const auto &facet : lists[list_of_cell[box.position(cell)]].facets)
-        result.push_back(&facet);
+      for (const unsigned int number : lists[list_of_cell[box.position(cell)]].facets)
+        result.push_back(&facets[number]);
     });
-    std::sort(result.begin(), result.end(), [](const Facet *a, const Facet *b) {
-      return a->image.facet < b->image.facet;
-    });
-    const auto last = std::unique(result.begin(), result.end(), [](const Facet *a, const Facet *b) {
-      return a->image.facet == b->image.facet && a->image.to_facet == b->image.to_facet;
-    });
-    result.erase(last, result.end());
+    std::sort(result.begin(), result.end(), std::less<>());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
   }
 
@@ -115,7 +100,7 @@ namespace undine
         slab = list.patch.slab;
       parted = list.is_wall && std::abs(slab->normal * list.patch.slab.normal) > alike;
       if (parted)
-        widen<dim>(*slab, list.patch);
+        slab = list.patch.widened(*slab);
     });
     return parted ? slab : std::nullopt;
   }

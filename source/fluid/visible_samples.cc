@@ -128,13 +128,14 @@ namespace undine
     const auto add = [&](const unsigned int corners) {
       const auto seen = seen_values(lower, eye, corners);
       for (unsigned int corner = 0; corner < (1u << dim); ++corner)
-        if (seen.corners >> corner & 1)
-          {
-            sum += weight[corner] * seen.values[corner];
-            total += weight[corner];
-            plain_sum += seen.values[corner];
-            plain_total += 1;
-          }
+        {
+          // No branches: nobody can tell beforehand what is seen. Values of others are zero.
+          const double is_seen = seen.corners >> corner & 1;
+          sum += weight[corner] * seen.values[corner];
+          total += weight[corner] * is_seen;
+          plain_sum += seen.values[corner];
+          plain_total += is_seen;
+        }
     };
     add(weighted);
     if (total > least_weight)

@@ -2,6 +2,7 @@
 #include <undine/interface/cut_parts.h>
 #include <undine/interface/dual_volumes.h>
 #include <undine/interface/exchanged_parts.h>
+#include <undine/interface/kept_numbers.h>
 
 #include <algorithm>
 #include <utility>
@@ -35,6 +36,8 @@ namespace undine
         , cut(cut)
         , voids(voids)
         , dual(dual_volumes(cut))
+        , components(cut.components.size(), [&](const int c) { return !voids.holds_component(c); })
+        , pieces(cut.pieces.size(), [&](const int p) { return holds_fluid(cut.pieces[p]); })
       {
       }
 
@@ -85,30 +88,26 @@ namespace undine
       count_on_periodic_side(const GridIndex<dim> &face, const unsigned int axis) const;
 
       /// The components of a cut cell that are not void.
-      std::vector<int>
+      dealii::ArrayView<const int>
       components_of(const int slot) const
       {
-        std::vector<int> components;
-        for (int c = cut.cells[slot].first_component; c < cut.end_component(slot); ++c)
-          if (!voids.holds_component(c))
-            components.push_back(c);
-        return components;
+        return components.between(cut.cells[slot].first_component, cut.end_component(slot));
       }
 
       /// The pieces of a face that are not void.
-      std::vector<int>
+      dealii::ArrayView<const int>
       pieces_of(const int slot) const
       {
-        std::vector<int> pieces;
-        for (int p = cut.faces[slot].first_piece; p < cut.end_piece(slot); ++p)
-          {
-            bool holds_fluid = true;
-            for (const int c : cut.pieces[p].components)
-              holds_fluid = holds_fluid && !(c >= 0 && voids.holds_component(c));
-            if (holds_fluid)
-              pieces.push_back(p);
-          }
-        return pieces;
+        return pieces.between(cut.faces[slot].first_piece, cut.end_piece(slot));
+      }
+
+      bool
+      holds_fluid(const typename CutCells<dim>::Piece &piece) const
+      {
+        for (const int c : piece.components)
+          if (c >= 0 && voids.holds_component(c))
+            return false;
+        return true;
       }
 
       bool
@@ -128,6 +127,7 @@ namespace undine
       const CutCells<dim>   &cut;
       const VoidParts       &voids;
       const DualVolumes<dim> dual;
+      const KeptNumbers      components, pieces; ///< those that are not void
       Open                  *open = nullptr;
       CutParts<dim>          result;
       std::vector<double>    upper_halves; ///< of each component its Half::volume at the upper

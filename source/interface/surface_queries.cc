@@ -126,6 +126,8 @@ namespace undine
     thickness = tolerance * largest;
 
     std::vector<Leaf<dim>> leaves;
+    leaves.reserve(moved.surface->facets().size());
+    thick_facets.reserve(moved.surface->facets().size());
     for (unsigned int facet = 0; facet < moved.surface->facets().size(); ++facet)
       {
         const auto after = nodes(facet), before = old_nodes(facet);

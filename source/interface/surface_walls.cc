@@ -32,41 +32,40 @@ namespace undine
   typename Obstruction<dim>::Patch
   SurfaceQueries<dim>::patch(const std::vector<FacetImage> &images) const
   {
+    const auto for_each_place = [&](const auto &action) {
+      for (const auto &image : images)
+        for (const unsigned int node : moved.surface->facets()[image.facet])
+          action(dealii::Point<dim>(moved.positions[node] - image.to_facet));
+    };
+
     typename Obstruction<dim>::Patch patch;
     auto                            &slab    = patch.slab;
     double                           largest = 0; // area of a facet
-    std::vector<dealii::Point<dim>>  places;
     for (const auto &image : images)
-      {
-        const auto corners = nodes(image.facet);
-        if (const double area = area_vector(corners).norm(); area > largest)
-          {
-            largest     = area;
-            slab.normal = normals[image.facet];
-          }
-        for (const auto &node : corners)
-          {
-            places.push_back(node - image.to_facet);
-            patch.middle += places.back();
-          }
-      }
-    patch.middle /= std::max<std::size_t>(places.size(), 1);
+      if (const double area = area_vector(nodes(image.facet)).norm(); area > largest)
+        {
+          largest     = area;
+          slab.normal = normals[image.facet];
+        }
     slab.lower   = std::numeric_limits<double>::infinity();
     slab.upper   = -slab.lower;
     patch.radius = 0;
     for (unsigned int d = 0; d < dim; ++d)
       patch.lower[d] = slab.lower, patch.upper[d] = slab.upper;
-    for (const auto &place : places)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            patch.lower[d] = std::min(patch.lower[d], place[d]);
-            patch.upper[d] = std::max(patch.upper[d], place[d]);
-          }
-        slab.lower   = std::min(slab.lower, slab.normal * place);
-        slab.upper   = std::max(slab.upper, slab.normal * place);
-        patch.radius = std::max(patch.radius, place.distance(patch.middle));
-      }
+    for_each_place([&](const auto &place) {
+      patch.middle += place;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          patch.lower[d] = std::min(patch.lower[d], place[d]);
+          patch.upper[d] = std::max(patch.upper[d], place[d]);
+        }
+      slab.lower = std::min(slab.lower, slab.normal * place);
+      slab.upper = std::max(slab.upper, slab.normal * place);
+    });
+    patch.middle /= std::max<std::size_t>(dim * images.size(), 1);
+    for_each_place([&](const auto &place) {
+      patch.radius = std::max(patch.radius, place.distance(patch.middle));
+    });
     const double rim = 100 * thickness; // what places may lose by rounding
     slab.lower -= rim, slab.upper += rim;
     for (unsigned int d = 0; d < dim; ++d)

@@ -41,7 +41,7 @@ namespace undine
     /// The corners that are seen: of each the mean, by measure, of its samples that are.
     struct View
     {
-      std::array<double, n_corners> values;
+      std::array<double, n_corners> values;  ///< zero of the others
       unsigned int                  corners; ///< bit by bit
     };
 
@@ -70,13 +70,15 @@ namespace undine
     using Slab  = typename Obstruction<dim>::Slab;
     using Facet = typename FacetsOfCells<dim>::Facet;
 
-    /// Facets in one plane, or a wall, and what of the cube's samples is on either side of the slab
-    /// around them.
+    /// Facets nearly in one plane, or a wall, and what of the cube's samples is on either side of
+    /// the slab around them.
     struct Screen
     {
       Slab        slab;
       std::size_t facets, facets_end;
       Mask        above, below;
+
+      dealii::Point<dim> lower, upper; ///< corners of a box around the facets
     };
 
     struct Cube

@@ -6,6 +6,7 @@
 #include <undine/fluid/obstruction.h>
 
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -21,9 +22,8 @@ namespace undine
 
     struct Facet
     {
-      FacetImage         image;
-      Slab               slab;         ///< as thin as the facet
-      dealii::Point<dim> lower, upper; ///< corners of the box around it
+      FacetImage                       image;
+      typename Obstruction<dim>::Patch patch; ///< of it alone
     };
 
     /// No facets, no cells.
@@ -75,7 +75,10 @@ namespace undine
             !is_passed(cell, from, to))
           return;
         for (std::size_t k = 0; !stop && k < in_cell.facets.size(); ++k)
-          stop = !in_cell.facets[k].slab.leaves_open(from, to) && action(in_cell.facets[k].image);
+          {
+            const auto &facet = facets[in_cell.facets[k]];
+            stop              = !facet.patch.slab.leaves_open(from, to) && action(facet.image);
+          }
       });
     }
 
@@ -88,16 +91,23 @@ namespace undine
 
     struct List
     {
-      std::vector<Facet>               facets;
+      std::vector<unsigned int>        facets; ///< their numbers
       typename Obstruction<dim>::Patch patch;
       bool                             is_wall;
     };
+
+    /// The number in `facets`, to which it is added if it is new.
+    unsigned int
+    number_of(const FacetImage &image);
 
     const MacGrid<dim>       *grid     = nullptr;
     const Obstruction<dim>   *surfaces = nullptr;
     IndexBox<dim>             box;
     std::vector<unsigned int> list_of_cell; ///< in `lists`
     std::vector<List>         lists;        ///< the first is empty
+    std::vector<Facet>        facets;       ///< each once, and each of its images
+
+    std::unordered_multimap<unsigned int, unsigned int> images; ///< numbers of those of a facet
   };
 } // namespace undine
 

@@ -8,6 +8,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -68,6 +69,22 @@ namespace undine
       dealii::Point<dim> lower, upper; ///< corners of a box that holds them
       dealii::Point<dim> middle;
       double             radius; ///< of a ball around the middle that holds them [m]
+
+      /// A slab wide enough to hold them too.
+      Slab
+      widened(const Slab &other) const
+      {
+        // n x = +-o x + (n -+ o) m + (n -+ o) (x - m), with o the normal here and m the middle
+        const double sign    = slab.normal * other.normal < 0 ? -1 : 1;
+        const auto   turn    = other.normal - sign * slab.normal;
+        const double shift   = turn * middle;
+        const double turned  = turn.norm() * radius;
+        const double lowest  = sign > 0 ? slab.lower : -slab.upper;
+        const double highest = sign > 0 ? slab.upper : -slab.lower;
+        return {other.normal,
+                std::min(other.lower, lowest + shift - turned),
+                std::max(other.upper, highest + shift + turned)};
+      }
     };
 
     virtual Patch

@@ -53,6 +53,13 @@ namespace undine_tests
       return result;
     }
 
+    /// A place within a cell or so of the speck; perhaps not one that is known.
+    static dealii::Point<dim>
+    place_at_speck(Random &random)
+    {
+      return all_equal<dim>(speck) + random_point<dim>(random, .6);
+    }
+
     unsigned int
     rank() const
     {
@@ -66,7 +73,7 @@ namespace undine_tests
     BodyVicinity<dim>   vicinity;
 
   private:
-    static constexpr double radius = 1.3;
+    static constexpr double radius = 1.3, speck = 7.14;
 
     static typename MacGrid<dim>::Planes
     planes()
@@ -91,7 +98,7 @@ namespace undine_tests
       result.append(box<dim>(-half, half, cells)
                       .rotate(random)
                       .shift(all_equal<dim>(5.7) - dealii::Point<dim>()));
-      result.append(ball<dim>(1, .15).shift(all_equal<dim>(7.14) - dealii::Point<dim>()));
+      result.append(ball<dim>(1, .15).shift(all_equal<dim>(speck) - dealii::Point<dim>()));
       return result;
     }
 

@@ -76,7 +76,29 @@ namespace
   }
 
 
-  /// Far from bodies nothing is met; next to none a cell's neighbours are seen.
+  /// Of the points of a lattice around a place, how many cannot be seen from there or were swept.
+  template <int dim>
+  int
+  lost_points(const BallAndSheet<dim>  &scene,
+              const Lattice<dim>       &lattice,
+              const dealii::Point<dim> &place)
+  {
+    GridIndex<dim> lower;
+    for (unsigned int d = 0; d < dim; ++d)
+      lower[d] = lattice.row(d).locate(place[d]).lower;
+    int  lost  = 0;
+    auto upper = lower;
+    for (int &index : upper.values)
+      index += 2;
+    for_each(IndexBox<dim>{lower, upper}, [&](const GridIndex<dim> &index) {
+      const auto point = lattice.point(index);
+      lost += scene.queries.first_hit(place, point) <= 1 || scene.queries.swept(point);
+    });
+    return lost;
+  }
+
+
+  /// Far from bodies nothing is met; next to none the points of all lattices are seen.
   template <int dim>
   void
   check_distances(const BallAndSheet<dim> &scene)
@@ -98,8 +120,9 @@ namespace
         if (!scene.vicinity.is_next_to_body(begin))
           {
             ++apart;
-            const auto beside = from + random_point<dim>(random, .42 / std::sqrt(dim));
-            wrong += scene.queries.first_hit(from, beside) <= 1 || scene.queries.swept(beside);
+            wrong += lost_points(scene, *scene.grid().cells(), from);
+            for (unsigned int axis = 0; axis < dim; ++axis)
+              wrong += lost_points(scene, *scene.grid().faces(axis), from);
           }
       }
     CHECK(wrong == 0);

@@ -61,6 +61,17 @@ namespace
 
 
   template <int dim>
+  bool
+  knows_cube(const SampledPoints<dim> &points, const GridIndex<dim> &lower)
+  {
+    auto upper = lower;
+    for (int &index : upper.values)
+      ++index;
+    return points.stored_points().contains(lower) && points.stored_points().contains(upper);
+  }
+
+
+  template <int dim>
   void
   compare(const BallAndSheet<dim> &scene,
           const Field<dim>        &field,
@@ -73,10 +84,13 @@ namespace
     Random      random(5 + scene.rank());
     for (int number = 0; number < 6000; ++number)
       {
-        const auto     eye = scene.known_place(random, 1);
+        const bool     at_speck = number % 10 == 0;
+        const auto     eye = at_speck ? scene.place_at_speck(random) : scene.known_place(random, 1);
         GridIndex<dim> lower;
         for (unsigned int d = 0; d < dim; ++d)
           lower[d] = lattice.row(d).locate(eye[d]).lower;
+        if (!knows_cube(points, lower))
+          continue;
         const auto own     = points.inside(lower);
         const bool has_own = number % 2 == 0;
         const auto corners =
