@@ -8,15 +8,16 @@ One body vibrates; three equal ones rest beside it, without a fluid or in one. I
 prm/jet_two_sheets.prm that swings; three stiff ones stand behind it. Prints a table: seconds of a processor per step
 of the three runs; the share (1 + 3 asleep - 1) / (4 - 1) of what three bodies cost awake; and how far displacements of the run
 with sleep are from those of the run without it, over the bound 2 V T of doc/effects.md. Steps are those after all three
-have fallen asleep. Runs take turns, and of each step the fastest of the rounds counts: others that use the machine make it
-slower, never faster. --check fails where displacements differ by more than 2 V T or
-where the share is above that of the case. --profile prints seconds per step and phase instead, of runs one after the
-other. One rank; --rounds 5 takes about ten minutes.
+have fallen asleep. Runs take turns from checkpoints, and of each step the fastest of the rounds counts: others that use
+the machine make it slower, never faster. --check fails where displacements differ by more than 2 V T or where the share is
+above that of the case. --profile prints seconds per step and phase instead, of runs one after the other. One rank; a round
+of the jet takes two minutes.
 """
 import argparse
 import contextlib
 import os
 import re
+import shutil
 import statistics as medians
 import subprocess
 import sys
@@ -219,32 +220,45 @@ def phases_per_step(program, text):
     return {phase: (whole.phases[phase] - short.phases.get(phase, 0)) / (LAST - FIRST) for phase in whole.phases}
 
 
-def seconds_of_steps(program, text):
-    """Seconds of a processor that each step from FIRST to LAST takes."""
+def started(program, text, folder):
+    """Run a scene to step FIRST; the folder of its results, with a checkpoint."""
+    os.makedirs(folder)
+    with open(folder + "/scene.prm", "w", encoding="utf-8") as file:
+        file.write(text)
+    command = [program, folder + "/scene.prm", "--output", folder + "/out", "--set", f"Time/Maximum steps={FIRST}"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(f"sleeping_bodies.py: {done.stdout[-800:]}{done.stderr[-800:]}")
+    return folder + "/out"
+
+
+def seconds_of_steps(program, start):
+    """Seconds of a processor that each step takes from the second after a checkpoint to LAST."""
     with tempfile.TemporaryDirectory() as folder:
-        name, log = folder + "/scene.prm", folder + "/out/log.txt"
-        with open(name, "w", encoding="utf-8") as file:
-            file.write(text)
-        process = subprocess.Popen([program, name, "--output", folder + "/out"], stdout=subprocess.DEVNULL)
-        ends, size = {}, 0
+        out = shutil.copytree(start, folder + "/out")
+        command = [program, "resume", out, "--set", f"Time/Maximum steps={LAST}"]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        ends, statistics, size = {}, out + "/statistics", 0
         while process.poll() is None:
-            time.sleep(0.003)
+            time.sleep(0.001)
             with contextlib.suppress(OSError), open(f"/proc/{process.pid}/schedstat", encoding="ascii") as stat:
                 used = int(stat.read().split()[0]) * 1e-9
-                if os.path.getsize(log) != size:
-                    size = os.path.getsize(log)
-                    with open(log, encoding="utf-8") as file:
-                        steps = re.findall(r"^ +(\d+) +[\d.]", file.read(), re.MULTILINE)
-                    if steps:
+                if os.path.getsize(statistics) != size:
+                    size = os.path.getsize(statistics)
+                    with open(statistics, encoding="utf-8") as file:
+                        steps = re.findall(r"^ *(\d+) .*\n", file.read(), re.MULTILINE)
+                    if steps and int(steps[-1]) > FIRST:
                         ends.setdefault(int(steps[-1]), used)
-        if process.returncode or not all(step in ends for step in range(FIRST, LAST)):
+        if process.returncode or not all(step in ends for step in range(FIRST + 1, LAST)):
             sys.exit(f"sleeping_bodies.py: a run ended with {process.returncode}, after {len(ends)} steps")
-        return [ends[step] - ends[step - 1] for step in range(FIRST + 1, LAST)]
+        return [ends[step] - ends[step - 1] for step in range(FIRST + 2, LAST)]
 
 
 def seconds_per_step(program, texts, rounds):
     """Of each scene the mean over steps, each as fast as the fastest of the rounds, in which scenes take turns."""
-    found = [[seconds_of_steps(program, text) for text in texts] for _ in range(rounds)]
+    with tempfile.TemporaryDirectory() as folder:
+        starts = [started(program, text, f"{folder}/{k}") for k, text in enumerate(texts)]
+        found = [[seconds_of_steps(program, start) for start in starts] for _ in range(rounds)]
     return [medians.mean(map(min, zip(*(of_round[k] for of_round in found)))) for k in range(len(texts))]
 
 

@@ -115,14 +115,16 @@ namespace undine
         lower[d]           = bracket.lower;
         weights[d]         = bracket.weight;
       }
-    std::array<double, 1 << dim> weight; // of corners
-    unsigned int                 weighted = 0;
-    for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+    std::array<double, 1 << dim> weight{{1}}; // of corners
+    unsigned int                 weighted = 1;
+    for (unsigned int d = 0, n = 1; d < dim; ++d, n *= 2)
       {
-        weight[corner] = 1;
-        for (unsigned int d = 0; d < dim; ++d)
-          weight[corner] *= (corner >> d) & 1 ? weights[d] : 1 - weights[d];
-        weighted |= weight[corner] > 0 ? 1u << corner : 0;
+        for (unsigned int corner = 0; corner < n; ++corner)
+          {
+            weight[corner + n] = weight[corner] * weights[d];
+            weight[corner] *= 1 - weights[d];
+          }
+        weighted = (weights[d] < 1 ? weighted : 0) | (weights[d] > 0 ? weighted << n : 0);
       }
     double     sum = 0, total = 0, plain_sum = 0, plain_total = 0;
     const auto add = [&](const unsigned int corners) {
