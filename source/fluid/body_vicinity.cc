@@ -178,21 +178,7 @@ namespace undine
   bool
   BodyVicinity<dim>::is_next_to_body(const Place &place) const
   {
-    if (grid == nullptr)
-      return false;
-    if (!box.contains(place.cell))
-      return true;
-    const auto layer = layers[box.position(place.cell)];
-    if (layer != 1)
-      return layer == 0;
-    auto beside = place.cell;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double lower = planes[d]->position(place.cell[d]);
-        const double upper = planes[d]->position(place.cell[d] + 1);
-        beside[d] += place.point[d] < (lower + upper) / 2 ? -1 : 1;
-      }
-    return !is_clear(place.cell, beside);
+    return grid != nullptr && (!box.contains(place.cell) || layers[box.position(place.cell)] <= 1);
   }
 
 

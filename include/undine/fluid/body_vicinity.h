@@ -52,9 +52,9 @@ namespace undine
     bool
     is_near(const Place &from, const Place &to) const;
 
-    /// True unless the cell at a place and those beside it on the sides that it is nearer to are:
-    /// then multilinear interpolation there sees all its samples, at whatever points they are
-    /// taken.
+    /// True unless the cell at a place and those around it are: then multilinear interpolation
+    /// there sees all its samples. (All around: a face between a whole cell and a body that ends in
+    /// its plane has no sample, wherever in the cell the place is.)
     bool
     is_next_to_body(const Place &place) const;
 

@@ -76,13 +76,16 @@ namespace
   }
 
 
-  /// Of the points of a lattice around a place, how many cannot be seen from there or were swept.
+  /// Of the points of a lattice around a place, how many are closed, cannot be seen from there or
+  /// were swept.
   template <int dim>
   int
   lost_points(const BallAndSheet<dim>  &scene,
               const Lattice<dim>       &lattice,
+              const LatticeParts<dim>  &parts,
               const dealii::Point<dim> &place)
   {
+    const auto     known = known_points(lattice);
     GridIndex<dim> lower;
     for (unsigned int d = 0; d < dim; ++d)
       lower[d] = lattice.row(d).locate(place[d]).lower;
@@ -92,7 +95,8 @@ namespace
       index += 2;
     for_each(IndexBox<dim>{lower, upper}, [&](const GridIndex<dim> &index) {
       const auto point = lattice.point(index);
-      lost += scene.queries.first_hit(place, point) <= 1 || scene.queries.swept(point);
+      lost += scene.queries.first_hit(place, point) <= 1 || scene.queries.swept(point) ||
+              (known.contains(index) && parts.kind(index) == LatticeParts<dim>::Kind::closed);
     });
     return lost;
   }
@@ -103,8 +107,9 @@ namespace
   void
   check_distances(const BallAndSheet<dim> &scene)
   {
-    Random random(11 + scene.rank());
-    int    far = 0, apart = 0, wrong = 0;
+    const auto &open = *scene.after.parts.open;
+    Random      random(11 + scene.rank());
+    int         far = 0, apart = 0, wrong = 0;
     for (int number = 0; number < 5000; ++number)
       {
         const auto from = scene.known_place(random, 0), to = from + random_point<dim>(random, .8);
@@ -120,9 +125,9 @@ namespace
         if (!scene.vicinity.is_next_to_body(begin))
           {
             ++apart;
-            wrong += lost_points(scene, *scene.grid().cells(), from);
+            wrong += lost_points(scene, *scene.grid().cells(), open.cells, from);
             for (unsigned int axis = 0; axis < dim; ++axis)
-              wrong += lost_points(scene, *scene.grid().faces(axis), from);
+              wrong += lost_points(scene, *scene.grid().faces(axis), open.faces[axis], from);
           }
       }
     CHECK(wrong == 0);
