@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <coupled/obstacle_run.h>
 
+#include <filesystem>
+
 using namespace undine_tests;
 
 namespace
@@ -21,7 +23,7 @@ namespace
   {
   public:
     MeshFile()
-      : name(fmt::format("shell_{}.msh", getpid()))
+      : name((std::filesystem::temp_directory_path() / fmt::format("shell_{}.msh", getpid())).string())
     {
     }
 

@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <unistd.h>
@@ -25,10 +26,10 @@ namespace undine_tests
   inline Options
   read_scene_text(const std::string &text)
   {
-    const std::string name = fmt::format("fluid_scene_{}.prm", getpid());
+    const auto name = std::filesystem::temp_directory_path() / fmt::format("fluid_scene_{}.prm", getpid());
     std::ofstream(name) << text;
-    const ParameterFile file(name);
-    std::remove(name.c_str());
+    const ParameterFile file(name.string());
+    std::filesystem::remove(name);
     return Options(file);
   }
 
