@@ -3,6 +3,9 @@
 #include <undine/fluid/advection.h>
 #include <undine/fluid/pressure_gradient.h>
 
+#include <utility>
+#include <vector>
+
 namespace undine
 {
   /// The fluid carries its own momentum: dv/dt + (v.grad) v = a for one step, where the
@@ -39,20 +42,29 @@ namespace undine
     {
       const auto timed = step.timing.section(this->name);
       if (step.stage.keeps_rates)
-        for (auto *velocity : step.to_carry())
-          carry(*velocity, step);
+        carry(step.to_carry(), step);
       else
         carry_with_acceleration(step);
     }
 
   private:
     void
-    carry(Velocity<dim> &velocity, FluidStep<dim> &step) const
+    carry(const std::vector<Velocity<dim> *> &velocities, FluidStep<dim> &step) const
     {
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
-          step.timing.memory.hold_briefly(this->name, velocity[axis].memory_consumption());
-          velocity[axis] = method->advect(step.flow, velocity[axis], VelocityCondition<dim>(axis));
+          std::vector<Field<dim>> components;
+          std::size_t             memory = 0;
+          for (const auto *velocity : velocities)
+            {
+              components.push_back((*velocity)[axis]);
+              memory += components.back().memory_consumption();
+            }
+          step.timing.memory.hold_briefly(this->name, memory);
+          components =
+            method->advect(step.flow, std::move(components), VelocityCondition<dim>(axis));
+          for (std::size_t k = 0; k < components.size(); ++k)
+            (*velocities[k])[axis] = std::move(components[k]);
         }
     }
 
@@ -64,7 +76,7 @@ namespace undine
       const double share    = FluidStep<dim>::carried_share * step.dt;
       for (unsigned int axis = 0; axis < dim; ++axis)
         add_to_whole_faces(velocity[axis], share, now[axis]);
-      carry(velocity, step);
+      carry({&velocity}, step);
       for (unsigned int axis = 0; axis < dim; ++axis)
         add_to_whole_faces(velocity[axis], -share, now[axis]);
       step.carried = velocity;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace undine
 {
@@ -275,12 +276,9 @@ namespace undine
             field->start(values, step.state.scalar_rates.at(field->name), step.stage);
           if (field->next)
             step.timing.memory.hold_briefly(this->name, 2 * values.memory_consumption());
-          values = method->advect(step.flow, values, *field);
-          if (!field->changes())
-            continue;
-          if (field->next)
-            field->next = method->advect(step.flow, *field->next, *field);
-          change(*field, step);
+          carry(values, *field, step);
+          if (field->changes())
+            change(*field, step);
         }
     }
 
@@ -315,6 +313,19 @@ namespace undine
     }
 
   private:
+    /// And what the next stage starts from.
+    void
+    carry(Field<dim> &values, const CarriedScalar<dim> &field, FluidStep<dim> &step) const
+    {
+      std::vector<Field<dim>> carried{values};
+      if (field.next)
+        carried.push_back(*field.next);
+      carried = method->advect(step.flow, std::move(carried), field);
+      values  = std::move(carried.front());
+      if (field.next)
+        field.next = std::move(carried.back());
+    }
+
     /// Sources and diffusion, and the rate that they make.
     void
     change(const CarriedScalar<dim> &field, FluidStep<dim> &step) const

@@ -4,6 +4,7 @@
 #include <undine/fluid/pressure_gradient.h>
 
 #include <limits>
+#include <utility>
 
 namespace undine
 {
@@ -20,6 +21,18 @@ namespace undine
     field.exchange(flow.width());
     fill_boundary_points(field, flow.model(), condition, flow.velocity(), flow.time());
     return field;
+  }
+
+
+  template <int dim>
+  std::vector<Field<dim>>
+  completed(const Flow<dim>              &flow,
+            std::vector<Field<dim>>       fields,
+            const BoundaryCondition<dim> &condition)
+  {
+    for (auto &field : fields)
+      field = completed(flow, std::move(field), condition);
+    return fields;
   }
 
 
@@ -89,6 +102,10 @@ namespace undine
   kept_in_place(const Flow<3> &, const Field<3> &, const BoundaryCondition<3> &);
   template Field<2>
   completed(const Flow<2> &, Field<2>, const BoundaryCondition<2> &);
+  template std::vector<Field<2>>
+  completed(const Flow<2> &, std::vector<Field<2>>, const BoundaryCondition<2> &);
   template Field<3>
   completed(const Flow<3> &, Field<3>, const BoundaryCondition<3> &);
+  template std::vector<Field<3>>
+  completed(const Flow<3> &, std::vector<Field<3>>, const BoundaryCondition<3> &);
 } // namespace undine

@@ -139,21 +139,23 @@ namespace undine
 
 
   template <int dim>
-  QuietPlaces<dim>::QuietPlaces(const Field<dim>        &source,
-                                const GridIndex<dim>    &reach,
-                                const double             share,
-                                const LatticeParts<dim> *now)
-    : owned(source.owned())
+  QuietPlaces<dim>::QuietPlaces(const std::vector<Field<dim>> &sources,
+                                const GridIndex<dim>          &reach,
+                                const double                   share,
+                                const LatticeParts<dim>       *now)
+    : owned(sources.front().owned())
     , is_quiet(owned.size(), 0)
   {
     int longest_way = 0; // from neighbour to neighbour, across all that is within reach
     for (unsigned int d = 0; d < dim; ++d)
       longest_way += 2 * reach[d];
-    Marks<dim> unquiet(source.stored());
-    unquiet.mark_differences(source, share * range(source) / longest_way);
-    for (const auto *divided : {source.divided(), now})
+    const auto &like = sources.front();
+    Marks<dim>  unquiet(like.stored());
+    for (const auto &source : sources)
+      unquiet.mark_differences(source, share * range(source) / longest_way);
+    for (const auto *divided : {like.divided(), now})
       if (divided)
-        for_each(source.stored(), [&](const GridIndex<dim> &index) {
+        for_each(like.stored(), [&](const GridIndex<dim> &index) {
           if (divided->kind(index) != LatticeParts<dim>::Kind::whole)
             *unquiet.at(index) = 1;
         });

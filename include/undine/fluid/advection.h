@@ -6,6 +6,7 @@
 #include <undine/fluid/quiet_places.h>
 
 #include <string>
+#include <vector>
 
 namespace undine
 {
@@ -24,14 +25,32 @@ namespace undine
     virtual std::string
     summary() const = 0;
 
-    /// The field at t + h from the field at t, on what bodies leave of the grid now. Collective.
-    virtual Field<dim>
+    /// Fields at t + h from fields at t, on what bodies leave of the grid now. All of them live on
+    /// the same points and parts and have the same boundary condition: every path is followed once.
+    /// Collective.
+    virtual std::vector<Field<dim>>
+    advect(const Flow<dim>              &flow,
+           std::vector<Field<dim>>       fields,
+           const BoundaryCondition<dim> &condition) const = 0;
+
+    /// The same of one field.
+    Field<dim>
     advect(const Flow<dim>              &flow,
            const Field<dim>             &field,
-           const BoundaryCondition<dim> &condition) const = 0;
+           const BoundaryCondition<dim> &condition) const
+    {
+      return advect(flow, std::vector<Field<dim>>{field}, condition).front();
+    }
   };
 
-  /// `field` with the ghost layers and boundary points that the flow asks for.
+  /// `fields` with the ghost layers and boundary points that the flow asks for.
+  template <int dim>
+  std::vector<Field<dim>>
+  completed(const Flow<dim>              &flow,
+            std::vector<Field<dim>>       fields,
+            const BoundaryCondition<dim> &condition);
+
+  /// The same of one field.
   template <int dim>
   Field<dim>
   completed(const Flow<dim> &flow, Field<dim> field, const BoundaryCondition<dim> &condition);
@@ -70,47 +89,59 @@ namespace undine
                 const Field<dim>             &field,
                 const BoundaryCondition<dim> &condition);
 
-  /// The field at t + h on what bodies leave of the grid now: `far(trace, index)` of paths that
-  /// keep away from bodies; near them all methods are alike, see NearBodies; quiet places keep
-  /// what they have. `source` is what completed() returned with the same condition; `far` looks no
-  /// further than `reach` points away. Collective.
+  /// Fields at t + h on what bodies leave of the grid now: `far(trace, index, k)` is that of field
+  /// k at the end of a path that keeps away from bodies; near them all methods are alike, see
+  /// NearBodies; places that are quiet in all fields keep what they have. `sources` are what
+  /// completed() returned with the same condition; `far` looks no further than `reach` points away.
+  /// Collective.
   template <int dim, class Far>
-  Field<dim>
-  carry(const Flow<dim>              &flow,
-        const Field<dim>             &source,
-        const BoundaryCondition<dim> &condition,
-        const GridIndex<dim>         &reach,
-        Far                         &&far)
+  std::vector<Field<dim>>
+  carry(const Flow<dim>               &flow,
+        const std::vector<Field<dim>> &sources,
+        const BoundaryCondition<dim>  &condition,
+        const GridIndex<dim>          &reach,
+        Far                          &&far)
   {
-    const auto           &bodies = flow.bodies();
-    const NearBodies<dim> near(flow, source);
-    Field<dim>            carried(source.shared_lattice(), bodies.open_parts);
-    const auto           *divided   = carried.divided();
-    const auto            carry_one = [&](const GridIndex<dim> &index) {
+    const auto                  &lattice = sources.front().lattice();
+    std::vector<NearBodies<dim>> near;
+    std::vector<Field<dim>>      carried;
+    near.reserve(sources.size());
+    for (const auto &source : sources)
+      {
+        near.emplace_back(flow, source);
+        carried.emplace_back(source.shared_lattice(), flow.bodies().open_parts);
+      }
+    const auto *divided   = carried.front().divided();
+    const auto  carry_one = [&](const GridIndex<dim> &index) {
       if (divided && divided->kind(index) != LatticeParts<dim>::Kind::whole)
         return;
-      const auto place = source.lattice().point(index);
+      const auto place = lattice.point(index);
       const auto trace = flow.trace(place, -flow.dt());
-      carried(index) =
-        trace.near_body ? near.value_at(index, place, trace.foot) : far(trace, index);
+      for (std::size_t k = 0; k < sources.size(); ++k)
+        carried[k](index) =
+          trace.near_body ? near[k].value_at(index, place, trace.foot) : far(trace, index, k);
     };
     if (condition.neglected_variation() == 0)
-      for_each(carried.owned(), carry_one);
+      for_each(lattice.owned(), carry_one);
     else
       {
-        const QuietPlaces<dim> places(source, reach, condition.neglected_variation(), divided);
+        const QuietPlaces<dim> places(sources, reach, condition.neglected_variation(), divided);
         places.for_each_run(true, [&](const GridIndex<dim> &first, const int n) {
-          std::copy_n(source.data(first), n, &carried(first));
+          for (std::size_t k = 0; k < sources.size(); ++k)
+            std::copy_n(sources[k].data(first), n, &carried[k](first));
         });
         places.for_each_run(false, [&](GridIndex<dim> index, const int n) {
           for (int i = 0; i < n; ++i, ++index[0])
             carry_one(index);
         });
       }
-    for_each_part(carried, [&](double &value, const auto &place, const GridIndex<dim> &index) {
-      value = near.value_at(index, place, flow.trace(place, -flow.dt()).foot);
+    for_each_owned_part(divided, [&](const unsigned int part, const auto &of_part) {
+      const auto trace = flow.trace(of_part.place, -flow.dt());
+      for (std::size_t k = 0; k < sources.size(); ++k)
+        carried[k].parts()[part] = near[k].value_at(of_part.index, of_part.place, trace.foot);
     });
-    near.finish(carried, condition);
+    for (std::size_t k = 0; k < sources.size(); ++k)
+      near[k].finish(carried[k], condition);
     return carried;
   }
 } // namespace undine

@@ -158,15 +158,25 @@ namespace undine
   };
 
 
+  /// Call `action(k, part)` for every owned part k of divided points; nullptr: there are none.
+  template <int dim, class Action>
+  void
+  for_each_owned_part(const LatticeParts<dim> *divided, Action &&action)
+  {
+    for (unsigned int k = 0; divided != nullptr && k < divided->all().size(); ++k)
+      if (divided->owns(k))
+        action(k, divided->all()[k]);
+  }
+
+
   /// Call `action(value, place, index)` for every owned part of a divided point, with its centroid.
   template <class FieldType, class Action>
   void
   for_each_part(FieldType &field, Action &&action)
   {
-    const auto *divided = field.divided();
-    for (unsigned int k = 0; k < field.parts().size(); ++k)
-      if (divided->owns(k))
-        action(field.parts()[k], divided->all()[k].place, divided->all()[k].index);
+    for_each_owned_part(field.divided(), [&](const unsigned int k, const auto &part) {
+      action(field.parts()[k], part.place, part.index);
+    });
   }
 
 

@@ -9,21 +9,21 @@
 
 namespace undine
 {
-  /// Where nothing happens to a field that is carried: within reach of a point all its values are
-  /// the same but for a share of the field's range. What the flow brings there is what is there.
+  /// Where nothing happens to fields that are carried: within reach of a point all values of each
+  /// are the same but for a share of its range. What the flow brings there is what is there.
   /// To be safe and fast, neighbours are compared: they differ by less than would add up to that
   /// share on the longest way between two of these values.
   template <int dim>
   class QuietPlaces
   {
   public:
-    /// `source`: with `reach` ghost layers; `share` of the field's range that differences may have,
-    /// from 0 to 1. Points next to which bodies divide others, in `source` or `now`, are never
-    /// quiet; nullptr: bodies leave everything. Collective.
-    QuietPlaces(const Field<dim>        &source,
-                const GridIndex<dim>    &reach,
-                const double             share,
-                const LatticeParts<dim> *now = nullptr);
+    /// `sources`: on the same points and parts, with `reach` ghost layers; `share` of a field's
+    /// range that differences may have, from 0 to 1. Points next to which bodies divide others, in
+    /// the sources or `now`, are never quiet; nullptr: bodies leave everything. Collective.
+    QuietPlaces(const std::vector<Field<dim>> &sources,
+                const GridIndex<dim>          &reach,
+                const double                   share,
+                const LatticeParts<dim>       *now = nullptr);
 
     /// Of an owned point.
     bool

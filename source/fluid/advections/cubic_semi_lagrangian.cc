@@ -2,6 +2,8 @@
 #include <undine/fluid/advection.h>
 #include <undine/fluid/interpolation.h>
 
+#include <utility>
+
 namespace undine
 {
   /// s^{n+1}(x) = s^n(foot of x), with cubic interpolation. Fields with a maximum principle are
@@ -22,17 +24,20 @@ namespace undine
       return "semi-Lagrangian, cubic";
     }
 
-    Field<dim>
+    std::vector<Field<dim>>
     advect(const Flow<dim>              &flow,
-           const Field<dim>             &field,
+           std::vector<Field<dim>>       fields,
            const BoundaryCondition<dim> &condition) const override
     {
       const bool limited = condition.obeys_maximum_principle();
-      const auto source  = completed(flow, field, condition);
-      return carry(
-        flow, source, condition, flow.reach(1), [&](const auto &trace, const GridIndex<dim> &) {
-          return interpolate_cubic(source, trace.foot, limited);
-        });
+      const auto sources = completed(flow, std::move(fields), condition);
+      return carry(flow,
+                   sources,
+                   condition,
+                   flow.reach(1),
+                   [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
+                     return interpolate_cubic(sources[k], trace.foot, limited);
+                   });
     }
   };
 

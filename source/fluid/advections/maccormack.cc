@@ -3,6 +3,7 @@
 #include <undine/fluid/interpolation.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace undine
@@ -29,44 +30,59 @@ namespace undine
       return "MacCormack";
     }
 
-    Field<dim>
+    std::vector<Field<dim>>
     advect(const Flow<dim>              &flow,
-           const Field<dim>             &field,
+           std::vector<Field<dim>>       fields,
            const BoundaryCondition<dim> &condition) const override
     {
-      struct Prediction
-      {
-        GridIndex<dim> index;
-        BoundedValue   found;
-      };
-      std::vector<Prediction> predictions; // where the way back may correct them
-
-      const bool limited = condition.obeys_maximum_principle();
-      const auto source  = completed(flow, field, condition);
-      auto       corrected =
-        carry(flow, source, condition, flow.width(), [&](const auto &trace, const auto &index) {
-          const auto found = interpolate_with_bounds(source, trace.foot);
-          if (!trace.left_domain)
-            predictions.push_back({index, found});
-          return found.value;
-        });
+      const auto  sources = completed(flow, std::move(fields), condition);
+      Predictions predictions(sources.size());
+      auto        corrected = carry(flow,
+                             sources,
+                             condition,
+                             flow.width(),
+                             [&](const auto &trace, const auto &index, const std::size_t k) {
+                               const auto found = interpolate_with_bounds(sources[k], trace.foot);
+                               if (!trace.left_domain)
+                                 predictions[k].push_back({index, found});
+                               return found.value;
+                             });
 
       auto predicted = corrected;
-      predicted.exchange(flow.width());
-      fill_boundary_points(
-        predicted, flow.model(), condition, flow.velocity(), flow.time() + flow.dt());
-      for (const auto &[index, found] : predictions)
+      for (auto &field : predicted)
         {
-          const auto place = field.lattice().point(index);
-          const auto trace = flow.trace(place, flow.dt());
+          field.exchange(flow.width());
+          fill_boundary_points(
+            field, flow.model(), condition, flow.velocity(), flow.time() + flow.dt());
+        }
+      const bool limited = condition.obeys_maximum_principle();
+      for (std::size_t i = 0; i < predictions.front().size(); ++i)
+        {
+          const auto &index = predictions.front()[i].index;
+          const auto  trace = flow.trace(sources.front().lattice().point(index), flow.dt());
           if (trace.left_domain || trace.near_body)
             continue;
-          const double returned = interpolate(predicted, trace.foot);
-          const double value    = found.value + (source(index) - returned) / 2;
-          corrected(index) = limited ? std::clamp(value, found.smallest, found.largest) : value;
+          for (std::size_t k = 0; k < sources.size(); ++k)
+            {
+              const auto  &found    = predictions[k][i].found;
+              const double returned = interpolate(predicted[k], trace.foot);
+              const double value    = found.value + (sources[k](index) - returned) / 2;
+              corrected[k](index) =
+                limited ? std::clamp(value, found.smallest, found.largest) : value;
+            }
         }
       return corrected;
     }
+
+  private:
+    struct Prediction
+    {
+      GridIndex<dim> index;
+      BoundedValue   found;
+    };
+
+    /// Of each field where the way back may correct it: at the same points.
+    using Predictions = std::vector<std::vector<Prediction>>;
   };
 
 

@@ -2,6 +2,8 @@
 #include <undine/fluid/advection.h>
 #include <undine/fluid/interpolation.h>
 
+#include <utility>
+
 namespace undine
 {
   /// s^{n+1}(x) = s^n(foot of x), with multilinear interpolation (Stam 1999). Never exceeds the
@@ -21,16 +23,19 @@ namespace undine
       return "semi-Lagrangian, multilinear";
     }
 
-    Field<dim>
+    std::vector<Field<dim>>
     advect(const Flow<dim>              &flow,
-           const Field<dim>             &field,
+           std::vector<Field<dim>>       fields,
            const BoundaryCondition<dim> &condition) const override
     {
-      const auto source = completed(flow, field, condition);
-      return carry(
-        flow, source, condition, flow.reach(0), [&](const auto &trace, const GridIndex<dim> &) {
-          return interpolate(source, trace.foot);
-        });
+      const auto sources = completed(flow, std::move(fields), condition);
+      return carry(flow,
+                   sources,
+                   condition,
+                   flow.reach(0),
+                   [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
+                     return interpolate(sources[k], trace.foot);
+                   });
     }
   };
 

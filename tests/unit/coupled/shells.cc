@@ -23,7 +23,8 @@ namespace
   {
   public:
     MeshFile()
-      : name((std::filesystem::temp_directory_path() / fmt::format("shell_{}.msh", getpid())).string())
+      : name(
+          (std::filesystem::temp_directory_path() / fmt::format("shell_{}.msh", getpid())).string())
     {
     }
 

@@ -66,7 +66,7 @@ TEMPLATE_TEST_CASE_SIG(
         for (unsigned int d = 0; d < dim; ++d)
           reach[d] = most - (d == 1);
         field.exchange(reach);
-        const QuietPlaces<dim> quiet(field, reach, share);
+        const QuietPlaces<dim> quiet({field}, reach, share);
         unsigned int           wrong = 0, found = 0;
         int                    way = 0;
         for (unsigned int d = 0; d < dim; ++d)

@@ -25,7 +25,8 @@ namespace undine_tests
   inline Options
   read_scene_text(const std::string &text)
   {
-    const auto name = std::filesystem::temp_directory_path() / fmt::format("solid_scene_{}.prm", getpid());
+    const auto name =
+      std::filesystem::temp_directory_path() / fmt::format("solid_scene_{}.prm", getpid());
     std::ofstream(name) << text;
     const ParameterFile file(name.string());
     std::filesystem::remove(name);
