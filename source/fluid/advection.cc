@@ -52,11 +52,11 @@ namespace undine
   double
   NearBodies<dim>::value_at(const GridIndex<dim>     &index,
                             const dealii::Point<dim> &place,
-                            const dealii::Point<dim> &foot) const
+                            const Place              &foot) const
   {
     if (const auto seen = samples->along(index, place, foot))
       return *seen;
-    return axis < dim ? flow.bodies().obstruction->nearest_velocity(foot)[axis] : unknown;
+    return axis < dim ? flow.bodies().obstruction->nearest_velocity(foot.point)[axis] : unknown;
   }
 
 
@@ -86,8 +86,8 @@ namespace undine
       const bool is_part =
         divided != nullptr && divided->kind(index) != LatticeParts<dim>::Kind::whole;
       const auto here = flow.vicinity().place(place);
-      value = is_part || flow.vicinity().is_near(here, here) ? near.value_at(index, place, place)
-                                                             : source(index);
+      value = is_part || flow.vicinity().is_next_to_body(here) ? near.value_at(index, place, here)
+                                                               : source(index);
     });
     near.finish(kept, condition);
     return kept;

@@ -64,8 +64,6 @@ namespace undine
     , cube_above(box.size(), unknown)
     , cubes(1)
   {
-    for (unsigned int corner = 0; corner < n_corners; ++corner)
-      corner_offsets[corner] = box.position(corner_of(box.lower, corner)) - box.position(box.lower);
   }
 
 
@@ -93,7 +91,7 @@ namespace undine
     std::tie(cube.lower, cube.upper) = facets.corners(cells);
     const auto rim                   = rounding * (cube.upper - cube.lower);
     cube.lower -= rim, cube.upper += rim;
-    cube.is_clear = is_clear(lower, cells);
+    cube.is_clear = has_nothing(lower, cells);
     if (!cube.is_clear && !add_to(cube, lower, cells))
       return 0;
     cubes.push_back(cube);
@@ -121,7 +119,7 @@ namespace undine
 
   template <int dim>
   bool
-  CubeViews<dim>::is_clear(const GridIndex<dim> &lower, const IndexBox<dim> &cells) const
+  CubeViews<dim>::has_nothing(const GridIndex<dim> &lower, const IndexBox<dim> &cells) const
   {
     for (unsigned int corner = 0; corner < n_corners; ++corner)
       if (!sampled.is_whole(corner_of(lower, corner)))
@@ -272,6 +270,15 @@ namespace undine
 
 
   template <int dim>
+  bool
+  CubeViews<dim>::is_clear(const GridIndex<dim> &lower, const dealii::Point<dim> &eye)
+  {
+    const auto &cube = cubes[number_of(lower)];
+    return cube.is_clear && is_between(eye, cube.lower, cube.upper);
+  }
+
+
+  template <int dim>
   std::optional<typename CubeViews<dim>::View>
   CubeViews<dim>::view(const Values             &values,
                        const GridIndex<dim>     &lower,
@@ -283,8 +290,7 @@ namespace undine
     if (number == 0 || !is_between(eye, cubes[number].lower, cubes[number].upper))
       return {};
     const auto &cube = cubes[number];
-    if (cube.is_clear)
-      return clear_view(values, lower, corners);
+    Assert(!cube.is_clear, dealii::ExcInternalError());
     Mask wanted = 0;
     for (unsigned int corner = 0; corner < n_corners; ++corner)
       wanted |= (corners >> corner & 1) ? cube.of_corner[corner] : 0;
@@ -300,21 +306,6 @@ namespace undine
           result.values[corner] =
             is_own ? nearest(values, cube, corner, *seen, eye) : mean(values, cube, corner, *seen);
         }
-    return result;
-  }
-
-
-  template <int dim>
-  typename CubeViews<dim>::View
-  CubeViews<dim>::clear_view(const Values         &values,
-                             const GridIndex<dim> &lower,
-                             const unsigned int    corners) const
-  {
-    View       result{{}, corners & ((1u << n_corners) - 1)};
-    const auto position = box.position(lower);
-    for (unsigned int corner = 0; corner < n_corners; ++corner)
-      if (corners >> corner & 1)
-        result.values[corner] = values[position + corner_offsets[corner]];
     return result;
   }
 

@@ -171,7 +171,7 @@ namespace undine
       return interpolate(frozen_velocity, place.point);
     dealii::Tensor<1, dim> result;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      if (const auto seen = samples[axis]->at(place.point))
+      if (const auto seen = samples[axis]->at(place))
         result[axis] = *seen;
       else
         result[axis] = among.obstruction->nearest_velocity(place.point)[axis];
@@ -209,7 +209,7 @@ namespace undine
     auto       way   = walk(place, dt / 2 * velocity_at(place));
     if (!way.left_domain)
       way = walk(place, dt * velocity_at(way.end));
-    return {way.end.point, way.left_domain, body_vicinity.is_near(place, way.end)};
+    return {way.end, way.left_domain, body_vicinity.is_near(place, way.end)};
   }
 
 

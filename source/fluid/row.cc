@@ -80,21 +80,24 @@ namespace undine
   }
 
 
+  Row::PointsAround
+  Row::points_around(double place) const
+  {
+    const int periods = move_into_period(place);
+    return points_of(polynomial_at(place), periods);
+  }
+
+
   Row::Stencil
   Row::stencil(double place) const
   {
-    const int  periods  = move_into_period(place);
-    const int  i        = find(place);
-    const int  n_places = periodic() ? 4 : std::min<int>(4, points.size());
-    const int  begin    = periodic() ? i : std::clamp(i - 1, 0, int(polynomials.size()) - 1);
-    const auto at       = std::clamp(place, points.front(), points.back());
-
+    const int   periods    = move_into_period(place);
+    const int   begin      = polynomial_at(place);
     const auto &polynomial = polynomials[begin];
-    Stencil     result{begin + first + periods * n - (periodic() ? 1 : 0),
-                   static_cast<unsigned int>(n_places),
-                   polynomial.factors};
-    for (int k = 0; k < n_places; ++k)
-      for (int l = 0; l < n_places; ++l)
+    const auto  at         = std::clamp(place, points.front(), points.back());
+    Stencil     result{points_of(begin, periods), polynomial.factors};
+    for (unsigned int k = 0; k < result.n_points; ++k)
+      for (unsigned int l = 0; l < result.n_points; ++l)
         if (l != k)
           result.weights[k] *= at - polynomial.places[l];
     return result;

@@ -35,13 +35,12 @@ namespace undine
   std::optional<double>
   VisibleSamples<dim>::value_of(const GridIndex<dim> &index, const Eye &eye) const
   {
-    const auto place        = vicinity.place(eye.point);
     const bool only_nearest = eye.own != nullptr && points.inside(index) == *eye.own;
     double     sum = 0, total = 0, nearest = std::numeric_limits<double>::infinity();
     points.for_each_sample(index, [&](const auto &sample) {
-      if (vicinity.is_hidden(place, sample.place))
+      if (vicinity.is_hidden(eye.place, sample.place))
         return;
-      const double distance = only_nearest ? sample.place.point.distance(eye.point) : 0;
+      const double distance = only_nearest ? sample.place.point.distance(eye.place.point) : 0;
       if (only_nearest && distance >= nearest)
         return;
       if (only_nearest)
@@ -56,9 +55,9 @@ namespace undine
 
   template <int dim>
   std::optional<double>
-  VisibleSamples<dim>::at(const dealii::Point<dim> &place) const
+  VisibleSamples<dim>::at(const Place &place) const
   {
-    return multilinear(place, {place, nullptr});
+    return multilinear(place.point, {place, nullptr});
   }
 
 
@@ -66,16 +65,16 @@ namespace undine
   std::optional<double>
   VisibleSamples<dim>::along(const GridIndex<dim>     &index,
                              const dealii::Point<dim> &place,
-                             const dealii::Point<dim> &foot) const
+                             const Place              &foot) const
   {
     const auto &lattice = field.lattice();
     const auto  point   = lattice.point(index);
     const Eye   eye{foot, place == point ? nullptr : &index};
-    if (foot == place)
+    if (foot.point == place)
       if (const auto own = value_of(index, eye))
         return own;
     // A trace of the way to the centroid says on which side of the point the fluid is.
-    const dealii::Point<dim> start = point + (foot - place) + side_share * (place - point);
+    const dealii::Point<dim> start = point + (foot.point - place) + side_share * (place - point);
     if (!is_clear_for_cubics(start, foot))
       return multilinear(start, eye);
     const bool is_scalar = lattice.normal_axis() >= dim;
@@ -85,20 +84,21 @@ namespace undine
 
   template <int dim>
   bool
-  VisibleSamples<dim>::is_clear_for_cubics(const dealii::Point<dim> &place,
-                                           const dealii::Point<dim> &eye) const
+  VisibleSamples<dim>::is_clear_for_cubics(const dealii::Point<dim> &start, const Place &eye) const
   {
+    if (vicinity.is_next_to_body(eye))
+      return false;
     GridIndex<dim> lower, upper;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        const auto stencil = field.lattice().row(d).stencil(place[d]);
-        lower[d]           = stencil.first;
-        upper[d]           = stencil.first + static_cast<int>(stencil.n_points) - 1;
+        const auto around = field.lattice().row(d).points_around(start[d]);
+        lower[d]          = around.first;
+        upper[d]          = around.first + static_cast<int>(around.n_points) - 1;
       }
     const auto below = points.located(lower), above = points.located(upper);
     bool       result = vicinity.is_clear(below.cell, above.cell);
     for (unsigned int d = 0; d < dim; ++d)
-      result = result && eye[d] >= below.point[d] && eye[d] <= above.point[d];
+      result = result && eye.point[d] >= below.point[d] && eye.point[d] <= above.point[d];
     return result;
   }
 
@@ -115,6 +115,8 @@ namespace undine
         lower[d]           = bracket.lower;
         weights[d]         = bracket.weight;
       }
+    if (views->is_clear(lower, eye.place.point))
+      return interpolate(field, place);
     std::array<double, 1 << dim> weight{{1}}; // of corners
     unsigned int                 weighted = 1;
     for (unsigned int d = 0, n = 1; d < dim; ++d, n *= 2)
@@ -155,7 +157,7 @@ namespace undine
                                    const Eye            &eye,
                                    const unsigned int    corners) const
   {
-    if (const auto view = views->view(values, lower, eye.point, corners, eye.own))
+    if (const auto view = views->view(values, lower, eye.place.point, corners, eye.own))
       return *view;
     typename CubeViews<dim>::View result{{}, 0};
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 namespace undine
@@ -58,13 +59,7 @@ namespace undine
     : n_components(cut.components.size())
     , n_nodes(surface.n_nodes())
   {
-    for_each_wet_fragment(cut, [&](const auto &fragment) {
-      for (unsigned int k = 0; k < dim; ++k)
-        all_entries.push_back({fragment.component,
-                               surface.facets()[fragment.facet][k],
-                               fragment.mean[k] * fragment.area_vector});
-    });
-    sum_entries();
+    add_entries(cut, surface, [](const auto &fragment) { return fragment.area_vector; });
   }
 
 
@@ -76,35 +71,50 @@ namespace undine
     : n_components(cut.components.size())
     , n_nodes(surface.n_nodes())
   {
-    for_each_wet_fragment(cut, [&](const auto &fragment) {
-      const double share = share_of_facet(fragment, surface, before);
-      const auto   mean  = mean_area_vector(surface, fragment.facet, before, after);
-      for (unsigned int k = 0; k < dim; ++k)
-        all_entries.push_back({fragment.component,
-                               surface.facets()[fragment.facet][k],
-                               fragment.mean[k] * share * mean});
+    add_entries(cut, surface, [&](const auto &fragment) {
+      return share_of_facet(fragment, surface, before) *
+             mean_area_vector(surface, fragment.facet, before, after);
     });
-    sum_entries();
   }
 
 
-  /// One entry for each pair of component and node.
   template <int dim>
+  template <class AreaVector>
   void
-  BoundaryFlux<dim>::sum_entries()
+  BoundaryFlux<dim>::add_entries(const CutCells<dim> &cut,
+                                 const Surface<dim>  &surface,
+                                 const AreaVector    &area_vector)
   {
-    // Stable: sums do not depend on what else a rank knows.
-    std::stable_sort(all_entries.begin(), all_entries.end(), [](const Entry &a, const Entry &b) {
-      return std::tie(a.component, a.node) < std::tie(b.component, b.node);
+    // Cell by cell: components of one cell come after those of the last.
+    std::vector<Entry>        of_cell;
+    std::vector<unsigned int> order;
+    const auto                append = [&] {
+      order.resize(of_cell.size());
+      std::iota(order.begin(), order.end(), 0u);
+      // As they came if they are of one pair: sums do not depend on what else a rank knows.
+      std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+        return std::tie(of_cell[a].component, of_cell[a].node, a) <
+               std::tie(of_cell[b].component, of_cell[b].node, b);
+      });
+      for (const unsigned int k : order)
+        if (const auto &entry = of_cell[k]; !all_entries.empty() &&
+                                            all_entries.back().component == entry.component &&
+                                            all_entries.back().node == entry.node)
+          all_entries.back().value += entry.value;
+        else
+          all_entries.push_back(entry);
+      of_cell.clear();
+    };
+    int cell = -1;
+    for_each_wet_fragment(cut, [&](const auto &fragment) {
+      if (const int here = cut.components[fragment.component].cell; here != cell)
+        append(), cell = here;
+      const dealii::Tensor<1, dim> area = area_vector(fragment);
+      for (unsigned int k = 0; k < dim; ++k)
+        of_cell.push_back(
+          {fragment.component, surface.facets()[fragment.facet][k], fragment.mean[k] * area});
     });
-    std::size_t n = 0;
-    for (const auto &entry : all_entries)
-      if (n > 0 && all_entries[n - 1].component == entry.component &&
-          all_entries[n - 1].node == entry.node)
-        all_entries[n - 1].value += entry.value;
-      else
-        all_entries[n++] = entry;
-    all_entries.resize(n);
+    append();
   }
 
 

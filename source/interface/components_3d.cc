@@ -44,7 +44,7 @@ namespace undine
     if (flags & cut_needs_sampling)
       return flags; // the pieces of a sampled face have no edges: the cell is sampled too
     add_pieces(cut, work);
-    flags |= unite();
+    flags |= unite(work.split.n_edges);
     sum_up(cut, work);
     flags |= attach_islands(cut, work);
 
@@ -94,19 +94,24 @@ namespace undine
 
 
   unsigned int
-  ComponentFinder<3>::unite()
+  ComponentFinder<3>::unite(const int n_edges)
   {
-    unsigned int flags = 0;
-    std::sort(uses.begin(), uses.end());
-    for (std::size_t begin = 0, end; begin < uses.size(); begin = end)
+    users.resize(std::max<std::size_t>(users.size(), n_edges));
+    for (const auto &[edge, element] : uses)
       {
-        for (end = begin + 1; end < uses.size() && uses[end].first == uses[begin].first; ++end)
-          {
-            const int a = root(uses[begin].second), b = root(uses[end].second);
-            elements[std::max(a, b)].parent = std::min(a, b);
-          }
-        if (end - begin != 2)
+        auto &user = users[edge];
+        if (user.n_uses++ == 0)
+          user.first = element;
+        const int a = root(user.first), b = root(element);
+        elements[std::max(a, b)].parent = std::min(a, b);
+      }
+    unsigned int flags = 0;
+    for (const auto &use : uses)
+      {
+        auto &user = users[use.first];
+        if (user.n_uses != 2 && user.n_uses != 0)
           flags |= cut_pairing;
+        user.n_uses = 0;
       }
     return flags;
   }

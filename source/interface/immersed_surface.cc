@@ -50,11 +50,11 @@ namespace undine
                        const std::vector<dealii::Point<dim>> &positions,
                        const MacGrid<dim>                    &grid)
     {
-      for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
-        for (const unsigned int node : surface.facets()[facet])
-          for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int facet = 0; grid.periodic(d) && facet < surface.facets().size(); ++facet)
+          for (const unsigned int node : surface.facets()[facet])
             if (const auto &x = positions[node];
-                grid.periodic(d) && !(x[d] > grid.lower()[d] && x[d] < grid.upper()[d]))
+                !(x[d] > grid.lower()[d] && x[d] < grid.upper()[d]))
               return fmt::format("Body '{}' reaches a periodic side of the domain at ({:.6g}). "
                                  "Try: move it, or the domain, so that it lies between the sides.",
                                  surface.body_names()[surface.body(facet)],

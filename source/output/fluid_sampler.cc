@@ -163,9 +163,9 @@ namespace undine
   std::optional<double>
   FluidSampler<dim>::value(const Sampled &sampled, const dealii::Point<dim> &place) const
   {
-    if (surfaces && vicinity.is_next_to_body(vicinity.place(place)))
-      return sampled.visible->at(place);
-    return interpolate(sampled.field, place);
+    const auto here = vicinity.place(place);
+    return surfaces && vicinity.is_next_to_body(here) ? sampled.visible->at(here)
+                                                      : interpolate(sampled.field, place);
   }
 
 

@@ -60,15 +60,15 @@ namespace undine
   class NearBodies
   {
   public:
+    using Place = typename BodyVicinity<dim>::Place;
+
     /// `source` is what completed() returned. The references must outlive it. Collective.
     NearBodies(const Flow<dim> &flow, const Field<dim> &source);
 
     /// The value that the path from `foot` brings to the point `index` or a part of it, which is at
     /// `place`; NaN if nothing could be seen there, of scalars only.
     double
-    value_at(const GridIndex<dim>     &index,
-             const dealii::Point<dim> &place,
-             const dealii::Point<dim> &foot) const;
+    value_at(const GridIndex<dim> &index, const dealii::Point<dim> &place, const Place &foot) const;
 
     /// Cells and components to which nothing was brought are filled, see fill_unknown(); divided
     /// points take the mean of their parts. Collective.

@@ -45,9 +45,14 @@ namespace undine
       unsigned int                  corners; ///< bit by bit
     };
 
-    /// What `eye` sees of the `values` at these `corners` of the cube above point `lower`; of its
-    /// own point, if it has one, only the nearest sample. Nothing if the eye is not in the cells of
-    /// the cube, or so close to a surface that it takes a closer look. Remembers the cube.
+    /// Is `eye` in a cube, that above point `lower`, without facets and with corners that are
+    /// whole? Remembers the cube.
+    bool
+    is_clear(const GridIndex<dim> &lower, const dealii::Point<dim> &eye);
+
+    /// What `eye` sees of the `values` at these `corners` of a cube that is not clear; of its own
+    /// point, if it has one, only the nearest sample. Nothing if the eye is not in the cells of
+    /// the cube, or so close to a surface that it takes a closer look.
     std::optional<View>
     view(const Values             &values,
          const GridIndex<dim>     &lower,
@@ -101,11 +106,7 @@ namespace undine
 
     /// Has it no facets in these cells, and are all its corners whole?
     bool
-    is_clear(const GridIndex<dim> &lower, const IndexBox<dim> &cells) const;
-
-    /// The values at the corners of a clear cube.
-    View
-    clear_view(const Values &values, const GridIndex<dim> &lower, const unsigned int corners) const;
+    has_nothing(const GridIndex<dim> &lower, const IndexBox<dim> &cells) const;
 
     /// Samples and screens; false if it is not to be used.
     bool
@@ -164,16 +165,15 @@ namespace undine
 
     static constexpr unsigned int unknown = -1;
 
-    SampledPoints<dim>                 sampled;
-    const Obstruction<dim>            &obstruction;
-    const FacetsOfCells<dim>          &facets;
-    IndexBox<dim>                      box;
-    std::array<std::size_t, n_corners> corner_offsets; ///< of positions in `box`
-    std::vector<unsigned int>          cube_above;     ///< each point, in `cubes`, or unknown
-    std::vector<Cube>                  cubes;          ///< the first is none
-    std::vector<Sample>                samples;
-    std::vector<Screen>                screens;
-    std::vector<const Facet *>         facets_of_screens;
+    SampledPoints<dim>         sampled;
+    const Obstruction<dim>    &obstruction;
+    const FacetsOfCells<dim>  &facets;
+    IndexBox<dim>              box;
+    std::vector<unsigned int>  cube_above; ///< each point, in `cubes`, or unknown
+    std::vector<Cube>          cubes;      ///< the first is none
+    std::vector<Sample>        samples;
+    std::vector<Screen>        screens;
+    std::vector<const Facet *> facets_of_screens;
   };
 } // namespace undine
 

@@ -20,12 +20,14 @@ namespace undine
   class Flow
   {
   public:
+    using Place = typename BodyVicinity<dim>::Place;
+
     /// Where a particle is at the other end of its path.
     struct Trace
     {
-      dealii::Point<dim> foot;
-      bool left_domain; ///< it met an opening or an inflow there before its time was up
-      bool near_body;   ///< it came near one, see BodyVicinity
+      Place foot;
+      bool  left_domain; ///< it met an opening or an inflow there before its time was up
+      bool  near_body;   ///< it came near one, see BodyVicinity
     };
 
     /// The bodies among which the fluid moves.
@@ -94,8 +96,6 @@ namespace undine
     trace(const dealii::Point<dim> &place, const double dt) const;
 
   private:
-    using Place = typename BodyVicinity<dim>::Place;
-
     /// [m/s] Near bodies from what can be seen, or the velocity of the nearest surface.
     dealii::Tensor<1, dim>
     velocity_at(const Place &place) const;

@@ -25,11 +25,16 @@ namespace undine
       double weight;
     };
 
-    /// The (up to) four points around a place and the weights of the polynomial through them.
-    struct Stencil
+    /// The (up to) four points around a place.
+    struct PointsAround
     {
-      int                   first;
-      unsigned int          n_points; ///< fewer than 4 only if the row has no more
+      int          first;
+      unsigned int n_points; ///< fewer than 4 only if the row has no more
+    };
+
+    /// And the weights of the polynomial through them.
+    struct Stencil : PointsAround
+    {
       std::array<double, 4> weights;
     };
 
@@ -87,6 +92,10 @@ namespace undine
       return {i + first + periods * n, std::clamp(weight, 0., 1.)};
     }
 
+    /// Those that stencil() takes.
+    PointsAround
+    points_around(double place) const;
+
     /// Cubic interpolation (Lagrange), exact for cubic polynomials on graded rows too. Next to an
     /// end of the row the points are those nearest to the end.
     Stencil
@@ -101,6 +110,22 @@ namespace undine
     };
 
     Row(std::vector<double> points, const int first, const int n, const double length);
+
+    /// Position in `polynomials` for a place moved into the row.
+    int
+    polynomial_at(const double place) const
+    {
+      const int i = find(place);
+      return periodic() ? i : std::clamp(i - 1, 0, int(polynomials.size()) - 1);
+    }
+
+    /// The points of a polynomial, so many periods away.
+    PointsAround
+    points_of(const int polynomial, const int periods) const
+    {
+      return {polynomial + first + periods * n - (periodic() ? 1 : 0),
+              periodic() ? 4 : std::min<unsigned int>(4, points.size())};
+    }
 
     void
     set_up_polynomials();

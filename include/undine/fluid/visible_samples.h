@@ -20,6 +20,8 @@ namespace undine
   class VisibleSamples
   {
   public:
+    using Place = typename BodyVicinity<dim>::Place;
+
     /// Of a field for which views->points().is_for() holds. The references must outlive it.
     /// Collective.
     VisibleSamples(const Field<dim>                      &field,
@@ -31,26 +33,24 @@ namespace undine
     /// Multilinear weights of the 2^dim points around, those that cannot be seen left out; nothing
     /// if none can.
     std::optional<double>
-    at(const dealii::Point<dim> &place) const;
+    at(const Place &place) const;
 
     /// What a path from `foot` brings to `place`, the point `index` of the lattice or the centroid
     /// of one of its parts, as far as it can be seen from the foot. The path is followed from the
     /// point itself, where the samples count: what does not move is kept as it is, step after step,
     /// and never smoothed. By cubics where nothing is in their way.
     std::optional<double>
-    along(const GridIndex<dim>     &index,
-          const dealii::Point<dim> &place,
-          const dealii::Point<dim> &foot) const;
+    along(const GridIndex<dim> &index, const dealii::Point<dim> &place, const Place &foot) const;
 
   private:
-    /// Can nothing hide the points that a cubic at `place` takes from an eye among them?
+    /// Can nothing hide the points that a cubic at `start` takes from an eye among them?
     bool
-    is_clear_for_cubics(const dealii::Point<dim> &place, const dealii::Point<dim> &eye) const;
+    is_clear_for_cubics(const dealii::Point<dim> &start, const Place &eye) const;
 
     /// Who looks.
     struct Eye
     {
-      dealii::Point<dim>    point;
+      Place                 place;
       const GridIndex<dim> *own; ///< sees only the nearest part of this point; nullptr: no such
     };
 

@@ -63,8 +63,12 @@ namespace undine
     local_forces(const std::vector<double> &pressures) const;
 
   private:
+    /// The entries of all fragments that fluid touches; `area_vector(fragment)`: the integral of n.
+    template <class AreaVector>
     void
-    sum_entries();
+    add_entries(const CutCells<dim> &cut,
+                const Surface<dim>  &surface,
+                const AreaVector    &area_vector);
 
     std::size_t        n_components;
     std::size_t        n_nodes;

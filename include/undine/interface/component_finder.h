@@ -92,9 +92,9 @@ namespace undine
     void
     add_pieces(const CutCells<3> &cut, const CutWorkspace<3> &work);
 
-    /// Join what shares edges.
+    /// Join what shares edges, of which there are so many in all.
     unsigned int
-    unite();
+    unite(const int n_edges);
 
     void
     sum_up(const CutCells<3> &cut, const CutWorkspace<3> &work);
@@ -125,7 +125,16 @@ namespace undine
     std::array<int, 7>   first_element; ///< of each face's pieces; and the number of all
     std::vector<Element> elements;
     std::vector<std::pair<int, int>> uses; ///< (edge number, element)
-    std::vector<int>                 islands, targets, numbers;
+
+    /// Who uses an edge in the cell.
+    struct Users
+    {
+      int first  = -1; ///< element
+      int n_uses = 0;
+    };
+    std::vector<Users> users; ///< by edge number, of all cells: none between one cell and the next
+
+    std::vector<int> islands, targets, numbers;
   };
 
 

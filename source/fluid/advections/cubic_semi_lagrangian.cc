@@ -36,7 +36,7 @@ namespace undine
                    condition,
                    flow.reach(1),
                    [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
-                     return interpolate_cubic(sources[k], trace.foot, limited);
+                     return interpolate_cubic(sources[k], trace.foot.point, limited);
                    });
     }
   };

@@ -42,7 +42,8 @@ namespace undine
                              condition,
                              flow.width(),
                              [&](const auto &trace, const auto &index, const std::size_t k) {
-                               const auto found = interpolate_with_bounds(sources[k], trace.foot);
+                               const auto found =
+                                 interpolate_with_bounds(sources[k], trace.foot.point);
                                if (!trace.left_domain)
                                  predictions[k].push_back({index, found});
                                return found.value;
@@ -65,7 +66,7 @@ namespace undine
           for (std::size_t k = 0; k < sources.size(); ++k)
             {
               const auto  &found    = predictions[k][i].found;
-              const double returned = interpolate(predicted[k], trace.foot);
+              const double returned = interpolate(predicted[k], trace.foot.point);
               const double value    = found.value + (sources[k](index) - returned) / 2;
               corrected[k](index) =
                 limited ? std::clamp(value, found.smallest, found.largest) : value;

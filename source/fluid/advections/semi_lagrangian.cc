@@ -34,7 +34,7 @@ namespace undine
                    condition,
                    flow.reach(0),
                    [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
-                     return interpolate(sources[k], trace.foot);
+                     return interpolate(sources[k], trace.foot.point);
                    });
     }
   };

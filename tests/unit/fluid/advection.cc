@@ -237,12 +237,12 @@ TEST_CASE("paths end at openings and slide along walls", "[advection]")
   const Flow<2> flow(model, model.initial_state().velocity, 0, 1);
   const auto    back = flow.trace({0.25, 0.5}, -1);
   CHECK(back.left_domain);
-  CHECK(back.foot[0] == Approx(0).margin(1e-14));
-  CHECK(back.foot[1] == Approx(0.5 - 0.125));
+  CHECK(back.foot.point[0] == Approx(0).margin(1e-14));
+  CHECK(back.foot.point[1] == Approx(0.5 - 0.125));
   const auto up = flow.trace({0.2, 0.95}, 0.4);
   CHECK_FALSE(up.left_domain);
-  CHECK(up.foot[0] == Approx(0.6));
-  CHECK(up.foot[1] == 1);
+  CHECK(up.foot.point[0] == Approx(0.6));
+  CHECK(up.foot.point[1] == 1);
 }
 
 
