@@ -248,7 +248,8 @@ namespace undine
                             parts.open_components,
                             positions,
                             was_at,
-                            velocities);
+                            velocities) +
+                      work.kept.memory_consumption();
     if (parts.open)
       for (unsigned int axis = 0; axis < dim; ++axis)
         sum += bytes(parts.open->pieces[axis], parts.open->faces[axis].all());

@@ -54,17 +54,43 @@ namespace undine
       unsigned int flags = finder.find(cut, work, placed);
       if (work.split.failures > 0)
         flags |= cut_splitting_failed;
+      double defect = 0;
       if (!(flags & cut_needs_sampling))
         {
-          const double defect = closure_defect(work, cut);
+          defect = closure_defect(work, cut);
           if (defect > reported_closure)
             flags |= cut_closure;
           else if (flags == 0)
             cut.counts.closure = std::max(cut.counts.closure, defect);
         }
+      work.closure_defects.push_back(defect);
       cut.cells.back().flags = flags;
       if (flags & cut_needs_sampling)
         sample_cell(cut, work);
+    }
+
+
+    /// One that is as it was last time.
+    template <int dim>
+    void
+    add_kept_cell(CutCells<dim> &cut, CutWorkspace<dim> &work, const std::int64_t key)
+    {
+      const double defect = work.kept.add_cell(cut, key);
+      work.closure_defects.push_back(defect);
+      cut.counts.closure = std::max(cut.counts.closure, defect);
+    }
+
+
+    template <int dim>
+    void
+    find_faces(CutCells<dim>            &cut,
+               CutWorkspace<dim>        &work,
+               const PlacedSurface<dim> &placed,
+               const GridIndex<dim>     &cell)
+    {
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        for (const int end : {0, 1})
+          find_face(cut, work, placed, axis, moved(cell, axis, end));
     }
 
 
@@ -88,16 +114,19 @@ namespace undine
     {
       auto keys = keys_of_cut_cells(work.split);
       std::sort(keys.begin(), keys.end());
+      work.kept.compare(cut, work.split, placed);
       for (const std::int64_t key : keys)
-        {
-          const auto cell = cut.block.node(key);
-          for (unsigned int axis = 0; axis < dim; ++axis)
-            for (const int end : {0, 1})
-              find_face(cut, work, placed, axis, moved(cell, axis, end));
-        }
+        if (work.kept.hold(key))
+          work.kept.find_faces(cut, work, placed, key);
+        else
+          find_faces(cut, work, placed, cut.block.node(key));
       ComponentFinder<dim> finder;
       for (const std::int64_t key : keys)
-        add_cell(cut, work, finder, placed, key);
+        if (work.kept.hold(key))
+          add_kept_cell(cut, work, key);
+        else
+          add_cell(cut, work, finder, placed, key);
+      work.kept.remember(cut, work, placed);
       cut.counts.reordered_edges = work.grid_edges.n_reordered();
       drop_debris(cut);
       close_sampled_cells(cut);

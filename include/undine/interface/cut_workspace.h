@@ -4,13 +4,15 @@
 
 #include <undine/interface/cut_cells.h>
 #include <undine/interface/grid_edges.h>
+#include <undine/interface/kept_cells.h>
 #include <undine/interface/planar_regions.h>
 #include <undine/interface/split_surface.h>
 #include <undine/interface/surface.h>
 
 namespace undine
 {
-  /// What the stages of cutting pass on to each other; kept from step to step for its memory.
+  /// What the stages of cutting pass on to each other; kept from step to step for its memory, and
+  /// for what stays as it is.
   template <int dim>
   struct CutWorkspace
   {
@@ -29,6 +31,7 @@ namespace undine
       planar_edges.clear();
       face_records.clear();
       debris_piece.clear();
+      closure_defects.clear();
     }
 
     SplitSurface<dim>                   split;
@@ -36,8 +39,10 @@ namespace undine
     PlanarProblem                       planar;
     std::vector<PlanarEdge>             planar_edges; ///< of all faces in 3D
     std::vector<FaceRecord>             face_records;
-    std::vector<char>                   debris_piece; ///< of each piece: PlanarRegion::debris
-    std::vector<dealii::Tensor<1, dim>> closure;      ///< of each component of one cell
+    std::vector<char>                   debris_piece;    ///< of each piece: PlanarRegion::debris
+    std::vector<dealii::Tensor<1, dim>> closure;         ///< of each component of one cell
+    std::vector<double>                 closure_defects; ///< of each cell
+    KeptCells<dim>                      kept;
   };
 
 
