@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <cstdio>
 
 using namespace undine_tests;
 
@@ -136,14 +135,16 @@ TEST_CASE("balls and cylinders: vertices on the surface, volume in second order"
 
 TEST_CASE("a mesh from a Gmsh file", "[solid]")
 {
-  std::ofstream("two_squares.msh") << two_squares;
+  // Beside the scene, to which its name is relative.
+  const auto name = std::filesystem::temp_directory_path() / "two_squares.msh";
+  std::ofstream(name) << two_squares;
   const std::string keys = "set Shape = gmsh\n set File = two_squares.msh\n set Scale = 0.5\n"
                            "set Refinements = 1";
   CHECK(measure<2>(keys).volume == Approx(0.5));
   CHECK(area<2>(keys, "set Sides = 7") == Approx(0.5));
-  std::ofstream("two_squares.msh") << "nothing";
+  std::ofstream(name) << "nothing";
   CHECK_THAT(refusal(one_body(keys + elastic)), Catch::Contains("is not a Gmsh mesh"));
-  std::remove("two_squares.msh");
+  std::filesystem::remove(name);
   CHECK_THAT(refusal(one_body(keys + elastic)),
              Catch::Contains("two_squares.msh' cannot be read") && Catch::Contains("key 'File'"));
 }
