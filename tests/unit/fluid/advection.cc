@@ -228,6 +228,33 @@ TEST_CASE("carried fields do not depend on the number of ranks", "[advection][mp
 }
 
 
+TEST_CASE("fields that are carried together are carried as each of them alone", "[advection][mpi]")
+{
+  for (const auto &method : methods)
+    {
+      const auto model =
+        make_model<3>(FluidText{"9, 8, 7",
+                                boundary("in", "left", "inflow", "set Velocity = 1; 0.3; 0") +
+                                  boundary("out", "right, top", "outflow"),
+                                "1+y; sin(7*x); cos(5*y)"});
+      const auto            advection = Registry<Advection<3>>::instance().make(method);
+      const Flow<3>         flow(model, model.initial_state().velocity, 0, 0.2);
+      std::vector<Field<3>> fields(3, Field<3>(model.grid().cells()));
+      for (std::size_t k = 0; k < fields.size(); ++k)
+        fill_scattered(fields[k], 4 + k);
+      const auto together = advection->advect(flow, fields, Dye<3>());
+      REQUIRE(together.size() == fields.size());
+      for (std::size_t k = 0; k < fields.size(); ++k)
+        {
+          const auto alone = advection->advect(flow, fields[k], Dye<3>());
+          CHECK(largest_over(alone.lattice(), [&](const GridIndex<3> &cell) {
+                  return std::abs(together[k](cell) - alone(cell));
+                }) == 0);
+        }
+    }
+}
+
+
 TEST_CASE("paths end at openings and slide along walls", "[advection]")
 {
   const auto    model = make_model<2>(FluidText{
