@@ -92,3 +92,27 @@ TEMPLATE_TEST_CASE_SIG(
         CHECK(found < grid.cells()->n_points());
       }
 }
+
+
+TEST_CASE("places are quiet for several fields where they are quiet for each", "[fields][mpi]")
+{
+  const MacGrid<2> grid(
+    MPI_COMM_WORLD, {{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, {0, 1, 2, 3, 4, 5, 6}}}, {});
+  const GridIndex<2>    reach = all_directions<2>(1);
+  std::vector<Field<2>> fields(2, Field<2>(grid.cells()));
+  for_each(fields[0].owned(), [&](const auto &index) {
+    fields[0](index) = index[0] < 2;        // at the left
+    fields[1](index) = 3. * (index[0] > 7); // at the right
+  });
+  for (auto &field : fields)
+    field.exchange(reach);
+  const QuietPlaces<2> left({fields[0]}, reach, .1), right({fields[1]}, reach, .1);
+  const QuietPlaces<2> both(fields, reach, .1);
+  unsigned int         wrong = 0, by_one = 0;
+  for_each(fields[0].owned(), [&](const auto &index) {
+    wrong += both.contains(index) != (left.contains(index) && right.contains(index));
+    by_one += left.contains(index) != right.contains(index);
+  });
+  CHECK(wrong == 0);
+  CHECK(dealii::Utilities::MPI::sum(by_one, MPI_COMM_WORLD) > 20);
+}
