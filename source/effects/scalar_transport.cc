@@ -317,7 +317,8 @@ namespace undine
     void
     carry(Field<dim> &values, const CarriedScalar<dim> &field, FluidStep<dim> &step) const
     {
-      std::vector<Field<dim>> carried{values};
+      std::vector<Field<dim>> carried;
+      carried.push_back(std::move(values));
       if (field.next)
         carried.push_back(*field.next);
       carried = method->advect(step.flow, std::move(carried), field);

@@ -101,9 +101,10 @@ namespace undine
         const auto key  = slots.key(slot);
         auto      &cell = cells[slot];
         bool       left = false; // has a facet moved that was in it?
-        for (auto f = cell.fragment; f < cells[slot + 1].fragment; ++f)
+        for (auto f = cell.fragments[0]; f < cell.fragments[1]; ++f)
           left = left || moves(fragments[f].fragment.facet);
-        cell.is_kept = !left && has_facets(split, key) && !any_facet(split, key, moves) &&
+        cell.is_kept = split.failures == 0 && !left && has_facets(split, key) &&
+                       !any_facet(split, key, moves) &&
                        cell.windings == windings_around(cut, cut.block.node(key));
         n_cells_kept += cell.is_kept;
       }
@@ -163,20 +164,19 @@ namespace undine
   double
   KeptCells<dim>::add_cell(CutCells<dim> &cut, const std::int64_t key) const
   {
-    const int   slot = slots.find(key), number = cut.cells.size();
-    const auto &cell = cells[slot], &next = cells[slot + 1];
-    const int   first = cut.components.size();
+    const auto &cell   = cells[slots.find(key)];
+    const int   number = cut.cells.size(), first = cut.components.size();
     cut.cell_slots.add(key);
     cut.cells.push_back({cut.block.node(key), first, static_cast<int>(cut.fragments.size()), 0});
-    for (auto c = cell.component; c < next.component; ++c)
+    for (auto c = cell.components[0]; c < cell.components[1]; ++c)
       cut.components.push_back({number, components[c].volume, components[c].centroid});
-    for (auto f = cell.fragment; f < next.fragment; ++f)
+    for (auto f = cell.fragments[0]; f < cell.fragments[1]; ++f)
       {
         cut.fragments.push_back(fragments[f].fragment);
         cut.fragments.back().component += first;
         cut.corners.points.insert(cut.corners.points.end(),
-                                  corners.begin() + fragments[f].corner,
-                                  corners.begin() + fragments[f + 1].corner);
+                                  corners.begin() + fragments[f].corners[0],
+                                  corners.begin() + fragments[f].corners[1]);
         cut.corners.first.push_back(cut.corners.points.size());
       }
     for (unsigned int side = 0; side < n_sides; ++side)
@@ -213,10 +213,6 @@ namespace undine
         if (at_rest)
           remember_cell(cut, work, c);
       }
-    cells.push_back({});
-    cells.back().component = components.size();
-    cells.back().fragment  = fragments.size();
-    fragments.push_back({{}, corners.size()});
   }
 
 
@@ -228,24 +224,22 @@ namespace undine
   {
     const auto &index = cut.cells[number].index;
     const int   first = cut.cells[number].first_component;
-    slots.add(cut.block.key(index));
-    Cell cell{false,
-              windings_around(cut, index),
-              work.closure_defects[number],
-              components.size(),
-              fragments.size(),
-              {}};
+    Cell        cell{false, windings_around(cut, index), work.closure_defects[number], {}, {}, {}};
+    cell.components[0] = components.size();
     components.insert(components.end(),
                       cut.components.begin() + first,
                       cut.components.begin() + cut.end_component(number));
+    cell.components[1] = components.size();
+    cell.fragments[0]  = fragments.size();
     for (int f = cut.cells[number].first_fragment; f < cut.end_fragment(number); ++f)
       {
-        fragments.push_back({cut.fragments[f], corners.size()});
+        const auto begin = cut.corners.points.begin() + cut.corners.first[f];
+        const auto end   = cut.corners.points.begin() + cut.corners.first[f + 1];
+        fragments.push_back({cut.fragments[f], {{corners.size(), corners.size() + (end - begin)}}});
         fragments.back().fragment.component -= first;
-        corners.insert(corners.end(),
-                       cut.corners.points.begin() + cut.corners.first[f],
-                       cut.corners.points.begin() + cut.corners.first[f + 1]);
+        corners.insert(corners.end(), begin, end);
       }
+    cell.fragments[1] = fragments.size();
     for (unsigned int side = 0; side < n_sides; ++side)
       {
         cell.pieces[side] = pieces.size();
@@ -257,6 +251,7 @@ namespace undine
       }
     cell.pieces[n_sides] = pieces.size();
     cells.push_back(cell);
+    slots.add(cut.block.key(index));
   }
 
 

@@ -6,6 +6,7 @@
 #include <undine/fluid/quiet_places.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace undine
@@ -26,8 +27,8 @@ namespace undine
     summary() const = 0;
 
     /// Fields at t + h from fields at t, on what bodies leave of the grid now. All of them live on
-    /// the same points and parts and have the same boundary condition: every path is followed once.
-    /// Collective.
+    /// the same points and parts, with the same ghost layers so far, and have the same boundary
+    /// condition: every path is followed once. Collective.
     virtual std::vector<Field<dim>>
     advect(const Flow<dim>              &flow,
            std::vector<Field<dim>>       fields,
@@ -39,7 +40,7 @@ namespace undine
            const Field<dim>             &field,
            const BoundaryCondition<dim> &condition) const
     {
-      return advect(flow, std::vector<Field<dim>>{field}, condition).front();
+      return std::move(advect(flow, std::vector<Field<dim>>(1, field), condition).front());
     }
   };
 
@@ -102,6 +103,11 @@ namespace undine
         const GridIndex<dim>          &reach,
         Far                          &&far)
   {
+    for (const auto &source : sources)
+      AssertThrow(source.shared_lattice() == sources.front().shared_lattice() &&
+                    source.open_parts() == sources.front().open_parts() &&
+                    source.stored() == sources.front().stored(),
+                  dealii::ExcMessage("fields that are carried together must be alike"));
     const auto                  &lattice = sources.front().lattice();
     std::vector<NearBodies<dim>> near;
     std::vector<Field<dim>>      carried;

@@ -17,9 +17,10 @@ namespace undine
   class QuietPlaces
   {
   public:
-    /// `sources`: on the same points and parts, with `reach` ghost layers; `share` of a field's
-    /// range that differences may have, from 0 to 1. Points next to which bodies divide others, in
-    /// the sources or `now`, are never quiet; nullptr: bodies leave everything. Collective.
+    /// `sources`: with the same points, parts and stored values, `reach` ghost layers at least;
+    /// `share` of a field's range that differences may have, from 0 to 1. Points next to which
+    /// bodies divide others, in the sources or `now`, are never quiet; nullptr: bodies leave
+    /// everything. Collective.
     QuietPlaces(const std::vector<Field<dim>> &sources,
                 const GridIndex<dim>          &reach,
                 const double                   share,

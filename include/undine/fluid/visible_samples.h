@@ -38,12 +38,14 @@ namespace undine
     /// What a path from `foot` brings to `place`, the point `index` of the lattice or the centroid
     /// of one of its parts, as far as it can be seen from the foot. The path is followed from the
     /// point itself, where the samples count: what does not move is kept as it is, step after step,
-    /// and never smoothed. By cubics where nothing is in their way.
+    /// and never smoothed. By cubics where nothing is in their way and the foot is not next to a
+    /// body.
     std::optional<double>
     along(const GridIndex<dim> &index, const dealii::Point<dim> &place, const Place &foot) const;
 
   private:
-    /// Can nothing hide the points that a cubic at `start` takes from an eye among them?
+    /// Can nothing hide the points that a cubic at `start` takes from an eye among them, and is the
+    /// eye not next to a body?
     bool
     is_clear_for_cubics(const dealii::Point<dim> &start, const Place &eye) const;
 

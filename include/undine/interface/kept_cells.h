@@ -19,7 +19,8 @@ namespace undine
 
   /// Cut cells that are as they were, such as those of fixed obstacles and of bodies at rest beside
   /// others that move. What is found in a cell depends on the facets in it and on which of its
-  /// corners lie in bodies; while neither changes it is copied instead, to the bit.
+  /// corners lie in bodies; while neither changes it is copied instead, to the bit. Nothing is kept
+  /// while anything unusual is met on this rank.
   template <int dim>
   class KeptCells
   {
@@ -79,7 +80,8 @@ namespace undine
       bool                                 is_kept;
       Windings                             windings;
       double                               closure_defect;
-      std::size_t                          component, fragment; ///< the first ones
+      std::array<std::size_t, 2>           components; ///< the first; one past the last
+      std::array<std::size_t, 2>           fragments;
       std::array<std::size_t, n_sides + 1> pieces; ///< the first of each side; one past all
     };
 
@@ -93,7 +95,7 @@ namespace undine
     struct Fragment
     {
       typename CutCells<dim>::Fragment fragment; ///< with the number of the cell's component
-      std::size_t                      corner;   ///< the first
+      std::array<std::size_t, 2>       corners;  ///< the first; one past the last
     };
 
     static Windings
@@ -120,7 +122,7 @@ namespace undine
     std::vector<char>                              has_moved; ///< since then, of each facet
     int                                            n_cells_kept = 0;
     IndexMap                                       slots;
-    std::vector<Cell>                              cells; ///< by slot, and one past the last
+    std::vector<Cell>                              cells; ///< by slot
     std::vector<typename CutCells<dim>::Component> components;
     std::vector<Fragment>                          fragments;
     std::vector<dealii::Point<dim>>                corners;
