@@ -63,7 +63,7 @@ def check_comparison(render, program, scenes):
 def main():
     render, program, scenes = sys.argv[1:4]
     if not is_installed():
-        print("skipped: the Debian packages python3-vtk9 and xvfb are not installed")
+        print("skipped: the Debian packages python3-vtk9, python3-numpy and xvfb are not installed")
         sys.exit(77)
     for name, options in (("cook_membrane", ["--field", "von_Mises_stress"]), ("plume", []),
                           ("obstacle_flow", ["--field", "velocity"]), ("jet_two_sheets", []),
