@@ -18,7 +18,7 @@ SIZE = (320, 180)
 
 
 def is_installed():
-    return (subprocess.run(["/usr/bin/python3", "-c", "import vtk"],
+    return (subprocess.run(["/usr/bin/python3", "-c", "import numpy, vtk"],
                            capture_output=True).returncode == 0 and
             subprocess.run(["sh", "-c", "command -v Xvfb"], capture_output=True).returncode == 0)
 
