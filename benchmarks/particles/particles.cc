@@ -31,10 +31,11 @@ namespace
   usage()
   {
     std::puts(
-      "usage: particles [--executor device|host] [--sizes N,N,...] [--sphere] [--start SECONDS]\n"
-      "                 [--frame SECONDS] [--frames N] [--phases] [--double]\n"
-      "                 [--tolerance X] [--pair-force balanced|corrected|minimum|conserving]\n"
-      "                 [--preconditioner automatic|jacobi|multigrid] [--threads N]\n\n"
+      "usage: particles_benchmark [--executor device|host] [--sizes N,N,...] [--sphere]\n"
+      "                           [--start SECONDS] [--frame SECONDS] [--frames N] [--phases]\n"
+      "                           [--double] [--tolerance X] [--threads N]\n"
+      "                           [--pair-force balanced|corrected|minimum|conserving]\n"
+      "                           [--preconditioner automatic|jacobi|multigrid] [--help]\n\n"
       "Sub-steps per second of a dam that has been breaking for a while. N: particles along the\n"
       "column's width; 24, 44, 76, 123 and 168 make 45,360, 229,240, 1,052,600, 4,177,818 and\n"
       "10,333,008 particles. Exits with 1 if a run it has timed makes no sense.");
@@ -107,11 +108,13 @@ namespace
                                             {{"automatic", Numerics::Preconditioner::automatic},
                                              {"jacobi", Numerics::Preconditioner::jacobi},
                                              {"multigrid", Numerics::Preconditioner::multigrid}});
-        else
+        else if (key == "--help")
           {
             usage();
-            throw undine::InputError("unknown option " + key);
+            std::exit(EXIT_SUCCESS);
           }
+        else
+          throw undine::InputError("unknown option " + key + "; --help lists those there are");
       }
     return choice;
   }
