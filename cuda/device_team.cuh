@@ -192,9 +192,17 @@ namespace undine::particles
     __device__ __forceinline__ Sums<count>
                                sum(const int n, const Function &f)
     {
-      static_assert(count <= most_sums, "no room for so many sums");
       Sums<count> mine;
       for_each(n, [&](const int i) { f(i, mine); });
+      return total(mine);
+    }
+
+    /// The sums of all threads' parts; as sync().
+    template <int count>
+    __device__ __forceinline__ Sums<count>
+                               total(Sums<count> mine)
+    {
+      static_assert(count <= most_sums, "no room for so many sums");
       reduce_block(mine, workspace.partial[parity] + blockIdx.x);
       sync();
       // One warp reads: all together would crowd the memory.

@@ -158,6 +158,24 @@ namespace undine::particles
       return total;
     }
 
+    /// The sums of all workers' parts, for all of them, who wait for each other: as sync(). Depends
+    /// on their number by rounding.
+    template <int count>
+    Sums<count>
+    total(const Sums<count> &mine)
+    {
+      static_assert(count <= most_sums, "no room for so many sums");
+      auto &partial = workspace->partial[parity];
+      std::copy(mine.values, mine.values + count, partial[rank].values);
+      sync();
+      Sums<count> total;
+      for (int worker = 0; worker < size; ++worker)
+        for (int k = 0; k < count; ++k)
+          total[k] += partial[worker][k];
+      parity = 1 - parity;
+      return total;
+    }
+
     /// Wait for all workers; what they wrote before is visible after.
     void
     sync() const
@@ -278,9 +296,10 @@ namespace undine::particles
     void
     run(const int n, const Function &f)
     {
+      const std::size_t parts = std::max(n / HostTeam::block + 1, threads);
       for (auto &partial : workspace.partial)
-        if (partial.size() <= static_cast<std::size_t>(n / HostTeam::block))
-          partial.resize(n / HostTeam::block + 1);
+        if (partial.size() < parts)
+          partial.resize(parts);
       _Pragma("omp parallel num_threads(threads)")
       {
         HostTeam team(omp_get_thread_num(), omp_get_num_threads(), workspace);

@@ -39,8 +39,6 @@ namespace undine::particles
           add_level(grid);
         }
       cycle.n_large = minimum(maximum(cycle.n_large, 1), levels.n - 1);
-      cycle.damping = Real(0.95);
-      cycle.factor  = Real(1.8);
     }
 
     /// After the matrix has been assembled. `starts` are those of the cells.

@@ -9,7 +9,7 @@
 namespace undine::particles
 {
   /// Conjugate gradients as ConjugateGradients, preconditioned by Jacobi's method on the particles
-  /// plus a multigrid cycle on the cells that particles are sorted by: u = D^{-1} r + c P V P^T r,
+  /// plus a multigrid cycle on the cells that particles are sorted by: u = D^{-1} r + P V P^T r,
   /// where P interpolates between cells. The number of iterations hardly grows with
   /// that of particles.
   template <int dim, class Real, class Entry>
@@ -31,43 +31,52 @@ namespace undine::particles
     {
       if (base.control->done())
         return;
-      const int    n      = base.system.matrix.n;
-      const Counts counts = cycle.levels.counts();
-      const double size =
-        team.template sum<1>(n, [&](const int i, Sums<1> &sums) { begin(i, sums); })[0];
-      const double goal = base.bounds.tolerance * base.bounds.tolerance * size;
-      double       last = 0, last_step = 0, square = 0;
+      const int     n      = base.system.matrix.n;
+      const Counts  counts = cycle.levels.counts();
+      const Sums<2> sizes =
+        team.template sum<2>(n, [&](const int i, Sums<2> &sums) { begin(i, sums); });
+      const double goal   = base.bounds.tolerance * base.bounds.tolerance * sizes[0];
+      double       square = sizes[1];
+      double       last = 0, last_step = 0;
       int          iteration = 0;
-      restrict_residual(team, counts);
-      for (;; ++iteration)
+      if (square > goal)
         {
+          sum_residuals(team, counts);
+          team.sync();
+        }
+      while (square > goal && iteration < base.bounds.max_iterations)
+        {
+          restrict_sums(team, counts);
           precondition(team, counts);
-          const auto now =
-            team.template sum<3>(n, [&](const int i, Sums<3> &sums) { multiply(i, sums); });
-          square = now[2];
-          if (!(square > goal) || iteration == base.bounds.max_iterations)
-            break;
+          const Sums<2> now =
+            team.template sum<2>(n, [&](const int i, Sums<2> &sums) { multiply(i, sums); });
           const double beta = iteration == 0 ? 0. : now[0] / last;
           const double step =
             now[0] / (iteration == 0 ? now[1] : now[1] - beta * now[0] / last_step);
           last      = now[0];
           last_step = step;
-          update(team, counts, static_cast<Real>(step), static_cast<Real>(beta));
-          restrict_residual(team, counts);
+          ++iteration;
+          const Sums<1> mine =
+            update(team, counts, static_cast<Real>(step), static_cast<Real>(beta));
+          sum_residuals(team, counts);
+          square = team.total(mine)[0];
         }
       if (team.is_first())
-        base.report(iteration, size > 0 ? sqrt(square / size) : 0.);
+        base.report(iteration, sizes[0] > 0 ? sqrt(square / sizes[0]) : 0.);
     }
 
   private:
+    /// Adds the squares of the right-hand side and of the first residual, in the norm of D^{-1}.
     UNDINE_HOST_DEVICE
     void
-    begin(const int i, Sums<1> &sums) const
+    begin(const int i, Sums<2> &sums) const
     {
       const auto &system = base.system;
       const Real  b      = system.right_hand_side[i];
+      const Real  r      = b - system.row_times(i, system.solution);
       sums[0] += static_cast<double>(b) * b / system.diagonal[i];
-      base.vectors.r[i] = b - system.row_times(i, system.solution);
+      sums[1] += static_cast<double>(r) * r / system.diagonal[i];
+      base.vectors.r[i] = r;
       base.vectors.p[i] = base.vectors.s[i] = base.vectors.u[i] = 0;
     }
 
@@ -100,10 +109,11 @@ namespace undine::particles
       return cycle.levels.level[0];
     }
 
+    /// In each cell; others may read that after a wait for all.
     template <class Team>
     UNDINE_HOST_DEVICE
     void
-    restrict_residual(Team &team, const Counts &counts) const
+    sum_residuals(const Team &team, const Counts &counts) const
     {
       const auto *cells = finest().active;
       struct Cell
@@ -119,7 +129,15 @@ namespace undine::particles
         [&](const int, const Cell &cell) {
           interpolation.functions[cell.index] = sums_of_residuals(cell.begin, cell.end);
         });
-      team.sync();
+    }
+
+    /// What the finest level begins with.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    void
+    restrict_sums(Team &team, const Counts &counts) const
+    {
+      const auto *cells = finest().active;
       team.for_each_of(own_cells(team, counts), [&](const int c) {
         const int index = cells[c].index(finest().grid);
         cycle.begin(0, index, interpolation.number(cells[c], index));
@@ -181,49 +199,50 @@ namespace undine::particles
                      base.system.diagonal[i],
                      cell >= 0 ? interpolation.functions[cell].at(places_in_cells[i]) : Real(0)};
         },
-        [&](const int i, const Row &row) {
-          base.vectors.u[i] = row.r / row.d + cycle.factor * row.correction;
-        });
+        [&](const int i, const Row &row) { base.vectors.u[i] = row.r / row.d + row.correction; });
       team.sync();
     }
 
     UNDINE_HOST_DEVICE
     void
-    multiply(const int i, Sums<3> &sums) const
+    multiply(const int i, Sums<2> &sums) const
     {
-      const auto  &system = base.system;
-      const Real   w      = system.row_times(i, base.vectors.u);
+      const Real   w = base.system.row_times(i, base.vectors.u);
       const double r = base.vectors.r[i], u = base.vectors.u[i];
       base.vectors.w[i] = w;
       sums[0] += r * u;
       sums[1] += w * u;
-      sums[2] += static_cast<double>(base.vectors.r[i] / system.diagonal[i]) * r;
     }
 
+    /// This worker's part of the new residual's square in the norm of D^{-1}, on the device a
+    /// thread's.
     template <class Team>
     UNDINE_HOST_DEVICE
-    void
+    Sums<1>
     update(Team &team, const Counts &counts, const Real alpha, const Real beta) const
     {
       const auto &v = base.vectors;
       Real *const x = base.system.solution;
+      Sums<1>     square;
       struct Row
       {
-        Real u, w, p, s, x, r;
+        Real u, w, p, s, x, r, d;
       };
       team.for_each_of(
         particles(own_cells(team, counts)),
         [&](const int i) {
-          return Row{v.u[i], v.w[i], v.p[i], v.s[i], x[i], v.r[i]};
+          return Row{v.u[i], v.w[i], v.p[i], v.s[i], x[i], v.r[i], base.system.diagonal[i]};
         },
         [&](const int i, const Row &row) {
-          const Real p = row.u + beta * row.p, s = row.w + beta * row.s;
+          const Real p = row.u + beta * row.p, s = row.w + beta * row.s, r = row.r - alpha * s;
           v.p[i] = p;
           v.s[i] = s;
           x[i]   = row.x + alpha * p;
-          v.r[i] = row.r - alpha * s;
+          v.r[i] = r;
+          square[0] += static_cast<double>(r / row.d) * r;
         });
       team.sync_own();
+      return square;
     }
   };
 } // namespace undine::particles
