@@ -156,11 +156,11 @@ namespace undine::particles
           const Real   words[4] = {word.x, word.y, word.z, word.w};
           for (int axis = 0; axis < dim; ++axis)
             result[axis] = words[axis];
-          return result;
         }
+      else
 #endif
-      for (int axis = 0; axis < dim; ++axis)
-        result[axis] = entries[axis];
+        for (int axis = 0; axis < dim; ++axis)
+          result[axis] = entries[axis];
       return result;
     }
 
