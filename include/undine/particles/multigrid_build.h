@@ -253,6 +253,7 @@ namespace undine::particles
       UNDINE_UNROLL_ALL
       for (int entry = 0; entry < size; ++entry)
         its[entry] = fine.entry(entry, index);
+      UNDINE_UNROLL
       for (int axis = 0, stride = 1; axis < dim; ++axis, stride *= 3)
         {
           const int  c    = finer.coordinates[axis];
@@ -260,14 +261,14 @@ namespace undine::particles
           // Beyond a last child without a sibling, the next one is in the next parent already.
           const bool low = c % 2 == 0, high = !low || c + 1 == fine.grid.cells[axis];
           UNDINE_UNROLL_ALL
-          for (int entry = 0; entry < size; ++entry)
-            if (entry / stride % 3 == 0)
-              {
-                Real &a = its[entry], &b = its[entry + stride], &d = its[entry + 2 * stride];
-                b += (only || !low ? a : Real(0)) + (only || !high ? d : Real(0));
-                a = only || !low ? Real(0) : a;
-                d = only || !high ? Real(0) : d;
-              }
+          for (int line = 0; line < size / 3; ++line)
+            {
+              Real *const first = its + line / stride * 3 * stride + line % stride;
+              Real       &a = first[0], &b = first[stride], &d = first[2 * stride];
+              b += (only || !low ? a : Real(0)) + (only || !high ? d : Real(0));
+              a = only || !low ? Real(0) : a;
+              d = only || !high ? Real(0) : d;
+            }
         }
       UNDINE_UNROLL_ALL
       for (int entry = 0; entry < size; ++entry)

@@ -223,10 +223,10 @@ TEST_CASE("A paddle pushes an elastic block along", "[particles]")
   body.youngs_modulus = 1e5;
   body.damping        = .5;
   const int number    = scene.add_body(body);
-  scene.for_each_point({4, 0}, {12, 8}, [&](const Point<2> &x) {
+  scene.for_each_point({{4, 0}}, {{12, 8}}, [&](const Point<2> &x) {
     scene.add(x, Kind::solid, number + 1, Point<2>::zero());
   });
-  scene.for_each_point({-3, -1}, {0, 9}, [&](const Point<2> &x) {
+  scene.for_each_point({{-3, -1}}, {{0, 9}}, [&](const Point<2> &x) {
     scene.add_moving(x, x[0] > -l0 ? Kind::wall : Kind::dummy);
   });
   scene.place       = [=](const double t) { return speed * t; };
