@@ -130,6 +130,8 @@ def main():
     parser.add_argument("--width", type=float, default=0.146, help="of the column [m]")
     parser.add_argument("--surface-tension", type=float, default=0.0, help="[N/m]")
     arguments = parser.parse_args()
+    if arguments.cells < 2 or arguments.width <= 0:
+        parser.error("at least two cells in a width above zero are needed")
     with tempfile.TemporaryDirectory() as folder:
         write_case(folder, arguments)
         solve(folder)

@@ -180,14 +180,16 @@ def compare_pressure(dimension, arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("what", nargs="*", default=["fronts", "impacts"], metavar="fronts|impacts")
-    parser.add_argument("--dimension", type=int, choices=(2, 3), action="append", default=[])
+    parser.add_argument("--dimension", type=int, choices=(2, 3), action="append", default=[], help="else both")
     parser.add_argument("--program", default=os.path.join(ROOT, "build", "undine"))
-    parser.add_argument("--executor", default="host")
+    parser.add_argument("--executor", choices=("host", "device"), default="host")
     parser.add_argument("--spacing", type=float, help="of the particles [m]")
-    parser.add_argument("--runs", type=int, default=1)
-    parser.add_argument("--set", action="append", default=[])
-    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--runs", type=int, default=1, help="of each impact, whose medians are printed")
+    parser.add_argument("--set", action="append", default=[], metavar="SECTION/KEY=VALUE", help="of the scenes' parameters")
+    parser.add_argument("--check", action="store_true", help="fail if figures are farther away than they should be")
     arguments = parser.parse_args()
+    if arguments.runs < 1:
+        parser.error("--runs: at least one")
     compare = {"fronts": compare_front, "impacts": compare_pressure}
     for what in arguments.what:
         if what not in compare:
