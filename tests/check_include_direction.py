@@ -8,13 +8,14 @@ import pathlib
 import re
 import sys
 
-BASE = {"base/core", "base/options"}
+BASE = {"base/core", "base/options", "base/parallel"}
 PHYSICS = BASE | {"solid", "fluid", "interface", "particles"}
 
 # module: what it may include besides itself
 SEES = {
     "base/core": set(),
     "base/options": {"base/core"},
+    "base/parallel": {"base/core"},
     "solid": BASE,
     "fluid": BASE,
     "particles": {"base/core"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/relative.h>
+#include <undine/base/parallel/interruption.h>
 #include <undine/coupled/coupled_equations.h>
 #include <undine/solid/prescribed_motion.h>
 
@@ -90,9 +91,10 @@ namespace undine
   typename CoupledEquations<dim>::Unknown
   CoupledEquations<dim>::correction(const Unknown &x)
   {
-    reference                 = here;
-    const auto        tangent = solid.jacobian(x.block(0));
-    const auto        timed   = timing.section("solve linear system");
+    reference          = here;
+    const auto tangent = solid.jacobian(x.block(0));
+    throw_if_interrupted(model.communicator());
+    const auto        timed = timing.section("solve linear system");
     const BlockSystem system(tangent, surface.matrix(), surface.factor(), fluid.matrix());
     residual *= -1.;
     // No better than Newton's method needs it.

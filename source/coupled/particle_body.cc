@@ -83,7 +83,7 @@ namespace undine
     options.add("Initial velocity",
                 velocity,
                 "m/s",
-                Allowed::anything(),
+                Allowed::constant_in_time(),
                 "At t = 0, of the point that rests at x.");
     options.add("Hourglass stiffness",
                 setup.hourglass,
@@ -205,7 +205,7 @@ namespace undine
     const auto                     section = scene.section("Bodies");
     std::vector<ParticleBody<dim>> result;
     for (const auto &name : section.named_sections("beam"))
-      result.emplace_back(name, section.section(name));
+      section.attempt([&] { result.emplace_back(name, section.section(name)); });
     return result;
   }
 

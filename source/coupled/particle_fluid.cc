@@ -81,10 +81,10 @@ namespace undine
     options.add("Region",
                 region,
                 "",
-                Allowed::anything(),
+                Allowed::constant_in_time(),
                 "There is fluid at the start where this is positive, in particles' centres, and no "
                 "body or obstacle; by default in the whole domain.");
-    options.add("Initial velocity", velocity, "m/s", Allowed::anything(), "At the start.");
+    options.add("Initial velocity", velocity, "m/s", Allowed::constant_in_time(), "At the start.");
     const auto section = options.section("Shapes");
     for (const auto &name : section.named_sections("column"))
       shapes.emplace_back(name, section.section(name));

@@ -134,10 +134,13 @@ namespace undine
   ParticleModel<dim>::declare(const Options &scene)
   {
     const ParticleNumerics numerics(scene);
-    ParticleDomain<dim>(scene, numerics.spacing, numerics.numerics.reach);
+    const bool             has_spacing = numerics.spacing > 0; // or a mistake has been noted
+    if (has_spacing)
+      scene.attempt([&] { ParticleDomain<dim>(scene, numerics.spacing, numerics.numerics.reach); });
     read_shows_walls(scene);
     read_particle_bodies<dim>(scene);
-    ParticleFluid<dim>{scene};
+    if (scene.is_reference() || scene.section("Fluid").given())
+      scene.attempt([&] { ParticleFluid<dim>{scene}; });
     declare_particle_obstacles<dim>(scene);
   }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/interruption.h>
+#include <undine/base/parallel/interruption.h>
 #include <undine/coupled/one_way.h>
 #include <undine/coupled/single_physics.h>
 #include <undine/coupled/sleeping_bodies.h>
@@ -62,7 +64,8 @@ namespace undine
   Report
   SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
   {
-    ledger = std::make_unique<Ledger<dim>>(models, keeps_ledger, has_stages());
+    communicator = models.communicator();
+    ledger       = std::make_unique<Ledger<dim>>(models, keeps_ledger, has_stages());
     if (models.solid && models.wishes_of_effects().sleep_settings)
       physics = std::make_unique<SleepingBodies<dim>>(
         models, *ledger, timing, [this, &timing](const Models<dim> &awake) {
@@ -151,7 +154,10 @@ namespace undine
   {
     ledger->start();
     for (const auto &stage : integrator->stages(report.dt, state.clock.step > 0))
-      physics->step(state, stage, report);
+      {
+        throw_if_interrupted(communicator);
+        physics->step(state, stage, report);
+      }
     append(report.columns, ledger->columns());
   }
 
@@ -172,6 +178,10 @@ namespace undine
             advance(state, report);
             if (!sleep.wake_with(state.sleep))
               return;
+          }
+        catch (const Interruption &)
+          {
+            throw;
           }
         catch (const Error &)
           {

@@ -26,7 +26,13 @@ namespace undine
     bool validate = false, reference = false;
     app.add_option("scene", request.scene_file, "the parameter file to run")
       ->type_name("SCENE.prm");
-    app.add_option("--output", request.directory, "folder for the results")->type_name("DIR");
+    const auto add_output_options = [&](CLI::App &command, const std::string &meaning) {
+      command.add_option("--output", request.output, meaning)->type_name("DIR");
+      command.add_flag("--overwrite",
+                       request.overwrite,
+                       "replace a run in that folder which has not reached its end");
+    };
+    add_output_options(app, "folder for the results");
     app
       .add_option("--set",
                   request.assignments,
@@ -41,6 +47,7 @@ namespace undine
     resume->add_option("directory", request.directory, "folder of the run")
       ->required()
       ->type_name("DIR");
+    add_output_options(*resume, "folder for what follows, which leaves the run as it is");
     resume->add_option("--set", request.assignments, "change a parameter, for example Time/End")
       ->type_name("Section/Key=value")
       ->expected(1)

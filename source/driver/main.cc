@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/errors.h>
+#include <undine/base/core/interruption.h>
 #include <undine/driver/command_line.h>
 #include <undine/driver/run.h>
 
@@ -31,14 +31,14 @@ namespace
   }
 
 
-  /// Print why the run failed and leave with `code`. An error that all ranks have seen is printed
-  /// by the first; one that only some have seen must end the others too, which wait for them.
+  /// Print why the run ends and leave with `code`. What all ranks have seen is printed by the
+  /// first; an error that only some have seen must end the others too, which wait for them.
   int
-  fail(const std::string &message, const int code)
+  leave(const std::string &message, const int code)
   {
     const bool together = all_ranks_are_here();
     if (!together || dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cerr << "\nError: " << message << std::endl;
+      std::cerr << '\n' << message << std::endl;
     if (!together)
       MPI_Abort(MPI_COMM_WORLD, code);
     return code;
@@ -59,16 +59,21 @@ main(int argc, char **argv)
       undine::execute(request, MPI_COMM_WORLD);
       return request.exit_code;
     }
+  catch (const undine::Interruption &reason)
+    {
+      return leave(reason.what(), reason.exit_code());
+    }
   catch (const undine::Error &error)
     {
-      return fail(error.what(), error.exit_code());
+      return leave(std::string("Error: ") + error.what(), error.exit_code());
     }
   catch (const std::bad_alloc &)
     {
-      return fail("out of memory. Try fewer cells or refinements, or more machines.", 6);
+      return leave("Error: out of memory. Try fewer cells or refinements, or more machines.", 6);
     }
   catch (const std::exception &error)
     {
-      return fail(std::string("an unexpected condition, please report it:\n") + error.what(), 5);
+      return leave(
+        std::string("Error: an unexpected condition, please report it:\n") + error.what(), 5);
     }
 }

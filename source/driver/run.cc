@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/interruption.h>
 #include <undine/base/core/version.h>
+#include <undine/base/parallel/interruption.h>
 #include <undine/coupled/fluid_geometry.h>
 #include <undine/driver/effects_report.h>
 #include <undine/driver/log.h>
@@ -10,7 +12,7 @@
 #include <undine/scene/scene.h>
 
 #include <iostream>
-#include <sstream>
+#include <optional>
 
 namespace undine
 {
@@ -23,8 +25,10 @@ namespace undine
       State<dim> &state, Scene<dim> &scene, Adviser<dim> &adviser, Log &log, TimingTree &timing)
     {
       Progress progress(log, state.clock);
+      listen_for_interruption();
       while (!state.clock.ended())
         {
+          throw_if_interrupted(scene.models.communicator());
           const double dt     = scene.scheme->choose_dt(state);
           const Report report = scene.scheme->step(state, dt);
           state.clock.advance(report.dt); // what was accepted; retries happen inside step
@@ -38,16 +42,21 @@ namespace undine
     }
 
 
-    /// Write the state as a checkpoint; returns what to tell the user about it.
+    /// Write the state as a checkpoint; returns what to tell the user about it. `settings`: those
+    /// to resume with.
     template <int dim>
     std::string
-    keep_last_state(const State<dim> &state, const Scene<dim> &scene)
+    keep_last_state(const State<dim>   &state,
+                    const Scene<dim>   &scene,
+                    const ResultFolder &folder,
+                    const std::string  &settings)
     {
       try
         {
-          write_checkpoint(scene.directory, scene.models, state);
-          return "The state before it is kept; 'undine resume " + scene.directory.string() +
-                 " --set \"Section/Key=value\"' continues it.";
+          write_checkpoint(folder.path(), scene.models, state, folder.statistics_digest);
+          return fmt::format("The state before it is kept; 'undine resume {}{}' continues it.",
+                             folder.path().string(),
+                             settings);
         }
       catch (const Error &error)
         {
@@ -60,24 +69,33 @@ namespace undine
     /// logged.
     template <int dim>
     std::string
-    last_words(const Error &error, const State<dim> &state, const Scene<dim> &scene, Log &log)
+    last_words(const Error        &error,
+               const State<dim>   &state,
+               const Scene<dim>   &scene,
+               const ResultFolder &folder,
+               Log                &log,
+               const std::string  &settings = " --set \"Section/Key=value\"")
     {
       const std::string message = fmt::format("step {}, which begins at {:.6g} s: {}\n{}",
                                               state.clock.step + 1,
                                               state.clock.time,
                                               error.what(),
-                                              keep_last_state(state, scene));
+                                              keep_last_state(state, scene, folder, settings));
       log.record("\nError: " + message + "\n");
       return message;
     }
 
 
     /// A failed run keeps its last good state: it can be looked at, and resumed with other
-    /// settings.
+    /// settings. So does one that is stopped.
     template <int dim>
     void
-    run_keeping_last_state(
-      State<dim> &state, Scene<dim> &scene, Adviser<dim> &adviser, Log &log, TimingTree &timing)
+    run_keeping_last_state(State<dim>         &state,
+                           Scene<dim>         &scene,
+                           Adviser<dim>       &adviser,
+                           const ResultFolder &folder,
+                           Log                &log,
+                           TimingTree         &timing)
     {
       try
         {
@@ -88,27 +106,46 @@ namespace undine
           log.record(std::string("\nError: ") + error.what() + "\n");
           throw;
         }
+      catch (const Interruption &error)
+        {
+          throw Interruption(last_words(error, state, scene, folder, log, ""));
+        }
       catch (const InputError &error)
         {
-          throw InputError(last_words(error, state, scene, log));
+          throw InputError(last_words(error, state, scene, folder, log));
         }
       catch (const Error &error)
         {
-          throw SolveError(last_words(error, state, scene, log));
+          throw SolveError(last_words(error, state, scene, folder, log));
         }
+    }
+
+
+    /// Replace an initialised state by that of the last checkpoint in `directory`.
+    template <int dim>
+    ResumedFrom
+    take_up_again(State<dim>                  &state,
+                  const Scene<dim>            &scene,
+                  const std::filesystem::path &directory,
+                  Log                         &log)
+    {
+      const auto from = read_checkpoint(directory, scene.models, state);
+      for (const auto &reason : from.skipped)
+        log.print("skipped a checkpoint: {}", reason);
+      log.print("resumed at step {}, time {:.6g} s", state.clock.step, state.clock.time);
+      if (state.clock.ended())
+        log.print("note: the run has reached its end; a later one is set by --set Time/End=...");
+      return from;
     }
 
 
     template <int dim>
     void
-    start_outputs(const State<dim> &state,
-                  const Report     &first,
-                  Scene<dim>       &scene,
-                  TimingTree       &timing,
-                  MPI_Comm          communicator)
+    start_outputs(const State<dim>         &state,
+                  const Report             &first,
+                  Scene<dim>               &scene,
+                  const OutputContext<dim> &context)
     {
-      const OutputContext<dim> context{
-        communicator, scene.directory, scene.models, scene.probes, timing};
       for (auto &output : scene.outputs)
         {
           output->start(context, state);
@@ -118,15 +155,50 @@ namespace undine
     }
 
 
-    /// Replace an initialised state by that of the last checkpoint.
+    /// Where the results of a request go.
+    std::filesystem::path
+    results_folder(const Request &request, const std::filesystem::path &of_scene)
+    {
+      const bool resumed = request.action == Request::Action::resume;
+      if (request.output.empty())
+        return resumed ? std::filesystem::path(request.directory) : of_scene;
+      const bool same = resumed && std::filesystem::weakly_canonical(request.output) ==
+                                     std::filesystem::weakly_canonical(request.directory);
+      return same ? request.directory : request.output;
+    }
+
+
+    /// Make state, folder and outputs ready for the first step. The folder is touched last: a run
+    /// that cannot start, or be taken up again, leaves what is in it as it was.
     template <int dim>
     void
-    take_up_again(State<dim> &state, const Scene<dim> &scene, Log &log)
+    set_up(State<dim>    &state,
+           Scene<dim>    &scene,
+           const Options &options,
+           const Request &request,
+           ResultFolder  &folder,
+           Log           &log,
+           TimingTree    &timing,
+           const MPI_Comm communicator)
     {
-      const auto from = read_checkpoint(scene.directory, scene.models, state);
-      for (const auto &reason : from.skipped)
-        log.print("skipped a checkpoint: {}", reason);
-      log.print("resumed at step {}, time {:.6g} s", state.clock.step, state.clock.time);
+      const auto timed   = timing.section("initialise");
+      state.clock        = scene.clock;
+      const Report first = scene.scheme->initialize(state, scene.models, timing);
+
+      const OutputContext<dim>   context{communicator, folder, scene.models, scene.probes, timing};
+      std::optional<ResumedFrom> from;
+      if (request.action == Request::Action::resume)
+        {
+          from = take_up_again(state, scene, request.directory, log);
+          for (const auto &output : scene.outputs)
+            output->assert_continues(context, state, first, *from);
+        }
+      prepare_directory(folder, options, from, communicator);
+      log.open(folder.path(),
+               from && from->directory == folder.path() ? std::ios::app : std::ios::trunc);
+      if (!first.note.empty())
+        log.print("note: {}", first.note);
+      start_outputs(state, first, scene, context);
     }
 
 
@@ -137,8 +209,6 @@ namespace undine
       TimingTree timing;
       Log        log(communicator);
       auto       scene = read_scene<dim>(options, communicator);
-      if (!request.directory.empty())
-        scene.directory = request.directory;
       if (request.action == Request::Action::validate)
         {
           const auto complaint = complaint_at_start(scene.models);
@@ -148,34 +218,25 @@ namespace undine
           return;
         }
 
-      // The folder is touched last: a scene that cannot start leaves an earlier run as it was.
-      const bool resumed = request.action == Request::Action::resume;
+      scene.directory = results_folder(request, scene.directory);
+      ResultFolder folder(communicator, scene.directory);
+      if (request.action != Request::Action::resume || scene.directory != request.directory)
+        assert_replaceable(folder, request.overwrite, communicator);
       print_header(log, scene, options, communicator);
       State<dim> state;
-      {
-        const auto timed   = timing.section("initialise");
-        state.clock        = scene.clock;
-        const Report first = scene.scheme->initialize(state, scene.models, timing);
-        if (resumed)
-          take_up_again(state, scene, log);
-        prepare_directory(scene.directory, options, resumed, communicator);
-        log.open(scene.directory, resumed ? std::ios::app : std::ios::trunc);
-        if (!first.note.empty())
-          log.print("note: {}", first.note);
-        start_outputs(state, first, scene, timing, communicator);
-      }
+      set_up(state, scene, options, request, folder, log, timing, communicator);
       print_unknowns(log, scene);
       const EffectsReport<dim> effects(scene, timing);
       Adviser<dim>             adviser(scene.models, state);
-      const auto               file = scene.directory / "effects.json";
       effects.print_start(log);
-      write_whole_file(file, effects.json({}), communicator);
-      run_keeping_last_state(state, scene, adviser, log, timing);
-      write_checkpoint(scene.directory, scene.models, state);
-      write_timing(scene.directory, timing, log, communicator);
+      write_whole_file(folder, "effects.json", effects.json({}), communicator);
+      run_keeping_last_state(state, scene, adviser, folder, log, timing);
+      write_checkpoint(folder.path(), scene.models, state, folder.statistics_digest);
+      write_timing(folder, timing, log, communicator);
       const auto advice = adviser.advice();
       effects.print_end(log, advice);
-      write_whole_file(file, effects.json(advice), communicator);
+      write_whole_file(folder, "effects.json", effects.json(advice), communicator);
+      folder.finish();
     }
 
 
@@ -219,7 +280,7 @@ namespace undine
           print_reference();
         return;
       }
-    const Options options(parameter_file(request));
+    const auto options = Options::collecting(parameter_file(request));
     if (read_dimension(options) == 2)
       simulate<2>(options, request, communicator);
     else

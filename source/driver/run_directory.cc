@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/version.h>
 #include <undine/driver/run_directory.h>
+#include <undine/output/files.h>
 #include <undine/solid/locking.h>
 
-#include <algorithm>
-#include <fstream>
+#include <fmt/format.h>
+
 #include <sstream>
 
 namespace undine
@@ -13,89 +14,75 @@ namespace undine
   {
     namespace fs = std::filesystem;
 
-    /// Write under a temporary name, then rename: the file is whole or not there.
-    void
-    write_file(const fs::path &path, const std::string &text)
+
+    /// What is copied if a run goes on in another folder: the text of a file, empty without one.
+    std::string
+    text_of(const fs::path &file)
     {
-      const fs::path temporary = path.string() + ".part";
-      std::ofstream  out(temporary);
-      out << text << std::flush;
-      if (!out)
-        throw FileError("cannot write '" + path.string() +
-                        "'. Check permissions and free space, or choose another folder with "
-                        "--output.");
-      out.close();
-      fs::rename(temporary, path);
-    }
-
-
-    void
-    write_parameters(const fs::path &directory, const Options &options)
-    {
-      std::ostringstream prm, json;
-      options.write_prm(prm);
-      options.write_json(json);
-      write_file(directory / "parameters.prm", prm.str());
-      write_file(directory / "parameters.json", json.str());
-    }
-
-
-    /// Run `action` on the first rank; whatever it throws is thrown on every rank.
-    template <class Action>
-    void
-    on_first_rank(MPI_Comm communicator, const Action &action)
-    {
-      std::string failure;
-      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-        try
-          {
-            action();
-          }
-        catch (const std::exception &error)
-          {
-            failure = error.what();
-          }
-      failure = dealii::Utilities::MPI::broadcast(communicator, failure);
-      if (!failure.empty())
-        throw FileError(failure);
+      return fs::exists(file) ? read_file(file) : "";
     }
   } // namespace
 
 
   void
-  prepare_directory(const fs::path &directory,
-                    const Options  &options,
-                    const bool      resumed,
-                    MPI_Comm        communicator)
+  assert_replaceable(const ResultFolder &folder, const bool overwrite, const MPI_Comm communicator)
   {
+    folder.assert_nothing_foreign();
+    if (overwrite || folder.is_finished())
+      return;
     on_first_rank(communicator, [&] {
-      std::error_code problem;
-      fs::create_directories(directory, problem);
-      if (problem)
-        throw FileError("cannot create the folder '" + directory.string() + "' for the results: " +
-                        problem.message() + ". Choose another with --output or Output/Directory.");
-      if (!resumed)
-        {
-          // What an earlier run left in the same folder must not be taken for results of this.
-          for (const char *name : {"checkpoint",
-                                   "statistics",
-                                   "timing",
-                                   "effects.json",
-                                   "solution",
-                                   "solution.pvd",
-                                   "solution.xdmf"})
-            fs::remove_all(directory / name, problem);
-          write_file(directory / "original.prm", options.file().text());
-        }
-      write_parameters(directory, options);
+      const auto step = resumable_step(folder.path());
+      if (step > 0)
+        throw FileError(fmt::format("the folder '{0}' holds a run that has not reached its end. It "
+                                    "can go on from step {1}: 'undine resume {0}'. To begin anew, "
+                                    "choose another folder with --output, or replace that run with "
+                                    "--overwrite.",
+                                    folder.path().string(),
+                                    step));
     });
   }
 
 
   void
-  write_whole_file(const fs::path &path, const std::string &text, MPI_Comm communicator)
+  prepare_directory(ResultFolder                     &folder,
+                    const Options                    &options,
+                    const std::optional<ResumedFrom> &from,
+                    const MPI_Comm                    communicator)
   {
-    on_first_rank(communicator, [&] { write_file(path, text); });
+    const bool  goes_on  = from && from->directory == folder.path();
+    std::string original = options.file().text(), statistics;
+    if (goes_on)
+      folder.go_on();
+    else
+      folder.begin();
+    if (from && !goes_on)
+      on_first_rank(communicator, [&] {
+        original   = text_of(from->directory / "original.prm");
+        statistics = text_of(from->directory / "statistics");
+      });
+    if (!goes_on)
+      write_whole_file(folder, "original.prm", original, communicator);
+    if (from && !goes_on)
+      write_whole_file(folder, "statistics", statistics, communicator);
+    std::ostringstream prm, json;
+    options.write_prm(prm);
+    options.write_json(json);
+    write_whole_file(folder, "parameters.prm", prm.str(), communicator);
+    write_whole_file(folder, "parameters.json", json.str(), communicator);
+    folder.claim("log.txt");
+    for (const auto &file : checkpoint_files())
+      folder.claim(file);
+  }
+
+
+  void
+  write_whole_file(ResultFolder      &folder,
+                   const std::string &name,
+                   const std::string &text,
+                   const MPI_Comm     communicator)
+  {
+    folder.claim(name);
+    on_first_rank(communicator, [&] { write_file(folder.path() / name, text); });
   }
 
 
@@ -136,11 +123,14 @@ namespace undine
 
 
   void
-  write_timing(const fs::path &directory, const TimingTree &timing, Log &log, MPI_Comm communicator)
+  write_timing(ResultFolder     &folder,
+               const TimingTree &timing,
+               Log              &log,
+               const MPI_Comm    communicator)
   {
     std::ostringstream table;
     timing.write(table);
-    write_whole_file(directory / "timing", table.str(), communicator);
+    write_whole_file(folder, "timing", table.str(), communicator);
     log.print("\n{}", table.str());
   }
 

@@ -105,11 +105,15 @@ namespace undine
     for (const auto &name : names)
       {
         if (!registry.contains(name))
-          throw section.error(
-            name, "there is no such effect", "Allowed: " + registry.joined_names());
+          {
+            section.mistake(section.error(
+              name, "there is no such effect", "Allowed: " + registry.joined_names()));
+            section.leave_unjudged(name);
+            continue;
+          }
         effects.push_back(registry.make(name));
         effects.back()->name = name;
-        effects.back()->add_options(section.section(name));
+        section.attempt([&] { effects.back()->add_options(section.section(name)); });
       }
     return effects;
   }

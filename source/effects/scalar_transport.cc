@@ -27,7 +27,7 @@ namespace undine
       void
       add_options(const Options &options)
       {
-        options.add("Initial value", initial, "", Allowed::anything(), "At the start.");
+        options.add("Initial value", initial, "", Allowed::constant_in_time(), "At the start.");
         options.add("Source",
                     source,
                     "1/s",

@@ -88,7 +88,7 @@ namespace undine
       options.add("Region",
                   boundary.region,
                   "",
-                  Allowed::anything(),
+                  Allowed::constant_in_time(),
                   "Only the faces whose centre gives a value > 0; by default all of the sides. "
                   "Where boundaries overlap, the later one counts.");
       options.add("Velocity",
@@ -198,7 +198,8 @@ namespace undine
   {
     std::vector<Boundary<dim>> boundaries;
     for (const auto &name : options.named_sections("boundary"))
-      boundaries.push_back(read_boundary<dim>(options.section(name), name));
+      options.attempt(
+        [&] { boundaries.push_back(read_boundary<dim>(options.section(name), name)); });
     check_periodicity(options, boundaries);
     return boundaries;
   }

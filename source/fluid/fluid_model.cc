@@ -33,7 +33,7 @@ namespace undine
     fluid.add("Initial velocity",
               parameters.initial_velocity,
               "m/s",
-              Allowed::anything(),
+              Allowed::constant_in_time(),
               "At the start; made divergence-free before the first step.");
     parameters.boundaries = read_boundaries<dim>(fluid.section("Boundaries"));
     parameters.pressure_solver.add_options(fluid.section("Pressure solver"));

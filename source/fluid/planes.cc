@@ -71,7 +71,7 @@ namespace undine
         domain.add("Grading " + axis,
                    grading,
                    "",
-                   Allowed::anything(),
+                   Allowed::constant_in_time(),
                    "Ascending map of [0, 1] onto itself, which takes the positions of equally "
                    "spaced planes normal to " +
                      axis + " to those used; its variable is named x for every direction.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/checkpoint.h>
 #include <undine/output/files.h>
+#include <undine/output/geometry_arrays.h>
 #include <undine/output/particle_arrays.h>
 #include <undine/output/state_arrays.h>
 
@@ -15,13 +16,15 @@ namespace undine
   {
     namespace fs = std::filesystem;
 
-    constexpr std::uint64_t format_version = 1;
+    // Version 1 has no geometry and no digest of statistics.
+    constexpr std::uint64_t format_version = 2;
 
 
     std::array<fs::path, 2>
     slots(const fs::path &directory)
     {
-      return {{directory / "checkpoint" / "slot_0.h5", directory / "checkpoint" / "slot_1.h5"}};
+      const auto files = checkpoint_files();
+      return {{directory / files[0], directory / files[1]}};
     }
 
 
@@ -45,7 +48,7 @@ namespace undine
       try
         {
           const HDF5Reader file(slot, MPI_COMM_SELF);
-          if (file.attribute<std::uint64_t>("format") != format_version)
+          if (file.attribute<std::uint64_t>("format") > format_version)
             result.problem = "'" + slot.string() + "' is of another version of Undine";
           result.step = file.attribute<std::uint64_t>("step");
         }
@@ -112,6 +115,7 @@ namespace undine
     write_slot(const fs::path                &slot,
                const std::vector<StateArray> &arrays,
                const Clock                   &clock,
+               const std::uint64_t            statistics_digest,
                const MPI_Comm                 communicator)
     {
       HDF5Writer file(slot, communicator);
@@ -119,6 +123,8 @@ namespace undine
       file.add_attribute("dimension", std::uint64_t(dim));
       file.add_attribute("step", std::uint64_t(clock.step));
       file.add_attribute("time", clock.time);
+      file.add_attribute("statistics digest",
+                         dealii::Utilities::MPI::broadcast(communicator, statistics_digest));
       for (const auto &array : arrays)
         {
           file.add(array.name, array.selection, array.values);
@@ -148,6 +154,25 @@ namespace undine
     }
 
 
+    /// Throws FileError if the grid or something that stands in it is not where it was.
+    template <int dim>
+    void
+    assert_same_geometry(const Models<dim> &models,
+                         const double       time,
+                         const HDF5Reader  &file,
+                         const fs::path    &slot)
+    {
+      const auto here  = geometry_arrays(models, time);
+      auto       there = here;
+      read_arrays(there, file, slot, models.communicator());
+      const auto difference = geometry_difference(there, here, models.communicator());
+      if (!difference.empty())
+        throw FileError("'" + slot.string() + "' belongs to another geometry: " + difference +
+                        " must be as they were when the run began. A changed geometry needs a run "
+                        "of its own");
+    }
+
+
     /// `state` with the values, the time and the step of a slot.
     template <int dim>
     State<dim>
@@ -158,8 +183,11 @@ namespace undine
       if (file.attribute<std::uint64_t>("dimension") != dim)
         throw FileError("'" + slot.string() + "' is not of " + std::to_string(dim) +
                         " dimensions, as the scene is");
-      state.clock.step = file.attribute<std::uint64_t>("step");
-      state.clock.time = file.attribute<double>("time");
+      state.clock.step   = file.attribute<std::uint64_t>("step");
+      state.clock.time   = file.attribute<double>("time");
+      const auto version = file.attribute<std::uint64_t>("format");
+      if (version >= 2)
+        assert_same_geometry(models, state.clock.time, file, slot);
 
       const auto lasting = count_lasting_particles(state.particles); // of the scene
       if (models.particles)
@@ -208,21 +236,43 @@ namespace undine
   } // namespace
 
 
+  std::array<fs::path, 2>
+  checkpoint_files()
+  {
+    return {{fs::path("checkpoint") / "slot_0.h5", fs::path("checkpoint") / "slot_1.h5"}};
+  }
+
+
+  std::uint64_t
+  resumable_step(const fs::path &directory)
+  {
+    std::uint64_t step = 0;
+    for (const auto &slot : slots(directory))
+      step = std::max(step, inspect(slot).step);
+    return step;
+  }
+
+
   template <int dim>
   void
-  write_checkpoint(const fs::path &directory, const Models<dim> &models, const State<dim> &state)
+  write_checkpoint(const fs::path     &directory,
+                   const Models<dim>  &models,
+                   const State<dim>   &state,
+                   const std::uint64_t statistics_digest)
   {
     const MPI_Comm communicator = models.communicator();
     auto           arrays       = pack_surface(models, state);
     for (auto &array : pack(models, state))
       arrays.push_back(std::move(array));
     assert_finite(arrays, communicator);
+    for (auto &array : geometry_arrays(models, state.clock.time))
+      arrays.push_back(std::move(array));
     on_first_rank(communicator, [&] { make_folder(directory / "checkpoint"); });
 
     std::vector<std::string> problems;
     const auto               whole = candidates(problems, directory, communicator);
     const unsigned int       older = whole.empty() ? 0 : 1 - whole.front();
-    write_slot<dim>(slots(directory)[older], arrays, state.clock, communicator);
+    write_slot<dim>(slots(directory)[older], arrays, state.clock, statistics_digest, communicator);
   }
 
 
@@ -232,11 +282,15 @@ namespace undine
   {
     const MPI_Comm communicator = models.communicator();
     ResumedFrom    result;
+    result.directory = directory;
     for (const unsigned int s : candidates(result.skipped, directory, communicator))
       try
         {
           state       = read_slot(state, models, slots(directory)[s]);
           result.slot = slots(directory)[s];
+          const HDF5Reader file(result.slot, communicator);
+          if (file.attribute<std::uint64_t>("format") >= 2)
+            result.statistics_digest = file.attribute<std::uint64_t>("statistics digest");
           return result;
         }
       catch (const FileError &error)
@@ -252,9 +306,9 @@ namespace undine
 
 
   template void
-  write_checkpoint(const fs::path &, const Models<2> &, const State<2> &);
+  write_checkpoint(const fs::path &, const Models<2> &, const State<2> &, std::uint64_t);
   template void
-  write_checkpoint(const fs::path &, const Models<3> &, const State<3> &);
+  write_checkpoint(const fs::path &, const Models<3> &, const State<3> &, std::uint64_t);
   template ResumedFrom
   read_checkpoint(const fs::path &, const Models<2> &, State<2> &);
   template ResumedFrom

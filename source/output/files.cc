@@ -181,6 +181,17 @@ namespace undine
   }
 
 
+  std::uint64_t
+  digest(const std::uint64_t before, const std::string &text)
+  {
+    constexpr std::uint64_t basis = 0xCBF29CE484222325u, prime = 0x100000001B3u;
+    std::uint64_t           value = before ^ basis;
+    for (const unsigned char byte : text)
+      value = (value ^ byte) * prime;
+    return value ^ basis;
+  }
+
+
   double
   leading_number(const std::string &line, const fs::path &path)
   {

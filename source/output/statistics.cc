@@ -39,11 +39,27 @@ namespace undine
     }
 
     void
+    assert_continues(const OutputContext<dim> &context,
+                     const State<dim>         &state,
+                     const Report             &report,
+                     const ResumedFrom        &from) const override
+    {
+      if (state.clock.step > 0)
+        StatisticsFile::assert_continues(context.communicator,
+                                         from.directory / "statistics",
+                                         state.clock.step,
+                                         all_columns(context, state, report),
+                                         from.statistics_digest);
+    }
+
+    void
     start(const OutputContext<dim> &new_context, const State<dim> &state) override
     {
       context = std::make_unique<const OutputContext<dim>>(new_context);
-      file    = std::make_unique<StatisticsFile>(
-        context->communicator, context->directory / "statistics", state.clock.step);
+      context->folder.claim("statistics");
+      file = std::make_unique<StatisticsFile>(
+        context->communicator, context->folder.path() / "statistics", state.clock.step);
+      context->folder.statistics_digest = file->digest();
     }
 
     bool
@@ -55,15 +71,22 @@ namespace undine
     void
     write(const State<dim> &state, const Report &report) override
     {
-      const auto timed   = context->timing.section("statistics");
-      Columns    columns = columns_of_step(state.clock, report);
-      append(columns, report.columns);
-      for (const auto &probe : context->probes)
-        append(columns, probe->columns(context->models, state));
-      file->append(columns);
+      const auto timed = context->timing.section("statistics");
+      file->append(all_columns(*context, state, report));
+      context->folder.statistics_digest = file->digest();
     }
 
   private:
+    static Columns
+    all_columns(const OutputContext<dim> &context, const State<dim> &state, const Report &report)
+    {
+      Columns columns = columns_of_step(state.clock, report);
+      append(columns, report.columns);
+      for (const auto &probe : context.probes)
+        append(columns, probe->columns(context.models, state));
+      return columns;
+    }
+
     std::unique_ptr<const OutputContext<dim>> context;
     std::unique_ptr<StatisticsFile>           file;
   };

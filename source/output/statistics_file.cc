@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace undine
@@ -79,6 +80,36 @@ namespace undine
           kept.rows += line + "\n";
       return kept;
     }
+
+
+    /// Is there one row for each step until `last_step`, each as long as the header?
+    bool
+    are_whole(const Kept &kept, const unsigned int last_step, const std::size_t n_columns)
+    {
+      std::istringstream lines(kept.rows);
+      double             next = -1;
+      for (std::string line; std::getline(lines, line);)
+        {
+          std::istringstream  words(line);
+          std::vector<double> row;
+          for (std::string word; words >> word;)
+            row.push_back(std::strtod(word.c_str(), nullptr));
+          if (row.size() != n_columns || (next >= 0 && row[0] != next))
+            return false;
+          next = row[0] + 1;
+        }
+      return next == last_step + 1.;
+    }
+
+
+    FileError
+    other_columns(const std::filesystem::path &path)
+    {
+      return FileError("'" + path.string() +
+                       "' has other columns than this run, so its rows cannot be continued. Keep "
+                       "bodies, boundaries, effects and probes as they were, or move the file "
+                       "away: the run then goes on with a new one.");
+    }
   } // namespace
 
 
@@ -92,7 +123,8 @@ namespace undine
       Kept kept;
       if (last_step > 0 && std::filesystem::exists(path))
         kept = keep(read_file(path), last_step, path);
-      header = kept.header;
+      header      = kept.header;
+      text_digest = undine::digest(0, kept.header + kept.rows);
       write_file(path, kept.header + kept.rows);
     });
   }
@@ -105,12 +137,44 @@ namespace undine
     on_first_rank(communicator, [&] {
       const std::string wanted = header_of(columns);
       if (!header.empty() && header != wanted)
-        throw FileError("'" + path.string() +
-                        "' has other columns than this run, so its rows cannot be continued. Keep "
-                        "bodies, boundaries, effects and probes as they were, or move the file "
-                        "away.");
-      append_to_file(path, (header.empty() ? wanted : "") + row_of(columns));
-      header = wanted;
+        throw other_columns(path);
+      const auto text = (header.empty() ? wanted : "") + row_of(columns);
+      append_to_file(path, text);
+      text_digest = undine::digest(text_digest, text);
+      header      = wanted;
+    });
+  }
+
+
+  std::uint64_t
+  StatisticsFile::digest() const
+  {
+    return text_digest;
+  }
+
+
+  void
+  StatisticsFile::assert_continues(const MPI_Comm               communicator,
+                                   const std::filesystem::path &path,
+                                   const unsigned int           last_step,
+                                   const Columns               &columns,
+                                   const std::uint64_t          expected_digest)
+  {
+    on_first_rank(communicator, [&] {
+      if (!std::filesystem::exists(path))
+        return;
+      const auto kept = keep(read_file(path), last_step, path);
+      if (kept.header != header_of(columns))
+        throw other_columns(path);
+      const bool as_written =
+        expected_digest == 0 || expected_digest == undine::digest(0, kept.header + kept.rows);
+      if (!as_written || !are_whole(kept, last_step, columns.size()))
+        throw FileError(fmt::format("'{}' is not what this run had written when it reached step "
+                                    "{}: rows are missing or have been changed. Put the file back "
+                                    "as it was, or move it away: the run then goes on with a new "
+                                    "one.",
+                                    path.string(),
+                                    last_step));
     });
   }
 } // namespace undine

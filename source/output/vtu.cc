@@ -47,9 +47,11 @@ namespace undine
     start(const OutputContext<dim> &new_context, const State<dim> &state) override
     {
       context = std::make_unique<const OutputContext<dim>>(new_context);
-      on_first_rank(context->communicator, [&] { make_folder(context->directory / "solution"); });
+      on_first_rank(context->communicator,
+                    [&] { make_folder(context->folder.path() / "solution"); });
+      context->folder.claim("solution.pvd");
       records = std::make_unique<TimeRecords>(
-        context->communicator, context->directory / "solution.pvd", pvd_frame, state.clock);
+        context->communicator, context->folder.path() / "solution.pvd", pvd_frame, state.clock);
     }
 
     bool
@@ -83,7 +85,8 @@ namespace undine
     add(const Patches<n, spacedim> &part, const Clock &clock)
     {
       const auto file = solution_file(part.name, clock, "vtu");
-      write_vtu(context->communicator, context->directory / file, part, flags(part, clock));
+      context->folder.claim(file);
+      write_vtu(context->communicator, context->folder.path() / file, part, flags(part, clock));
       lines += fmt::format(
         "<DataSet timestep=\"{:.12g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
         clock.time,

@@ -58,9 +58,11 @@ namespace undine
     start(const OutputContext<dim> &new_context, const State<dim> &state) override
     {
       context = std::make_unique<const OutputContext<dim>>(new_context);
-      on_first_rank(context->communicator, [&] { make_folder(context->directory / "solution"); });
+      on_first_rank(context->communicator,
+                    [&] { make_folder(context->folder.path() / "solution"); });
+      context->folder.claim("solution.xdmf");
       records = std::make_unique<TimeRecords>(
-        context->communicator, context->directory / "solution.xdmf", xdmf_frame, state.clock);
+        context->communicator, context->folder.path() / "solution.xdmf", xdmf_frame, state.clock);
     }
 
     bool
@@ -88,9 +90,10 @@ namespace undine
     std::string
     write_part(const Patches<n, spacedim> &part, const Clock &clock) const
     {
-      const auto file  = solution_file(part.name, clock, "h5");
+      const auto file = solution_file(part.name, clock, "h5");
+      context->folder.claim(file);
       const auto entry = write_hdf5(
-        context->communicator, context->directory / file, file.string(), part, clock.time);
+        context->communicator, context->folder.path() / file, file.string(), part, clock.time);
       return named(entry.get_xdmf_content(1, dealii::ReferenceCells::get_hypercube<n>()),
                    part.name);
     }

@@ -19,7 +19,10 @@ namespace undine
     {
       for (const auto &[key, hint] : replacements)
         if (options.given(key) || options.section(key).given())
-          throw options.error(key, what, hint);
+          {
+            options.mistake(options.error(key, what, hint));
+            options.leave_unjudged(key);
+          }
     }
   } // namespace
 

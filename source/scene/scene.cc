@@ -52,7 +52,8 @@ namespace undine
             surroundings.scalars.push_back(scalar);
         }
       for (const auto &effect : scene.models.effects)
-        effect->check(options.section("Effects").section(effect->name), surroundings);
+        options.attempt(
+          [&] { effect->check(options.section("Effects").section(effect->name), surroundings); });
     }
 
 
@@ -110,13 +111,15 @@ namespace undine
                   "What is written besides the file 'statistics', which always is.");
       if (options.is_reference())
         parts = registry.names();
-      if (std::find(parts.begin(), parts.end(), "statistics") == parts.end())
-        parts.insert(parts.begin(), "statistics");
+      // First: checkpoints say which of its rows they belong to.
+      parts.erase(std::remove(parts.begin(), parts.end(), "statistics"), parts.end());
+      parts.insert(parts.begin(), "statistics");
       for (const auto &name : parts)
-        {
-          scene.outputs.push_back(registry.make(name));
-          scene.outputs.back()->add_options(section);
-        }
+        if (registry.contains(name))
+          {
+            scene.outputs.push_back(registry.make(name));
+            scene.outputs.back()->add_options(section);
+          }
     }
 
 
@@ -127,13 +130,17 @@ namespace undine
       const auto section = options.section("Probes");
       for (const auto &name : section.named_sections("probe"))
         {
-          const auto probe = section.section(name);
-          if (!options.is_reference() && !probe.given("Kind"))
-            throw probe.error("Kind",
-                              "must be given",
-                              "Allowed: " + Registry<Probe<dim>>::instance().joined_names());
-          scene.probes.push_back(probe.template choose<Probe<dim>>(
-            "Kind", Registry<Probe<dim>>::instance().names().front(), "What is measured."));
+          const auto probe      = section.section(name);
+          const auto registered = Registry<Probe<dim>>::instance().joined_names();
+          options.attempt([&] {
+            if (!options.is_reference() && !probe.given("Kind"))
+              {
+                probe.leave_unjudged();
+                throw probe.error("Kind", "must be given", "Allowed: " + registered);
+              }
+            scene.probes.push_back(probe.template choose<Probe<dim>>(
+              "Kind", Registry<Probe<dim>>::instance().names().front(), "What is measured."));
+          });
         }
     }
 
@@ -168,7 +175,6 @@ namespace undine
     void
     make_particles(Scene<dim> &scene, const Options &options, const MPI_Comm communicator)
     {
-      refuse_keys_of_other_schemes(options);
       scene.models.particles =
         std::make_unique<const ParticleModel<dim>>(options, scene.models.effects, communicator);
     }
@@ -179,20 +185,12 @@ namespace undine
     void
     make_grid_and_elements(Scene<dim> &scene, const Options &options, const MPI_Comm communicator)
     {
-      if (options.section("Particles").given())
-        throw options.error("Particles",
-                            "is a section of the scheme 'particle' only",
-                            "Remove it, or set 'Scheme = particle'.");
       if (options.section("Bodies").given())
         scene.models.solid = std::make_unique<const SolidModel<dim>>(options, communicator);
       if (options.section("Fluid").given())
         scene.models.fluid = std::make_unique<const FluidModel<dim>>(options, communicator);
       scene.models.direction   = read_direction(options, scene.models.solid && scene.models.fluid);
       const bool has_obstacles = options.section("Obstacles").given();
-      if (has_obstacles && !scene.models.fluid)
-        throw options.error("Obstacles",
-                            "obstacles stand in a fluid, but the scene has none",
-                            "Try: add a subsection 'Fluid' or remove the obstacles.");
       if (scene.models.fluid && (scene.models.solid || has_obstacles))
         {
           scene.models.surface = std::make_unique<const ImmersedSurface<dim>>(
@@ -205,6 +203,49 @@ namespace undine
         }
     }
   } // namespace
+
+
+  /// Read every section for its mistakes and throw them all; nothing that takes time or memory is
+  /// built.
+  template <int dim>
+  void
+  check_sections(const Options &options)
+  {
+    const auto scene = read_without_models<dim>(options);
+    const auto given = [&](const std::string &section) { return options.section(section).given(); };
+    const auto attempt = [&](const auto &declare) { options.attempt([&] { declare(options); }); };
+    if (!given("Bodies") && !given("Fluid"))
+      options.mistake(options.error("",
+                                    "the scene has neither a fluid nor a body",
+                                    "Try: add a subsection 'Fluid' or a subsection 'Bodies'."));
+    if (scene.scheme->method() == Scheme<dim>::Method::particles)
+      {
+        refuse_keys_of_other_schemes(options);
+        attempt(ParticleModel<dim>::declare);
+      }
+    else
+      {
+        if (given("Particles"))
+          options.mistake(options.error("Particles",
+                                        "is a section of the scheme 'particle' only",
+                                        "Remove it, or set 'Scheme = particle'."));
+        if (given("Bodies"))
+          attempt(SolidModel<dim>::declare);
+        if (given("Fluid"))
+          {
+            attempt(FluidModel<dim>::declare);
+            attempt(Obstacles<dim>::declare);
+            attempt(VoidRegions<dim>::declare);
+          }
+        options.attempt([&] { read_direction(options, given("Bodies") && given("Fluid")); });
+        if (given("Obstacles") && !given("Fluid"))
+          options.mistake(options.error("Obstacles",
+                                        "obstacles stand in a fluid, but the scene has none",
+                                        "Try: add a subsection 'Fluid' or remove the obstacles."));
+      }
+    options.assert_all_used();
+    options.throw_mistakes();
+  }
 
 
   unsigned int
@@ -220,11 +261,8 @@ namespace undine
   Scene<dim>
   read_scene(const Options &options, const MPI_Comm communicator)
   {
+    check_sections<dim>(options);
     auto scene = read_without_models<dim>(options);
-    if (!options.section("Bodies").given() && !options.section("Fluid").given())
-      throw options.error("",
-                          "the scene has neither a fluid nor a body",
-                          "Try: add a subsection 'Fluid' or a subsection 'Bodies'.");
     if (scene.scheme->method() == Scheme<dim>::Method::particles)
       make_particles(scene, options, communicator);
     else
@@ -232,11 +270,14 @@ namespace undine
     options.assert_all_used();
     check_effects(scene, options);
     if (scene.models.fluid)
-      check_boundaries(scene, options);
+      options.attempt([&] { check_boundaries(scene, options); });
     const auto probes      = options.section("Probes");
     const auto probe_names = probes.named_sections("probe");
     for (unsigned int p = 0; p < scene.probes.size(); ++p)
-      scene.probes[p]->start(probe_names[p], probes.section(probe_names[p]), scene.models);
+      options.attempt([&] {
+        scene.probes[p]->start(probe_names[p], probes.section(probe_names[p]), scene.models);
+      });
+    options.throw_mistakes();
     return scene;
   }
 

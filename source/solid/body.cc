@@ -11,7 +11,7 @@ namespace undine
     {
       std::vector<BodyBoundary<dim>> result;
       for (const auto &name : section.named_sections("root"))
-        result.emplace_back(name, section.section(name));
+        section.attempt([&] { result.emplace_back(name, section.section(name)); });
       return result;
     }
   } // namespace
@@ -27,7 +27,7 @@ namespace undine
     options.add("Map",
                 map,
                 "m",
-                Allowed::anything(),
+                Allowed::constant_in_time(),
                 "Where each vertex of the refined shape is at rest, as a function of where the "
                 "shape has it; not given: there.");
     options.add("Refinements",
@@ -43,12 +43,12 @@ namespace undine
     options.add("Initial displacement",
                 displacement,
                 "m",
-                Allowed::anything(),
+                Allowed::constant_in_time(),
                 "At t = 0, of the point that rests at x.");
     options.add("Initial velocity",
                 velocity,
                 "m/s",
-                Allowed::anything(),
+                Allowed::constant_in_time(),
                 "At t = 0, of the point that rests at x.");
     boundaries = read_boundaries<dim>(options.section("Boundaries"));
   }
@@ -60,7 +60,7 @@ namespace undine
   {
     std::vector<Body<dim>> result;
     for (const auto &name : bodies.named_sections("beam"))
-      result.emplace_back(name, bodies.section(name));
+      bodies.attempt([&] { result.emplace_back(name, bodies.section(name)); });
     return result;
   }
 

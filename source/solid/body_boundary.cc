@@ -113,7 +113,7 @@ namespace undine
     options.add("Where",
                 where,
                 "1",
-                Allowed::anything(),
+                Allowed::constant_in_time(),
                 "Only faces at whose rest centre this is positive.");
     add_if_used(options,
                 "Displacement",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/base/parallel/interruption.h>
 #include <undine/solid/cell_forces.h>
 #include <undine/solid/internal_forces.h>
 #include <undine/solid/loads.h>
@@ -47,6 +48,7 @@ namespace undine
       Unknown
       correction(const Unknown &velocity)
       {
+        throw_if_interrupted(velocity.get_mpi_communicator());
         const auto jacobian = equations.jacobian(velocity);
         const auto timed    = timing.section("solve linear system");
         residual *= -1.;

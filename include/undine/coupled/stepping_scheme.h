@@ -69,6 +69,7 @@ namespace undine
     void
     advance_or_wake(State<dim> &state, const State<dim> &saved, Report &report);
 
+    MPI_Comm                        communicator = MPI_COMM_NULL;
     std::unique_ptr<TimeIntegrator> integrator;
     double                          asked_step   = 0.01; // [s]
     double                          tolerance    = 0;    // [1]

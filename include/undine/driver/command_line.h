@@ -21,8 +21,10 @@ namespace undine
 
     Action                   action = Action::nothing;
     std::string              scene_file;
-    std::string              directory;   ///< --output, or the folder of the run to resume
-    std::vector<std::string> assignments; ///< of --set
+    std::string              directory;         ///< of the run to resume
+    std::string              output;            ///< --output; empty: not given
+    std::vector<std::string> assignments;       ///< of --set
+    bool                     overwrite = false; ///< an unfinished run in the folder for results
     int                      exit_code = 0;
   };
 

@@ -5,26 +5,35 @@
 #include <undine/base/core/timing.h>
 #include <undine/base/options/options.h>
 #include <undine/driver/log.h>
+#include <undine/output/checkpoint.h>
+#include <undine/output/result_folder.h>
 #include <undine/scene/scene.h>
 
-#include <filesystem>
+#include <optional>
+#include <string>
 
 namespace undine
 {
-  /// Make the folder of a run and write original.prm, parameters.prm and parameters.json into it.
-  /// Collective. Throws FileError, on all ranks, if it cannot be written.
+  /// Throws FileError if a new run in the folder would replace one that has not reached its end and
+  /// can be taken up again, unless `overwrite`, or files that no run has written. Collective.
   void
-  prepare_directory(const std::filesystem::path &directory,
-                    const Options               &options,
-                    const bool                   resumed,
-                    MPI_Comm                     communicator);
+  assert_replaceable(const ResultFolder &folder, bool overwrite, MPI_Comm communicator);
 
-  /// Write a file of the run's folder, whole or not at all. Collective. Throws FileError, on all
-  /// ranks.
+  /// Make the folder that of a new run, or, if that is where the run is taken up again `from`, that
+  /// of a run which goes on, and write original.prm, parameters.prm and parameters.json into it. A
+  /// run that goes on in another folder takes its `statistics` along. Collective. Throws FileError.
   void
-  write_whole_file(const std::filesystem::path &path,
-                   const std::string           &text,
-                   MPI_Comm                     communicator);
+  prepare_directory(ResultFolder                     &folder,
+                    const Options                    &options,
+                    const std::optional<ResumedFrom> &from,
+                    MPI_Comm                          communicator);
+
+  /// Write a file of the run's folder, whole or not at all. Collective. Throws FileError.
+  void
+  write_whole_file(ResultFolder      &folder,
+                   const std::string &name,
+                   const std::string &text,
+                   MPI_Comm           communicator);
 
   /// Versions and ranks, and what the scene is.
   template <int dim>
@@ -38,10 +47,7 @@ namespace undine
 
   /// The table of seconds by phase, to the log and to the file `timing`.
   void
-  write_timing(const std::filesystem::path &directory,
-               const TimingTree            &timing,
-               Log                         &log,
-               MPI_Comm                     communicator);
+  write_timing(ResultFolder &folder, const TimingTree &timing, Log &log, MPI_Comm communicator);
 } // namespace undine
 
 #endif

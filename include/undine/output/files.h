@@ -71,6 +71,12 @@ namespace undine
   std::string
   read_file(const std::filesystem::path &path);
 
+  /// A number that changes with every byte of a text; 0 is that of an empty one. The text may be
+  /// given in pieces: `before` is that of the pieces so far [FNV-1a, 64 bits; G. Fowler, L. Noll,
+  /// K.-P. Vo].
+  std::uint64_t
+  digest(std::uint64_t before, const std::string &text);
+
   /// The number that a line of the file at `path` begins with. Throws FileError if there is none.
   double
   leading_number(const std::string &line, const std::filesystem::path &path);

@@ -7,6 +7,8 @@
 #include <undine/coupled/models.h>
 #include <undine/coupled/report.h>
 #include <undine/coupled/state.h>
+#include <undine/output/checkpoint.h>
+#include <undine/output/result_folder.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -24,7 +26,7 @@ namespace undine
   struct OutputContext
   {
     MPI_Comm                                        communicator;
-    std::filesystem::path                           directory; ///< exists and is writable
+    ResultFolder                                   &folder; ///< every file is claimed in it
     const Models<dim>                              &models;
     const std::vector<std::unique_ptr<Probe<dim>>> &probes;
     TimingTree                                     &timing;
@@ -41,6 +43,18 @@ namespace undine
     /// Reads the part's own subsection of `Output`.
     virtual void
     add_options(const Options &options) = 0;
+
+    /// Called before start() when a run is taken up again `from` a checkpoint; `state` is that of
+    /// the checkpoint, `report` one with the columns of this run. Throws FileError if what was
+    /// written before cannot be continued; changes nothing. Collective.
+    virtual void
+    assert_continues(const OutputContext<dim> &context,
+                     const State<dim>         &state,
+                     const Report             &report,
+                     const ResumedFrom        &from) const
+    {
+      (void)context, (void)state, (void)report, (void)from;
+    }
 
     /// Called once before the first write. `state` is the initial one, or that of a checkpoint when
     /// the run is resumed: records later than its clock must be dropped, earlier ones kept.

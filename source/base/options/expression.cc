@@ -49,6 +49,33 @@ namespace undine
     }
 
 
+    /// muParser takes the last of several values: 1,5 would be 5.
+    void
+    assert_one_value(const std::string &text)
+    {
+      int depth = 0;
+      for (const char c : text)
+        {
+          depth += c == '(' ? 1 : (c == ')' ? -1 : 0);
+          if (c == ',' && depth <= 0)
+            throw InputError(
+              "has several values, separated by ',', where one is expected. Decimals "
+              "are written with a point: 1.5");
+        }
+    }
+
+
+    /// What draws random numbers gives every rank and every run its own.
+    void
+    assert_repeatable(const std::string &text)
+    {
+      static const std::regex random("\\brand(_seed)?\\b");
+      if (std::regex_search(text, random))
+        throw InputError("draws random numbers, which would differ from rank to rank and from run "
+                         "to run. Try: a sum of sines of several wave lengths");
+    }
+
+
     bool
     only_zeros(const std::string &text)
     {
@@ -75,6 +102,9 @@ namespace undine
     if (parts.size() != n_components)
       throw InputError("needs " + std::to_string(n_components) +
                        " expression(s), separated by ';', but has " + std::to_string(parts.size()));
+    for (const auto &part : parts)
+      assert_one_value(part);
+    assert_repeatable(text);
     // deal.II prints muParser's complaint before it throws: keep it for the message.
     std::ostringstream complaint;
     auto *const        screen = std::cerr.rdbuf(complaint.rdbuf());

@@ -44,6 +44,31 @@ namespace undine
     }
 
 
+    /// Names become parts of file names, of XML and of columns' headers.
+    bool
+    can_be_a_name(const std::string &name)
+    {
+      return std::all_of(name.begin(), name.end(), [](const unsigned char c) {
+        return c >= 0x80 || std::isalnum(c) || std::string(" _-+.:()").find(c) != std::string::npos;
+      });
+    }
+
+
+    /// A guess at what an unknown word was meant to be; empty if none is near.
+    std::string
+    guess(const std::set<std::string> &names, const std::string &word)
+    {
+      const std::string *nearest = nullptr;
+      for (const auto &name : names)
+        if (nearest == nullptr || distance(name, word) < distance(*nearest, word))
+          nearest = &name;
+      const std::size_t near = std::max<std::size_t>(1, word.size() / 3);
+      return nearest != nullptr && distance(*nearest, word) <= near
+               ? " Did you mean '" + *nearest + "'?"
+               : "";
+    }
+
+
     std::string
     section_label(const std::string &path)
     {
@@ -55,7 +80,21 @@ namespace undine
   Options::Options(ParameterFile file)
     : store(std::make_shared<Store>())
   {
-    store->file = std::move(file);
+    store->file     = std::move(file);
+    store->mistakes = store->file.mistakes();
+    throw_mistakes();
+  }
+
+
+  Options
+  Options::collecting(ParameterFile file)
+  {
+    Options options;
+    options.store           = std::make_shared<Store>();
+    options.store->file     = std::move(file);
+    options.store->mistakes = options.store->file.mistakes();
+    options.store->collects = true;
+    return options;
   }
 
 
@@ -144,7 +183,13 @@ namespace undine
   {
     if (is_reference())
       return {"<" + example_name + ">"};
-    return store->file.subsections(path);
+    const auto names = store->file.subsections(path);
+    for (const auto &name : names)
+      if (!can_be_a_name(name))
+        mistake(error("",
+                      "'" + name + "' cannot be the name of a subsection",
+                      "Allowed in names: letters, digits, blanks and _ - + . : ( )"));
+    return names;
   }
 
 
@@ -159,47 +204,105 @@ namespace undine
   }
 
 
+  /// What is wrong with an assignment that no part has read.
+  InputError
+  Options::unknown(const std::string &full_path) const
+  {
+    const auto  slash = full_path.rfind('/');
+    const bool  top   = slash == std::string::npos;
+    std::string place = top ? "" : full_path.substr(0, slash + 1);
+    std::string word  = top ? full_path : full_path.substr(slash + 1);
+
+    const auto section_exists = [&](const std::string &section) {
+      return std::any_of(store->entries.begin(), store->entries.end(), [&](const Entry &entry) {
+        return entry.section.compare(0, section.size(), section) == 0;
+      });
+    };
+    bool unknown_section = false;
+    while (!place.empty() && !section_exists(place))
+      {
+        unknown_section   = true;
+        const auto parent = place.rfind('/', place.size() - 2);
+        word              = place.substr(parent == std::string::npos ? 0 : parent + 1);
+        word.pop_back();
+        place = parent == std::string::npos ? "" : place.substr(0, parent + 1);
+      }
+
+    std::set<std::string> names;
+    for (const auto &entry : store->entries)
+      if (entry.section == place)
+        names.insert(entry.key);
+      else if (entry.section.compare(0, place.size(), place) == 0)
+        names.insert(
+          entry.section.substr(place.size(), entry.section.find('/', place.size()) - place.size()));
+    return InputError(store->file.at(full_path).place + ": " + section_label(place) + ", " +
+                      (unknown_section ? "subsection '" : "key '") + word + "': there is no such " +
+                      (unknown_section ? "subsection" : "key") + " here." + guess(names, word) +
+                      "\n  Allowed: " + most_similar_first({names.begin(), names.end()}, word) +
+                      ".");
+  }
+
+
   void
   Options::assert_all_used() const
   {
     for (const auto &full_path : store->file.paths())
       {
-        const auto &assignment = store->file.at(full_path);
-        if (assignment.used)
-          continue;
-        const auto  slash = full_path.rfind('/');
-        const bool  top   = slash == std::string::npos;
-        std::string place = top ? "" : full_path.substr(0, slash + 1);
-        std::string word  = top ? full_path : full_path.substr(slash + 1);
-
-        const auto section_exists = [&](const std::string &section) {
-          return std::any_of(store->entries.begin(), store->entries.end(), [&](const Entry &entry) {
-            return entry.section.compare(0, section.size(), section) == 0;
+        const bool judged = std::none_of(
+          store->unjudged.begin(), store->unjudged.end(), [&](const std::string &section) {
+            return full_path.compare(0, section.size(), section) == 0;
           });
-        };
-        bool unknown_section = false;
-        while (!place.empty() && !section_exists(place))
-          {
-            unknown_section   = true;
-            const auto parent = place.rfind('/', place.size() - 2);
-            word              = place.substr(parent == std::string::npos ? 0 : parent + 1);
-            word.pop_back();
-            place = parent == std::string::npos ? "" : place.substr(0, parent + 1);
-          }
-
-        std::set<std::string> names;
-        for (const auto &entry : store->entries)
-          if (entry.section == place)
-            names.insert(entry.key);
-          else if (entry.section.compare(0, place.size(), place) == 0)
-            names.insert(entry.section.substr(
-              place.size(), entry.section.find('/', place.size()) + 1 - place.size()));
-        throw InputError(
-          assignment.place + ": " + section_label(place) + ", " +
-          (unknown_section ? "subsection '" : "key '") + word + "': there is no such " +
-          (unknown_section ? "subsection" : "key") +
-          " here.\n  Allowed: " + most_similar_first({names.begin(), names.end()}, word) + ".");
+        if (judged && !store->file.at(full_path).used)
+          mistake(unknown(full_path));
       }
+  }
+
+
+  void
+  Options::mistake(const InputError &found) const
+  {
+    if (!store->collects)
+      throw found;
+    // What is read twice is wrong twice.
+    auto &all = store->mistakes;
+    if (std::find(all.begin(), all.end(), found.what()) == all.end())
+      all.push_back(found.what());
+  }
+
+
+  std::size_t
+  Options::n_mistakes() const
+  {
+    return store->mistakes.size();
+  }
+
+
+  void
+  Options::throw_mistakes() const
+  {
+    const auto &all = store->mistakes;
+    if (all.empty())
+      return;
+    std::string text =
+      all.size() == 1 ? all.front() : std::to_string(all.size()) + " mistakes in the scene:";
+    if (all.size() > 1)
+      for (const auto &one : all)
+        text += "\n" + one;
+    throw InputError(text);
+  }
+
+
+  bool
+  Options::collects() const
+  {
+    return store->collects;
+  }
+
+
+  void
+  Options::leave_unjudged(const std::string &key) const
+  {
+    store->unjudged.push_back(path + key);
   }
 
 

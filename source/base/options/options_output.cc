@@ -56,7 +56,8 @@ namespace undine
         {
           const bool assigned = scene.find(entry->section + entry->key) != nullptr;
           out << indent << (assigned ? "set " : "# default: ") << entry->key << " = "
-              << entry->value << (entry->unit.empty() ? "" : "  # [" + entry->unit + "]") << '\n';
+              << ParameterFile::escaped(entry->value)
+              << (entry->unit.empty() ? "" : "  # [" + entry->unit + "]") << '\n';
         }
       for (const auto &[name, section] : tree.sections)
         {

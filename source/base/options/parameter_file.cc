@@ -22,10 +22,64 @@ namespace undine
     }
 
 
+    // A scene includes a few files; more than these, and files include each other.
+    constexpr unsigned int most_included = 1000;
+    constexpr unsigned int deepest       = 50;
+
+
+    /// The number of backslashes that end text[0, end).
+    std::size_t
+    backslashes_before(const std::string &text, const std::size_t end)
+    {
+      const auto other = text.find_last_not_of('\\', end == 0 ? std::string::npos : end - 1);
+      return end == 0 ? 0 : (other == std::string::npos ? end : end - 1 - other);
+    }
+
+
     std::string
     without_comment(const std::string &line)
     {
-      return dealii::Utilities::trim(line.substr(0, line.find('#')));
+      auto comment = line.find('#');
+      while (comment != std::string::npos && backslashes_before(line, comment) % 2 == 1)
+        comment = line.find('#', comment + 1);
+      return dealii::Utilities::trim(line.substr(0, comment));
+    }
+
+
+    bool
+    is_continued(const std::string &line)
+    {
+      return backslashes_before(line, line.size()) % 2 == 1;
+    }
+
+
+    /// What a value in a file stands for: \# for '#', \\ for a backslash.
+    std::string
+    unescaped(const std::string &value)
+    {
+      std::string result;
+      for (std::size_t i = 0; i < value.size(); ++i)
+        {
+          if (value[i] == '\\' && i + 1 < value.size() &&
+              (value[i + 1] == '\\' || value[i + 1] == '#'))
+            ++i;
+          result += value[i];
+        }
+      return result;
+    }
+
+
+    /// A line for a message. Lines of files that are no scenes by their names may be private.
+    std::string
+    quoted(const std::string &line, const std::string &file)
+    {
+      const auto extension = std::filesystem::path(file).extension();
+      if (extension != ".prm" && extension != ".inc")
+        return "the line (not shown, since '" + file + "' ends in neither .prm nor .inc)";
+      std::string shown = line.substr(0, 100);
+      std::replace_if(
+        shown.begin(), shown.end(), [](const unsigned char c) { return std::iscntrl(c); }, '?');
+      return "the line '" + shown + (line.size() > 100 ? "...'" : "'");
     }
 
 
@@ -63,8 +117,10 @@ namespace undine
       {
         ++number;
         all_text += raw + "\n";
+        if (const std::string mark = "\xEF\xBB\xBF"; number == 1 && raw.rfind(mark, 0) == 0)
+          raw.erase(0, mark.size()); // the byte-order mark of UTF-8
         std::string line = without_comment(raw);
-        while (!line.empty() && line.back() == '\\' && std::getline(in, raw))
+        while (is_continued(line) && std::getline(in, raw))
           {
             ++number;
             all_text += raw + "\n";
@@ -96,6 +152,10 @@ namespace undine
         open_files.end())
       throw InputError(place + ": the file '" + name +
                        "' includes itself, directly or by way of others.");
+    if (++n_included > most_included || open_files.size() > deepest)
+      throw InputError(place + ": more than " + std::to_string(most_included) +
+                       " files are included, or more than " + std::to_string(deepest) +
+                       " within each other. Do files include each other again and again?");
     read(name, sections);
   }
 
@@ -111,25 +171,31 @@ namespace undine
     const std::string included = rest_after(line, "include");
     const std::string setting  = rest_after(line, "set");
     const auto        equals   = setting.find('=');
+    const std::string key      = dealii::Utilities::trim(setting.substr(0, equals));
     if (line == "end")
       sections.pop_back();
     else if (!section.empty())
       {
-        if (section.find('/') != std::string::npos)
-          throw InputError(place + ": the name of subsection '" + section +
-                           "' must not contain '/'.");
         sections.push_back(section);
-        mention(join(sections));
+        if (section.find('/') == std::string::npos)
+          mention(join(sections));
+        else
+          line_mistakes.push_back(place + ": the name of subsection '" + section +
+                                  "' must not contain '/'.");
       }
     else if (!included.empty())
       include((std::filesystem::path(file).parent_path() / included).string(), place, sections);
-    else if (equals != std::string::npos && equals > 0)
-      assign(join(sections) + dealii::Utilities::trim(setting.substr(0, equals)),
-             {dealii::Utilities::trim(setting.substr(equals + 1)), file, place});
+    else if (equals == std::string::npos || key.empty())
+      line_mistakes.push_back(place + ": cannot understand " + quoted(line, file) +
+                              ".\n  Allowed: 'subsection NAME', 'set KEY = VALUE', 'end', "
+                              "'include FILE' and comments that begin with '#'.");
+    else if (key.find('/') != std::string::npos)
+      line_mistakes.push_back(place + ": the key '" + key +
+                              "' must not contain '/'.\n  Try: 'subsection NAME', 'set KEY = "
+                              "VALUE' and 'end', each on a line of its own.");
     else
-      throw InputError(place + ": cannot understand the line '" + line +
-                       "'.\n  Allowed: 'subsection NAME', 'set KEY = VALUE', 'end', "
-                       "'include FILE' and comments that begin with '#'.");
+      assign(join(sections) + key,
+             {unescaped(dealii::Utilities::trim(setting.substr(equals + 1))), file, place});
   }
 
 
@@ -144,11 +210,19 @@ namespace undine
   void
   ParameterFile::set(const std::string &text)
   {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
+    const auto        equals = text.find('=');
+    const std::string path   = dealii::Utilities::trim(text.substr(0, equals));
+    const auto        parts  = dealii::Utilities::split_string_list(path, '/');
+    const auto        empty  = [](const std::string &part) { return part.empty(); };
+    if (equals == std::string::npos || path.empty() || path.back() == '/' ||
+        std::any_of(parts.begin(), parts.end(), empty))
       throw InputError("command line: '--set " + text +
                        "' must have the form \"Section/Key=value\".");
-    const std::string path = dealii::Utilities::trim(text.substr(0, equals));
+    if (std::any_of(
+          text.begin(), text.end(), [](const unsigned char c) { return std::iscntrl(c); }))
+      throw InputError("command line: '--set " + path +
+                       "=...' contains a line break or another control character, which a scene "
+                       "cannot hold.");
     for (auto slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
       mention(path.substr(0, slash + 1));
     assign(path,
@@ -163,9 +237,29 @@ namespace undine
     if (found == assignments.end())
       order.push_back(path);
     else if (found->second.file == assignment.file && assignment.file != "command line")
-      throw InputError(assignment.place + ": '" + path + "' is set twice; the first time at " +
-                       found->second.place + ".");
+      {
+        line_mistakes.push_back(assignment.place + ": '" + path +
+                                "' is set twice; the first time at " + found->second.place + ".");
+        return;
+      }
     assignments[path] = assignment;
+  }
+
+
+  const std::vector<std::string> &
+  ParameterFile::mistakes() const
+  {
+    return line_mistakes;
+  }
+
+
+  std::string
+  ParameterFile::escaped(const std::string &value)
+  {
+    std::string result;
+    for (const char c : value)
+      result += c == '\\' || c == '#' ? std::string{'\\', c} : std::string(1, c);
+    return result;
   }
 
 

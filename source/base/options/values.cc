@@ -22,7 +22,8 @@ namespace undine
         {
           std::ostringstream text;
           text << std::setprecision(digits) << value;
-          if (std::stod(text.str()) == value)
+          // Not std::stod, which refuses numbers that are nearly zero.
+          if (std::strtod(text.str().c_str(), nullptr) == value)
             return text.str();
         }
       return std::to_string(value);
@@ -101,30 +102,29 @@ namespace undine
   }
 
 
+  Allowed
+  Allowed::constant_in_time()
+  {
+    Allowed result;
+    result.description = "constant in time";
+    result.in_time     = false;
+    return result;
+  }
+
+
   void
   read_value(const std::string &text, const Allowed &allowed, double &value)
   {
-    std::size_t end = 0;
-    try
+    char        *end    = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (!text.empty() && *end == '\0' && end == text.c_str() + text.size())
+      value = number;
+    else
       {
-        value = std::stod(text, &end);
-      }
-    catch (const std::exception &)
-      {
-        end = 0;
-      }
-    if (end == 0 || end != text.size())
-      {
-        try
-          {
-            // An expression that needs a variable is not a number: it gives no finite value.
-            const double nothing = std::numeric_limits<double>::quiet_NaN();
-            value                = Expression<1>(text).value(dealii::Point<1>(nothing), nothing);
-          }
-        catch (const std::exception &)
-          {
-            throw InputError("is not a number");
-          }
+        const Expression<1> expression(text);
+        if (expression.names_time() || expression.names_place())
+          throw InputError("names a variable, but must be constant");
+        value = expression.value(dealii::Point<1>(), 0);
       }
     if (!std::isfinite(value))
       throw InputError("is not a finite number");

@@ -86,7 +86,170 @@ TEST_CASE("unknown keys and sections stop with the nearest names", "[options]")
   declare(wrong_section);
   const auto other = message([&] { wrong_section.assert_all_used(); });
   CHECK(other.find("subsection 'Tim'") != std::string::npos);
-  CHECK(other.find("'Time/'") != std::string::npos);
+  CHECK(other.find("'Time'") != std::string::npos);
+  CHECK(other.find("Did you mean 'Time'?") != std::string::npos);
+}
+
+
+TEST_CASE("all mistakes of a scene are reported at once", "[options]")
+{
+  std::ofstream("scene_under_test.prm") << "nonsense\n"
+                                           "subsection Time\n set Stepp = 1\n set End = -3\nend\n"
+                                           "subsection Bodies\n subsection a/b\n end\nend\n"
+                                           "set Time/Start = 3\n";
+  const auto options = Options::collecting(ParameterFile("scene_under_test.prm"));
+  double     step = 1, end = 2;
+  for (unsigned int reading = 0; reading < 2; ++reading) // what is read twice is told once
+    {
+      options.section("Time").require("Step", step, "s", Allowed::positive(), "The step.");
+      options.section("Time").add("End", end, "s", Allowed::positive(), "The end.");
+    }
+  options.attempt([&] { throw options.error("Title", "is missing", ""); });
+  options.assert_all_used();
+  CHECK(options.n_mistakes() == 7);
+  CHECK(end == 2); // as before
+  const auto text = message([&] { options.throw_mistakes(); });
+  for (const std::string part : {"7 mistakes",
+                                 ":1: cannot understand the line 'nonsense'",
+                                 ":7: the name of subsection 'a/b'",
+                                 ":10: the key 'Time/Start'",
+                                 "key 'Step': must be given",
+                                 ":4: section 'Time', key 'End'",
+                                 "key 'Title': is missing",
+                                 ":3: section 'Time', key 'Stepp'",
+                                 "Did you mean 'Step'?"})
+    CHECK_THAT(text, Catch::Contains(part));
+}
+
+
+TEST_CASE("a mistake that may follow from another is not reported", "[options]")
+{
+  std::ofstream("scene_under_test.prm") << "set Step = x\n";
+  const auto options = Options::collecting(ParameterFile("scene_under_test.prm"));
+  options.attempt([&] {
+    double step = 0;
+    options.add("Step", step, "s", Allowed::positive(), "The step.");
+    throw options.error("Step", "is zero", "");
+  });
+  CHECK(options.n_mistakes() == 1);
+}
+
+
+TEST_CASE("unknown keys are no mistakes where the part they are about is not known", "[options]")
+{
+  std::ofstream("scene_under_test.prm") << "subsection Effects\n subsection gravitty\n"
+                                           "  set Acceleration = 1\n end\nend\n";
+  const auto options = Options::collecting(ParameterFile("scene_under_test.prm"));
+  options.section("Effects").leave_unjudged("gravitty");
+  options.assert_all_used();
+  CHECK(options.n_mistakes() == 0);
+}
+
+
+TEST_CASE("numbers are read as they are written, or not at all", "[options]")
+{
+  const auto value = [](const std::string &text) {
+    double number = 0;
+    read_value(text, Allowed::anything(), number);
+    return number;
+  };
+  for (const std::string text : {"1e-310", "5e-324", "-0.1", "1e308", "0.30000000000000004"})
+    {
+      const double number = value(text);
+      CHECK(number == std::strtod(text.c_str(), nullptr));
+      CHECK(value(write_value(number)) == number);
+    }
+  CHECK(value("max(1,2)/4") == 0.5);
+  // muParser would give the last of several values.
+  for (const std::string text :
+       {"1,5", "1,4e6", "0,5,", "2+1,5", "(1,5)", "max(1,2),5", "", "1.5.2", "nan", "1e400"})
+    CHECK_THROWS_AS(value(text), InputError);
+  CHECK_THAT(message([&] { value("1,5"); }), Catch::Contains("with a point: 1.5"));
+  // Of these the first three have finite values wherever they are evaluated.
+  for (const std::string text : {"if(t>0,1,2)", "x^0", "rand()", "rand_seed(1)", "t", "y", "2*x"})
+    CHECK_THROWS_AS(value(text), InputError);
+
+  using Vector = dealii::Tensor<1, 2>;
+  Vector vector;
+  CHECK_THROWS_AS(read_value("1,5, 2", Allowed::anything(), vector), InputError);
+  CHECK_THROWS_AS((Expression<2, 2>("1,5; 0")), InputError);
+  CHECK_THROWS_AS((Expression<2>("rand()*x")), InputError);
+  Expression<2> place;
+  CHECK_THROWS_AS(read_value("x*t", Allowed::constant_in_time(), place), InputError);
+  CHECK_NOTHROW(read_value("x*y", Allowed::constant_in_time(), place));
+}
+
+
+TEST_CASE("any text comes back from parameters.prm as it was", "[options]")
+{
+  for (const std::string text :
+       {"a # b", "ends in \\", "\\", "\\#", "\\\\# x", "C:\\new", "#", "é # ü \\ x"})
+    {
+      ParameterFile file;
+      file.set("Title=" + text);
+      Options     options(file);
+      std::string title;
+      options.add("Title", title, "m", Allowed::anything(), "A title.");
+      CHECK(title == text);
+      std::ostringstream prm;
+      options.write_prm(prm);
+      std::string again;
+      read(prm.str() + "set Other = 1\n").add("Title", again, "", Allowed::anything(), "A title.");
+      CHECK(again == text);
+    }
+}
+
+
+TEST_CASE("files as editors of other systems write them are read", "[options]")
+{
+  double step = 0;
+  read("\xEF\xBB\xBFset Step = 3\r\n").add("Step", step, "", Allowed::anything(), "");
+  CHECK(step == 3);
+}
+
+
+TEST_CASE("names that files of results cannot hold are refused", "[options]")
+{
+  for (const std::string name : {"a \"b\"<c", "a,b", "a;b", "a&b", "a=b", "a\\b", "[a]", "a'b"})
+    CHECK_THROWS_AS(read("subsection " + name + "\nend\n").named_sections("x"), InputError);
+  for (const std::string name : {"upper wall", "sheet_2", "Körper 1", "p-1.5 (left)"})
+    CHECK(read("subsection " + name + "\nend\n").named_sections("x").front() == name);
+}
+
+
+TEST_CASE("--set takes nothing but Section/Key=value", "[options]")
+{
+  ParameterFile file;
+  for (const std::string text :
+       {"/=1", "=1", "a", "a/=1", "/a=1", "a//b=1", " =1", "a=b\nset c=d", "a=\x01"})
+    CHECK_THROWS_AS(file.set(text), InputError);
+  file.set("a/b = c=d");
+  CHECK(file.at("a/b").value == "c=d");
+}
+
+
+TEST_CASE("files that include each other end with an error", "[options]")
+{
+  const auto write = [](const std::string &name, const std::string &text) {
+    std::ofstream(name) << text;
+  };
+  // Each includes the next one twice: 2^40 inclusions.
+  for (unsigned int k = 0; k < 40; ++k)
+    {
+      const auto next = "include_" + std::to_string(k + 1) + ".inc";
+      write("include_" + std::to_string(k) + ".inc",
+            "include " + next + "\ninclude " + next + "\n");
+    }
+  write("include_40.inc", "# nothing\n");
+  CHECK_THAT(message([] { ParameterFile("include_0.inc"); }), Catch::Contains("more than 1000"));
+}
+
+
+TEST_CASE("lines of files that are no scenes are not quoted", "[options]")
+{
+  std::ofstream("secrets") << "root:x:0:0\n";
+  CHECK_THAT(message([] { read("include secrets\n"); }),
+             Catch::Contains("secrets:1") && !Catch::Contains("root:x"));
 }
 
 

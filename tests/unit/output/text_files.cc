@@ -90,6 +90,53 @@ TEST_CASE("statistics: other columns than before are refused", "[statistics][mpi
 }
 
 
+TEST_CASE("statistics: only the rows that were written are continued", "[statistics][mpi]")
+{
+  TemporaryFolder folder;
+  const auto      path = folder.path / "statistics";
+  write_steps(path, 5);
+  std::uint64_t until_3 = 0;
+  {
+    StatisticsFile file(MPI_COMM_WORLD, path, 3);
+    until_3 = file.digest();
+    file.append(row(4, 1. / 3));
+  }
+  const auto whole   = read_file(path);
+  const auto goes_on = [&](const std::uint64_t digest) {
+    StatisticsFile::assert_continues(MPI_COMM_WORLD, path, 3, row(3, 0), digest);
+  };
+  const auto becomes = [&](const std::string &text) {
+    on_first_rank(MPI_COMM_WORLD, [&] { write_file(path, text); });
+  };
+  CHECK_NOTHROW(goes_on(until_3));
+  CHECK_NOTHROW(goes_on(0));
+
+  auto changed                             = whole;
+  changed[changed.find("3.333333333e-01")] = '4';
+  becomes(changed);
+  CHECK_THROWS_AS(goes_on(until_3), FileError);
+  CHECK_NOTHROW(goes_on(0)); // which only a digest shows
+
+  const auto row_2 = whole.find("\n                 2"), row_3 = whole.find("\n                 3");
+  REQUIRE(row_3 != std::string::npos);
+  becomes(whole.substr(0, row_3 + 1)); // ends too early
+  CHECK_THROWS_AS(goes_on(0), FileError);
+  becomes(whole.substr(0, row_2) + whole.substr(row_3)); // lacks a row
+  CHECK_THROWS_AS(goes_on(0), FileError);
+  becomes(whole.substr(whole.find('\n') + 1)); // lacks a line of the header
+  CHECK_THROWS_AS(goes_on(0), FileError);
+  CHECK(read_file(path) == whole.substr(whole.find('\n') + 1)); // nothing was changed
+}
+
+
+TEST_CASE("a digest of pieces is that of the whole", "[statistics]")
+{
+  CHECK(digest(digest(0, "ab"), "c") == digest(0, "abc"));
+  CHECK(digest(0, "abc") != digest(0, "acb"));
+  CHECK(digest(0, "") == 0);
+}
+
+
 TEST_CASE("statistics: what is not a number is named and not written", "[statistics][mpi]")
 {
   TemporaryFolder folder;

@@ -23,6 +23,10 @@ namespace undine
   /// which leaves the scene's value in `density`, or its initial value if the scene has none. The
   /// same statements list every parameter for `--reference` and `parameters.prm`. An Options is a
   /// light handle: copies refer to the same file.
+  ///
+  /// A mistake of the scene is thrown where it is found, or, after collecting(), noted: the
+  /// variable then keeps its initial value, reading goes on, and throw_mistakes() reports all of
+  /// them.
   class Options
   {
   public:
@@ -41,8 +45,12 @@ namespace undine
       bool        required = false;
     };
 
-    /// Read from a file.
+    /// Read from a file. Throws InputError if lines of it make no sense.
     explicit Options(ParameterFile file);
+
+    /// Read from a file and note mistakes, those of its lines first, until throw_mistakes().
+    static Options
+    collecting(ParameterFile file);
 
     /// For documentation: add() changes nothing, choose() visits every registered part, and
     /// named_sections() returns one example name.
@@ -74,11 +82,11 @@ namespace undine
           }
         catch (const InputError &reason)
           {
-            throw error(key,
-                        "the value '" + *text + "' " + reason.what(),
-                        "Allowed: " + type_name(variable) +
-                          (allowed.description.empty() ? "" : ", " + allowed.description) +
-                          (unit.empty() ? "" : " [" + unit + "]"));
+            mistake(error(key,
+                          "the value '" + *text + "' " + reason.what(),
+                          "Allowed: " + type_name(variable) +
+                            (allowed.description.empty() ? "" : ", " + allowed.description) +
+                            (unit.empty() ? "" : " [" + unit + "]")));
           }
       record({"",
               key,
@@ -102,11 +110,11 @@ namespace undine
             const std::string &help) const
     {
       if (!is_reference() && !given(key))
-        throw error(key,
-                    "must be given",
-                    "Allowed: " + type_name(variable) +
-                      (allowed.description.empty() ? "" : ", " + allowed.description) +
-                      (unit.empty() ? "" : " [" + unit + "]") + ". " + help);
+        mistake(error(key,
+                      "must be given",
+                      "Allowed: " + type_name(variable) +
+                        (allowed.description.empty() ? "" : ", " + allowed.description) +
+                        (unit.empty() ? "" : " [" + unit + "]") + ". " + help));
       add(key, variable, unit, allowed, help);
       mark_required(key);
     }
@@ -119,6 +127,8 @@ namespace undine
       const auto &registry = Registry<Part>::instance();
       std::string name     = default_name;
       add(key, name, "", Allowed::one_of(registry.names()), help);
+      if (const auto *text = assigned_text(key); text != nullptr && *text != name)
+        leave_unjudged(); // which keys the part would have is not known
       if (is_reference())
         for (const auto &other : registry.names())
           registry.make(other)->add_options(under_condition(key + " = " + other));
@@ -132,7 +142,8 @@ namespace undine
     bool
     given(const std::string &key = "") const;
 
-    /// Names of subsections that the scene's author chose (bodies, probes, ...).
+    /// Names of subsections that the scene's author chose (bodies, probes, ...). A name that files
+    /// of results could not hold is a mistake.
     std::vector<std::string>
     named_sections(const std::string &example_name) const;
 
@@ -141,10 +152,45 @@ namespace undine
     InputError
     error(const std::string &key, const std::string &what, const std::string &hint) const;
 
-    /// Throws InputError for the first assignment of the scene that no part has read: its place,
-    /// and the keys that exist there, the most similar one first.
+    /// Mistakes are assignments that no part has read: each with its place and the keys that exist
+    /// there, the most similar one first.
     void
     assert_all_used() const;
+
+    /// Run `action`. If mistakes are collected, an InputError that it throws is noted, unless it
+    /// may follow from others that the action has noted before.
+    template <class Action>
+    void
+    attempt(const Action &action) const
+    {
+      const auto n_before = n_mistakes();
+      try
+        {
+          action();
+        }
+      catch (const InputError &found)
+        {
+          if (!collects() || n_mistakes() == n_before)
+            mistake(found);
+        }
+    }
+
+    /// Note a mistake of the scene, or throw it if mistakes are not collected.
+    void
+    mistake(const InputError &found) const;
+
+    /// `key`, or a subsection of that name, is no mistake even if no part reads it; if empty, all
+    /// of this section.
+    void
+    leave_unjudged(const std::string &key = "") const;
+
+    /// The number of mistakes noted so far.
+    std::size_t
+    n_mistakes() const;
+
+    /// Throws InputError with all mistakes noted so far, if there are any.
+    void
+    throw_mistakes() const;
 
     const std::vector<Entry> &
     entries() const;
@@ -167,9 +213,12 @@ namespace undine
   private:
     struct Store
     {
-      ParameterFile      file;
-      bool               reference = false;
-      std::vector<Entry> entries;
+      ParameterFile            file;
+      bool                     reference = false;
+      bool                     collects  = false;
+      std::vector<Entry>       entries;
+      std::vector<std::string> mistakes;
+      std::vector<std::string> unjudged; ///< sections in which any key may be right
     };
 
     Options() = default;
@@ -185,6 +234,12 @@ namespace undine
 
     Options
     under_condition(const std::string &condition) const;
+
+    InputError
+    unknown(const std::string &full_path) const;
+
+    bool
+    collects() const;
 
     std::shared_ptr<Store> store;
     std::string            path; ///< "Bodies/beam/" or ""

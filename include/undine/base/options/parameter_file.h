@@ -12,7 +12,8 @@ namespace undine
   /// The assignments of a scene, before anything is known about their meaning. The syntax is that
   /// of deal.II's ParameterHandler (`subsection NAME`, `set KEY = VALUE`, `end`, `include FILE`,
   /// `#` comments, `\` at a line's end continues it), but, since named bodies and chosen parts
-  /// decide which keys exist, the text is read before any key is declared.
+  /// decide which keys exist, the text is read before any key is declared. In values, `\#` stands
+  /// for '#' and `\\` for a backslash. A line that makes no sense is left out and noted.
   class ParameterFile
   {
   public:
@@ -27,12 +28,22 @@ namespace undine
     /// An empty scene: every parameter has its default.
     ParameterFile() = default;
 
-    /// Read a file. Throws FileError if it cannot be opened, InputError if a line makes no sense.
+    /// Read a file. Throws FileError if it, or one that it includes, cannot be opened, InputError
+    /// if its sections do not match or if it includes too much.
     explicit ParameterFile(const std::string &file_name);
 
-    /// Apply `Section/Subsection/Key=value`. Throws InputError if it has another form.
+    /// Apply `Section/Subsection/Key=value`; the value stands as it is, without comments. Throws
+    /// InputError if it has another form.
     void
     set(const std::string &assignment);
+
+    /// What is wrong with lines of the file, each with its place.
+    const std::vector<std::string> &
+    mistakes() const;
+
+    /// `value` as a file must have it: the inverse of what reading does with `\`.
+    static std::string
+    escaped(const std::string &value);
 
     /// The assignment of `path` ("Section/Key"), or nullptr if the scene has none.
     Assignment *
@@ -92,6 +103,8 @@ namespace undine
     std::vector<std::string>           order;
     std::vector<std::string>           section_order;
     std::vector<std::filesystem::path> open_files; ///< being read: the scene and what it includes
+    unsigned int                       n_included = 0;
+    std::vector<std::string>           line_mistakes;
   };
 } // namespace undine
 

@@ -16,9 +16,10 @@ namespace undine
   /// Which values a key may take: a test for each number, or a list of words.
   struct Allowed
   {
-    std::string                 description; ///< "> 0", "a | b | c"; empty: anything
-    std::function<bool(double)> number;      ///< empty: every finite number
-    std::vector<std::string>    words;       ///< empty: every text
+    std::string                 description;    ///< "> 0", "a | b | c"; empty: anything
+    std::function<bool(double)> number;         ///< empty: every finite number
+    std::vector<std::string>    words;          ///< empty: every text
+    bool                        in_time = true; ///< of an expression: may name the time t
 
     static Allowed
     anything();
@@ -34,6 +35,9 @@ namespace undine
     below(double lower, double upper);
     static Allowed
     one_of(const std::vector<std::string> &words);
+    /// An expression of place alone, for what is evaluated once.
+    static Allowed
+    constant_in_time();
   };
 
   /// Convert text to a value, or throw InputError whose text continues "the value 'abc' ...".
@@ -64,8 +68,10 @@ namespace undine
   void
   read_value(const std::string &text, const Allowed &allowed, Expression<dim, n_components> &value)
   {
-    (void)allowed;
-    value = Expression<dim, n_components>(text);
+    const Expression<dim, n_components> expression(text);
+    if (!allowed.in_time && expression.names_time())
+      throw InputError("names the time t, but is evaluated only once");
+    value = expression;
   }
   /// @}
 
