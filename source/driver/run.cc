@@ -65,8 +65,8 @@ namespace undine
     }
 
 
-    /// Keep the state before the step that failed; returns what to tell the user, which is also
-    /// logged.
+    /// Keep the state before the step that was not completed; returns what to tell the user, which
+    /// is also logged, after `heading`.
     template <int dim>
     std::string
     last_words(const Error        &error,
@@ -74,6 +74,7 @@ namespace undine
                const Scene<dim>   &scene,
                const ResultFolder &folder,
                Log                &log,
+               const std::string  &heading  = "Error: ",
                const std::string  &settings = " --set \"Section/Key=value\"")
     {
       const std::string message = fmt::format("step {}, which begins at {:.6g} s: {}\n{}",
@@ -81,7 +82,7 @@ namespace undine
                                               state.clock.time,
                                               error.what(),
                                               keep_last_state(state, scene, folder, settings));
-      log.record("\nError: " + message + "\n");
+      log.record("\n" + heading + message + "\n");
       return message;
     }
 
@@ -108,7 +109,7 @@ namespace undine
         }
       catch (const Interruption &error)
         {
-          throw Interruption(last_words(error, state, scene, folder, log, ""));
+          throw Interruption(last_words(error, state, scene, folder, log, "", ""));
         }
       catch (const InputError &error)
         {

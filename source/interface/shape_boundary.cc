@@ -200,13 +200,9 @@ namespace undine
     options.add("Map",
                 map,
                 "m",
-                Allowed::anything(),
+                Allowed::constant_in_time(),
                 "Where each vertex of the refined shape is at rest, as a function of where the "
                 "shape has it; not given: there.");
-    if (has_map && map.names_time())
-      throw options.error("Map",
-                          "depends on the time t, but says where things rest",
-                          "Try: 'Displacement' for what moves.");
     options.add("Refinements",
                 refinements,
                 "1",

@@ -106,8 +106,7 @@ namespace undine
   Allowed::constant_in_time()
   {
     Allowed result;
-    result.description = "constant in time";
-    result.in_time     = false;
+    result.in_time = false;
     return result;
   }
 
@@ -121,10 +120,17 @@ namespace undine
       value = number;
     else
       {
-        const Expression<1> expression(text);
-        if (expression.names_time() || expression.names_place())
-          throw InputError("names a variable, but must be constant");
-        value = expression.value(dealii::Point<1>(), 0);
+        try
+          {
+            const Expression<1> expression(text);
+            if (expression.names_time() || expression.names_place())
+              throw InputError("names a variable, but must be constant");
+            value = expression.value(dealii::Point<1>(), 0);
+          }
+        catch (const InputError &reason)
+          {
+            throw InputError(std::string("is not a number: it ") + reason.what());
+          }
       }
     if (!std::isfinite(value))
       throw InputError("is not a finite number");

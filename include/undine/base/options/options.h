@@ -84,15 +84,13 @@ namespace undine
           {
             mistake(error(key,
                           "the value '" + *text + "' " + reason.what(),
-                          "Allowed: " + type_name(variable) +
-                            (allowed.description.empty() ? "" : ", " + allowed.description) +
-                            (unit.empty() ? "" : " [" + unit + "]")));
+                          allowed_values(variable, unit, allowed)));
           }
       record({"",
               key,
               write_value(variable),
               before,
-              type_name(variable),
+              type_text(variable, allowed),
               unit,
               allowed.description,
               help,
@@ -110,11 +108,7 @@ namespace undine
             const std::string &help) const
     {
       if (!is_reference() && !given(key))
-        mistake(error(key,
-                      "must be given",
-                      "Allowed: " + type_name(variable) +
-                        (allowed.description.empty() ? "" : ", " + allowed.description) +
-                        (unit.empty() ? "" : " [" + unit + "]") + ". " + help));
+        mistake(error(key, "must be given", allowed_values(variable, unit, allowed) + ". " + help));
       add(key, variable, unit, allowed, help);
       mark_required(key);
     }
@@ -222,6 +216,25 @@ namespace undine
     };
 
     Options() = default;
+
+    /// "expression in x, y, t", without t where it must not be named.
+    template <class Value>
+    static std::string
+    type_text(const Value &variable, const Allowed &allowed)
+    {
+      const std::string text = type_name(variable);
+      return allowed.in_time ? text : text.substr(0, text.rfind(", t"));
+    }
+
+    /// "Allowed: number, > 0 [m]".
+    template <class Value>
+    static std::string
+    allowed_values(const Value &variable, const std::string &unit, const Allowed &allowed)
+    {
+      return "Allowed: " + type_text(variable, allowed) +
+             (allowed.description.empty() ? "" : ", " + allowed.description) +
+             (unit.empty() ? "" : " [" + unit + "]");
+    }
 
     const std::string *
     assigned_text(const std::string &key) const;
