@@ -39,3 +39,24 @@ foreach(ranks 1 2)
                    $<TARGET_FILE:undine> ${ranks})
   set_tests_properties(runs/iterations.mpirun=${ranks} PROPERTIES PROCESSORS ${ranks} TIMEOUT 300)
 endforeach()
+
+# Stopped by signals, and what a user is told then.
+add_test(NAME runs/signals
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_signals.py $<TARGET_FILE:undine>
+                 ${CMAKE_CURRENT_SOURCE_DIR}/resume/friction.prm)
+set_tests_properties(runs/signals PROPERTIES PROCESSORS 2 TIMEOUT 300)
+
+# What takes long is run by './undine test --long' only.
+add_test(NAME long/kills
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/campaign/kills.py
+                 $<TARGET_FILE:undine>)
+set_tests_properties(long/kills PROPERTIES PROCESSORS 2 LABELS long TIMEOUT 7200)
+
+# Spoilt scenes: a small sample of those that tests/fuzz/fuzz.py makes, and the tester itself.
+add_test(NAME fuzz/tester
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/test_fuzz.py)
+set_tests_properties(fuzz/tester PROPERTIES TIMEOUT 300)
+add_test(NAME fuzz/sample
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/fuzz.py
+                 $<TARGET_FILE:undine> --cases 30 --run 3 --jobs 2 --limit 120)
+set_tests_properties(fuzz/sample PROPERTIES PROCESSORS 2 TIMEOUT 600)

@@ -205,7 +205,7 @@ namespace undine
     const auto                     section = scene.section("Bodies");
     std::vector<ParticleBody<dim>> result;
     for (const auto &name : section.named_sections("beam"))
-      section.attempt([&] { result.emplace_back(name, section.section(name)); });
+      section.section(name).attempt([&] { result.emplace_back(name, section.section(name)); });
     return result;
   }
 

@@ -133,14 +133,18 @@ namespace undine
   void
   ParticleModel<dim>::declare(const Options &scene)
   {
-    const ParticleNumerics numerics(scene);
-    const bool             has_spacing = numerics.spacing > 0; // or a mistake has been noted
-    if (has_spacing)
-      scene.attempt([&] { ParticleDomain<dim>(scene, numerics.spacing, numerics.numerics.reach); });
+    std::optional<ParticleNumerics> numerics;
+    scene.attempt([&] { numerics.emplace(scene); }, {"Particles"});
+    if (numerics && numerics->spacing > 0) // else a mistake has been noted
+      scene.attempt(
+        [&] { ParticleDomain<dim>(scene, numerics->spacing, numerics->numerics.reach); },
+        {"Domain"});
+    else
+      scene.leave_unjudged("Domain");
     read_shows_walls(scene);
     read_particle_bodies<dim>(scene);
     if (scene.is_reference() || scene.section("Fluid").given())
-      scene.attempt([&] { ParticleFluid<dim>{scene}; });
+      scene.attempt([&] { ParticleFluid<dim>{scene}; }, {"Fluid"});
     declare_particle_obstacles<dim>(scene);
   }
 

@@ -224,7 +224,7 @@ namespace undine
     const auto                        section = fluid.section("Boundaries");
     std::vector<ParticleOpening<dim>> result;
     for (const auto &name : section.named_sections("boundary"))
-      section.attempt([&] { result.emplace_back(section.section(name)); });
+      section.section(name).attempt([&] { result.emplace_back(section.section(name)); });
     return result;
   }
 

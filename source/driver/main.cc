@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <exception>
 #include <iostream>
@@ -34,9 +36,15 @@ namespace
   /// Print why the run ends and leave with `code`. What all ranks have seen is printed by the
   /// first; an error that only some have seen must end the others too, which wait for them.
   int
-  leave(const std::string &message, const int code)
+  leave(std::string message, const int code)
   {
     const bool together = all_ranks_are_here();
+    // Bytes of a scene may be commands to a terminal.
+    std::replace_if(
+      message.begin(),
+      message.end(),
+      [](const unsigned char c) { return std::iscntrl(c) && c != '\n'; },
+      '?');
     if (!together || dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cerr << '\n' << message << std::endl;
     if (!together)

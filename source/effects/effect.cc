@@ -113,7 +113,7 @@ namespace undine
           }
         effects.push_back(registry.make(name));
         effects.back()->name = name;
-        section.attempt([&] { effects.back()->add_options(section.section(name)); });
+        section.section(name).attempt([&] { effects.back()->add_options(section.section(name)); });
       }
     return effects;
   }

@@ -198,7 +198,7 @@ namespace undine
   {
     std::vector<Boundary<dim>> boundaries;
     for (const auto &name : options.named_sections("boundary"))
-      options.attempt(
+      options.section(name).attempt(
         [&] { boundaries.push_back(read_boundary<dim>(options.section(name), name)); });
     check_periodicity(options, boundaries);
     return boundaries;

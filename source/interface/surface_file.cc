@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -189,7 +190,7 @@ namespace undine
   {
     const auto    path = options.file().folder() / file;
     std::ifstream in(path, std::ios::binary);
-    if (!in)
+    if (!in || !std::filesystem::is_regular_file(path))
       throw options.error("Surface",
                           "'" + path.string() + "' cannot be read",
                           "Try: a path relative to the folder of the scene's file.");

@@ -132,12 +132,9 @@ namespace undine
         {
           const auto probe      = section.section(name);
           const auto registered = Registry<Probe<dim>>::instance().joined_names();
-          options.attempt([&] {
+          probe.attempt([&] {
             if (!options.is_reference() && !probe.given("Kind"))
-              {
-                probe.leave_unjudged();
-                throw probe.error("Kind", "must be given", "Allowed: " + registered);
-              }
+              throw probe.error("Kind", "must be given", "Allowed: " + registered);
             scene.probes.push_back(probe.template choose<Probe<dim>>(
               "Kind", Registry<Probe<dim>>::instance().names().front(), "What is measured."));
           });
@@ -213,7 +210,13 @@ namespace undine
   {
     const auto scene = read_without_models<dim>(options);
     const auto given = [&](const std::string &section) { return options.section(section).given(); };
-    const auto attempt = [&](const auto &declare) { options.attempt([&] { declare(options); }); };
+    const auto attempt = [&](const auto &declare, const std::vector<std::string> &sections) {
+      options.attempt([&] { declare(options); }, sections);
+    };
+    const auto refuse = [&](const std::string &section, const auto &...why) {
+      options.mistake(options.error(section, why...));
+      options.leave_unjudged(section);
+    };
     if (!given("Bodies") && !given("Fluid"))
       options.mistake(options.error("",
                                     "the scene has neither a fluid nor a body",
@@ -221,27 +224,29 @@ namespace undine
     if (scene.scheme->method() == Scheme<dim>::Method::particles)
       {
         refuse_keys_of_other_schemes(options);
-        attempt(ParticleModel<dim>::declare);
+        attempt(ParticleModel<dim>::declare,
+                {"Particles", "Domain", "Fluid", "Bodies", "Obstacles", "Output"});
       }
     else
       {
         if (given("Particles"))
-          options.mistake(options.error("Particles",
-                                        "is a section of the scheme 'particle' only",
-                                        "Remove it, or set 'Scheme = particle'."));
+          refuse("Particles",
+                 "is a section of the scheme 'particle' only",
+                 "Remove it, or set 'Scheme = particle'.");
         if (given("Bodies"))
-          attempt(SolidModel<dim>::declare);
+          attempt(SolidModel<dim>::declare, {"Bodies", "Solid numerics"});
         if (given("Fluid"))
           {
-            attempt(FluidModel<dim>::declare);
-            attempt(Obstacles<dim>::declare);
-            attempt(VoidRegions<dim>::declare);
+            attempt(FluidModel<dim>::declare, {"Domain", "Fluid"});
+            attempt(Obstacles<dim>::declare, {"Obstacles"});
+            attempt(VoidRegions<dim>::declare, {"Fluid"});
           }
-        options.attempt([&] { read_direction(options, given("Bodies") && given("Fluid")); });
-        if (given("Obstacles") && !given("Fluid"))
-          options.mistake(options.error("Obstacles",
-                                        "obstacles stand in a fluid, but the scene has none",
-                                        "Try: add a subsection 'Fluid' or remove the obstacles."));
+        else if (given("Obstacles"))
+          refuse("Obstacles",
+                 "obstacles stand in a fluid, but the scene has none",
+                 "Try: add a subsection 'Fluid' or remove the obstacles.");
+        options.attempt([&] { read_direction(options, given("Bodies") && given("Fluid")); },
+                        {"Coupling"});
       }
     options.assert_all_used();
     options.throw_mistakes();

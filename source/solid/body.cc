@@ -11,7 +11,7 @@ namespace undine
     {
       std::vector<BodyBoundary<dim>> result;
       for (const auto &name : section.named_sections("root"))
-        section.attempt([&] { result.emplace_back(name, section.section(name)); });
+        section.section(name).attempt([&] { result.emplace_back(name, section.section(name)); });
       return result;
     }
   } // namespace
@@ -60,7 +60,7 @@ namespace undine
   {
     std::vector<Body<dim>> result;
     for (const auto &name : bodies.named_sections("beam"))
-      bodies.attempt([&] { result.emplace_back(name, bodies.section(name)); });
+      bodies.section(name).attempt([&] { result.emplace_back(name, bodies.section(name)); });
     return result;
   }
 

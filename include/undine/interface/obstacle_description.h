@@ -36,7 +36,7 @@ namespace undine
     const auto                 section = scene.section("Obstacles");
     std::vector<Obstacle<dim>> result;
     for (const auto &name : section.named_sections("pillar"))
-      section.attempt([&] { result.emplace_back(name, section.section(name)); });
+      section.section(name).attempt([&] { result.emplace_back(name, section.section(name)); });
     return result;
   }
 } // namespace undine

@@ -97,11 +97,13 @@ namespace undine
     , zero(only_zeros(text))
     , function(std::make_shared<dealii::FunctionParser<dim>>(n_components))
   {
-    const std::string list  = semicolons(text, n_components);
-    const auto        parts = dealii::Utilities::split_string_list(list, ';');
-    if (parts.size() != n_components)
+    const std::string list       = semicolons(text, n_components);
+    const auto        parts      = dealii::Utilities::split_string_list(list, ';');
+    const auto        separators = std::count(list.begin(), list.end(), ';');
+    if (parts.size() != n_components || separators != n_components - 1)
       throw InputError("needs " + std::to_string(n_components) +
-                       " expression(s), separated by ';', but has " + std::to_string(parts.size()));
+                       " expression(s), with ';' between, but has " +
+                       std::to_string(separators + 1));
     for (const auto &part : parts)
       assert_one_value(part);
     assert_repeatable(text);

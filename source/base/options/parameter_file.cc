@@ -69,17 +69,24 @@ namespace undine
     }
 
 
-    /// A line for a message. Lines of files that are no scenes by their names may be private.
+    /// A line for a message.
     std::string
-    quoted(const std::string &line, const std::string &file)
+    quoted(const std::string &line)
+    {
+      return "the line '" + line.substr(0, 100) + (line.size() > 100 ? "...'" : "'");
+    }
+
+
+    /// Messages quote what they are about: files that are no scenes, and may be private, are not
+    /// read.
+    void
+    assert_name_of_scene(const std::string &file, const std::string &place)
     {
       const auto extension = std::filesystem::path(file).extension();
       if (extension != ".prm" && extension != ".inc")
-        return "the line (not shown, since '" + file + "' ends in neither .prm nor .inc)";
-      std::string shown = line.substr(0, 100);
-      std::replace_if(
-        shown.begin(), shown.end(), [](const unsigned char c) { return std::iscntrl(c); }, '?');
-      return "the line '" + shown + (line.size() > 100 ? "...'" : "'");
+        throw InputError(place + "'" + file +
+                         "' is not the name of a scene. Scenes, and what they include, are called "
+                         "NAME.prm or NAME.inc.");
     }
 
 
@@ -98,6 +105,7 @@ namespace undine
   ParameterFile::ParameterFile(const std::string &file_name)
     : file_name(file_name)
   {
+    assert_name_of_scene(file_name, "");
     read(file_name, {});
   }
 
@@ -145,6 +153,7 @@ namespace undine
                          const std::string              &place,
                          const std::vector<std::string> &sections)
   {
+    assert_name_of_scene(name, place + ": ");
     if (!std::filesystem::is_regular_file(name))
       throw FileError(place + ": cannot read the included file '" + name +
                       "'. Its path must be relative to the folder of the including file.");
@@ -186,7 +195,7 @@ namespace undine
     else if (!included.empty())
       include((std::filesystem::path(file).parent_path() / included).string(), place, sections);
     else if (equals == std::string::npos || key.empty())
-      line_mistakes.push_back(place + ": cannot understand " + quoted(line, file) +
+      line_mistakes.push_back(place + ": cannot understand " + quoted(line) +
                               ".\n  Allowed: 'subsection NAME', 'set KEY = VALUE', 'end', "
                               "'include FILE' and comments that begin with '#'.");
     else if (key.find('/') != std::string::npos)

@@ -33,7 +33,7 @@ namespace undine
       const auto    folder = section->file().folder();
       const auto    path   = folder / file;
       std::ifstream in(path);
-      if (!in)
+      if (!in || !std::filesystem::is_regular_file(path))
         throw section->error("File",
                              "'" + path.string() + "' cannot be read",
                              "Try: a path relative to the folder of the scene's file.");

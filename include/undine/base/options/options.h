@@ -151,11 +151,12 @@ namespace undine
     void
     assert_all_used() const;
 
-    /// Run `action`. If mistakes are collected, an InputError that it throws is noted, unless it
-    /// may follow from others that the action has noted before.
+    /// Run `action`, which reads this section, or the given subsections of it. If mistakes are
+    /// collected, an InputError that it throws is noted, unless it may follow from others that the
+    /// action has noted before; what it has not read there is then no mistake.
     template <class Action>
     void
-    attempt(const Action &action) const
+    attempt(const Action &action, const std::vector<std::string> &subsections = {""}) const
     {
       const auto n_before = n_mistakes();
       try
@@ -166,6 +167,8 @@ namespace undine
         {
           if (!collects() || n_mistakes() == n_before)
             mistake(found);
+          for (const auto &name : subsections)
+            leave_unjudged(name);
         }
     }
 
