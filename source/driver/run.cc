@@ -3,9 +3,11 @@
 #include <undine/coupled/fluid_geometry.h>
 #include <undine/driver/effects_report.h>
 #include <undine/driver/log.h>
+#include <undine/driver/measured_costs.h>
 #include <undine/driver/progress.h>
 #include <undine/driver/run.h>
 #include <undine/driver/run_directory.h>
+#include <undine/driver/size_check.h>
 #include <undine/output/checkpoint.h>
 #include <undine/scene/scene.h>
 
@@ -22,7 +24,12 @@ namespace undine
     run_time_loop(
       State<dim> &state, Scene<dim> &scene, Adviser<dim> &adviser, Log &log, TimingTree &timing)
     {
-      Progress progress(log, state.clock);
+      Progress      progress(log, state.clock);
+      MeasuredCosts costs(log, state.clock, scene.models.communicator());
+      scene.scheme->follow([&](const std::string &how_far) {
+        progress.within_step(how_far);
+        return true;
+      });
       while (!state.clock.ended())
         {
           const double dt     = scene.scheme->choose_dt(state);
@@ -34,6 +41,7 @@ namespace undine
             if (output->due(state.clock))
               output->write(state, report);
           progress.report(state.clock, report);
+          costs.observe(state.clock);
         }
     }
 
@@ -130,27 +138,51 @@ namespace undine
     }
 
 
+    /// Nothing is built that the machine may have too little memory for.
+    template <int dim>
+    void
+    validate(const Options &options, const Request &request, MPI_Comm communicator)
+    {
+      Log         log(communicator);
+      const auto  size   = SizeCheck::of<dim>(options, communicator);
+      std::string checks = "no mistakes found";
+      if (size.may_be_too_large())
+        {
+          check_sections<dim>(options);
+          checks +=
+            " in its sections; nothing was built, so whether meshes, places, boundaries and "
+            "probes fit each other was not checked";
+        }
+      else
+        {
+          const auto scene     = read_scene<dim>(options, communicator);
+          const auto complaint = complaint_at_start(scene.models);
+          if (!complaint.empty())
+            log.print("note: {}", complaint);
+        }
+      size.print(log, request.directory.empty() ? "." : request.directory);
+      log.print("{}: {}", options.file().name(), checks);
+    }
+
+
     template <int dim>
     void
     simulate(Options options, const Request &request, MPI_Comm communicator)
     {
       TimingTree timing;
       Log        log(communicator);
-      auto       scene = read_scene<dim>(options, communicator);
+      const auto size = SizeCheck::of<dim>(options, communicator);
+      if (size.may_be_too_large())
+        check_sections<dim>(options); // mistakes first
+      size.refuse_what_is_too_large();
+      auto scene = read_scene<dim>(options, communicator);
       if (!request.directory.empty())
         scene.directory = request.directory;
-      if (request.action == Request::Action::validate)
-        {
-          const auto complaint = complaint_at_start(scene.models);
-          if (!complaint.empty())
-            log.print("note: {}", complaint);
-          log.print("{}: no mistakes found", options.file().name());
-          return;
-        }
 
       // The folder is touched last: a scene that cannot start leaves an earlier run as it was.
       const bool resumed = request.action == Request::Action::resume;
       print_header(log, scene, options, communicator);
+      size.print(log, scene.directory);
       State<dim> state;
       {
         const auto timed   = timing.section("initialise");
@@ -220,9 +252,12 @@ namespace undine
         return;
       }
     const Options options(parameter_file(request));
+    const bool    validates = request.action == Request::Action::validate;
     if (read_dimension(options) == 2)
-      simulate<2>(options, request, communicator);
+      validates ? validate<2>(options, request, communicator)
+                : simulate<2>(options, request, communicator);
     else
-      simulate<3>(options, request, communicator);
+      validates ? validate<3>(options, request, communicator)
+                : simulate<3>(options, request, communicator);
   }
 } // namespace undine

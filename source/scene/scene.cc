@@ -217,6 +217,33 @@ namespace undine
 
 
   template <int dim>
+  void
+  check_sections(const Options &options)
+  {
+    const auto scene = read_without_models<dim>(options);
+    if (scene.scheme->method() == Scheme<dim>::Method::particles)
+      {
+        refuse_keys_of_other_schemes(options);
+        ParticleModel<dim>::declare(options);
+      }
+    else
+      {
+        if (options.section("Bodies").given())
+          SolidModel<dim>::declare(options);
+        if (options.section("Fluid").given())
+          {
+            FluidModel<dim>::declare(options);
+            Obstacles<dim>::declare(options);
+            VoidRegions<dim>::declare(options);
+          }
+        read_direction(options,
+                       options.section("Bodies").given() && options.section("Fluid").given());
+      }
+    options.assert_all_used();
+  }
+
+
+  template <int dim>
   Scene<dim>
   read_scene(const Options &options, const MPI_Comm communicator)
   {
@@ -254,6 +281,10 @@ namespace undine
   }
 
 
+  template void
+  check_sections<2>(const Options &);
+  template void
+  check_sections<3>(const Options &);
   template Scene<2>
   read_scene(const Options &, MPI_Comm);
   template Scene<3>
