@@ -26,6 +26,16 @@ add_test(NAME runs/time_integration
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_time_integration.py $<TARGET_FILE:undine>)
 set_tests_properties(runs/time_integration PROPERTIES TIMEOUT 300)
 
+# Scenes and runs that need more memory than there is, and frames that take long.
+add_test(NAME runs/memory_limit
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_memory_limit.py $<TARGET_FILE:undine>
+                 ${PROJECT_SOURCE_DIR}/prm)
+set_tests_properties(runs/memory_limit PROPERTIES PROCESSORS 2 TIMEOUT 600)
+add_test(NAME runs/long_frame
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_long_frame.py $<TARGET_FILE:undine>
+                 ${PROJECT_SOURCE_DIR}/prm/dam_break_particles.prm)
+set_tests_properties(runs/long_frame PROPERTIES TIMEOUT 300)
+
 # Pictures need packages that the program does not: without them the test is skipped.
 add_test(NAME contrib/render
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_render.py ${PROJECT_SOURCE_DIR}/contrib/render

@@ -3,6 +3,7 @@
 #include <undine/interface/surface_distance.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -119,6 +120,54 @@ namespace undine
         shapes.empty() ? "leaves no fluid" : "and the 'Shapes' together leave no fluid",
         "Try: another region, or a smaller 'Particles / Spacing'; a scene without "
         "fluid has no section 'Fluid'.");
+  }
+
+
+  template <int dim>
+  typename ParticleFluid<dim>::Sample
+  ParticleFluid<dim>::sample(const ParticleDomain<dim>    &domain,
+                             const dealii::Tensor<1, dim> &gravity) const
+  {
+    constexpr double     enough    = 1e5; // cubes
+    const auto           distances = build(shapes, domain);
+    double               all       = 1;
+    std::array<int, dim> stride, index;
+    for (const auto n : domain.cells)
+      all *= n;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        const double each = std::max(1., std::ceil(std::pow(all / enough, 1. / dim)));
+        stride[axis]      = std::min<double>(each, domain.cells[axis]);
+        index[axis]       = stride[axis] / 2;
+      }
+    double       seen = 0, wet = 0, lowest = 0, highest = 0;
+    Sample       result;
+    const double strength = gravity.norm();
+    const auto   first    = index;
+    for (unsigned int axis = 0; axis < dim;)
+      {
+        dealii::Point<dim> place;
+        for (unsigned int d = 0; d < dim; ++d)
+          place[d] = domain.lower[d] + (index[d] + 0.5) * domain.spacing;
+        seen += 1;
+        if (region.value(place, 0.) > 0 &&
+            (shapes.empty() || is_in_one(distances, place, domain.spacing)))
+          {
+            const double height = strength > 0 ? -(place * gravity) / strength : 0;
+            lowest              = wet > 0 ? std::min(lowest, height) : height;
+            highest             = wet > 0 ? std::max(highest, height) : height;
+            wet += 1;
+            result.fastest = std::max(result.fastest, velocity.vector(place, 0.).norm());
+          }
+        for (axis = 0; axis < dim && (index[axis] += stride[axis]) >= int(domain.cells[axis]);
+             ++axis)
+          index[axis] = first[axis];
+      }
+    result.share = wet / seen;
+    if (wet > 0 && strength > 0)
+      result.depth =
+        highest - lowest + *std::max_element(stride.begin(), stride.end()) * domain.spacing;
+    return result;
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/base/parallel/interruption.h>
 #include <undine/coupled/particle_scheme.h>
 #include <undine/particles/phases.h>
 
@@ -7,7 +8,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace undine
@@ -43,6 +46,28 @@ namespace undine
       add_solver(control.pressure, "pressure");
       add_solver(control.faces, "faces'");
       return fmt::format("{}", fmt::join(parts, "; "));
+    }
+
+
+    /// How far a frame is, and what has bounded most of its sub-steps since `before`.
+    std::string
+    progress_of_frame(const particles::StepControl &now, const particles::StepControl &before)
+    {
+      static const std::array<const char *, static_cast<int>(particles::Bound::count)> words{
+        "as long as allowed", "bounded by speed", "bounded by waves", "bounded by viscosity"};
+      unsigned int most = 0, which = 0;
+      for (unsigned int bound = 0; bound < words.size(); ++bound)
+        {
+          const unsigned int times = now.bounded_by[bound] - before.bounded_by[bound];
+          if (times > most)
+            which = bound;
+          most = std::max(most, times);
+        }
+      return fmt::format("{} sub-steps, {:.1f} % of the frame; now {:.3g} s each, {}",
+                         now.sub_steps,
+                         100 * now.elapsed / now.frame,
+                         now.dt,
+                         words[which]);
     }
   } // namespace
 
@@ -98,6 +123,29 @@ namespace undine
 
 
   template <int dim>
+  void
+  ParticleScheme<dim>::follow(typename Scheme<dim>::Follower new_follower)
+  {
+    constexpr double pause = 1; // [s]
+    follower               = std::move(new_follower);
+    if (follower)
+      engine->watch([this](const particles::StepControl &control) { return tell(control); }, pause);
+    else
+      engine->watch({}, pause);
+  }
+
+
+  template <int dim>
+  bool
+  ParticleScheme<dim>::tell(const particles::StepControl &control)
+  {
+    const bool goes_on = follower(progress_of_frame(control, told));
+    told               = control;
+    return goes_on;
+  }
+
+
+  template <int dim>
   Report
   ParticleScheme<dim>::step(State<dim> &state, const double dt)
   {
@@ -106,6 +154,7 @@ namespace undine
     is_loaded = false; // until the frame is known to be good
     Report report;
     report.dt = dt;
+    told      = particles::StepControl();
     engine->move_walls(model->wall_paths(state.clock.time, dt));
     const auto control = advance(state, dt);
     auto       fetched = state.particles; // which stay as they are if the frame is no good
@@ -134,6 +183,11 @@ namespace undine
     try
       {
         return engine->advance(dt);
+      }
+    catch (const particles::FrameAbandoned &)
+      {
+        throw_if_interrupted(model->communicator());
+        throw; // the follower has reasons of its own
       }
     catch (const SolveError &reason)
       {

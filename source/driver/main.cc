@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/interruption.h>
 #include <undine/driver/command_line.h>
+#include <undine/driver/out_of_memory.h>
 #include <undine/driver/run.h>
 
 #include <deal.II/base/mpi.h>
@@ -60,6 +61,7 @@ main(int argc, char **argv)
   // The arguments are ours; one thread a rank, so that ranks times threads is what the user says.
   int                                      no_arguments = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
+  undine::end_run_when_out_of_memory();
   try
     {
       const bool first_rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

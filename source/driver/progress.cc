@@ -7,6 +7,9 @@ namespace undine
 {
   namespace
   {
+    constexpr double first_pause = 5, longest_pause = 60; // within a step [s]
+
+
     double
     seconds_since(const std::chrono::steady_clock::time_point moment)
     {
@@ -31,6 +34,8 @@ namespace undine
     , start(start)
     , begin(std::chrono::steady_clock::now())
     , last_line(begin)
+    , last_step(begin)
+    , pause_within(first_pause)
   {
     log.print("\n{:>8} {:>12} {:>11} {:>7} {:>9} {:>7} {:>7}  left",
               "step",
@@ -56,6 +61,8 @@ namespace undine
   Progress::report(const Clock &clock, const Report &report)
   {
     constexpr double pause = 0.5; // wall seconds between lines
+    last_step              = std::chrono::steady_clock::now();
+    pause_within           = first_pause;
     if (clock.step != start.step + 1 && !clock.ended() && seconds_since(last_line) < pause &&
         report.cuts == 0 && report.note.empty())
       return;
@@ -77,5 +84,16 @@ namespace undine
                               : ""));
     if (!report.note.empty())
       log.print("note: {}", report.note);
+  }
+
+
+  void
+  Progress::within_step(const std::string &how_far)
+  {
+    if (seconds_since(std::max(last_line, last_step)) < pause_within)
+      return;
+    log.print("{:>8} {}", "...", how_far);
+    last_line    = std::chrono::steady_clock::now();
+    pause_within = std::min(2 * pause_within, longest_pause);
   }
 } // namespace undine

@@ -5,9 +5,11 @@
 #include <undine/coupled/fluid_geometry.h>
 #include <undine/driver/effects_report.h>
 #include <undine/driver/log.h>
+#include <undine/driver/measured_costs.h>
 #include <undine/driver/progress.h>
 #include <undine/driver/run.h>
 #include <undine/driver/run_directory.h>
+#include <undine/driver/size_check.h>
 #include <undine/output/checkpoint.h>
 #include <undine/scene/scene.h>
 
@@ -24,7 +26,12 @@ namespace undine
     run_time_loop(
       State<dim> &state, Scene<dim> &scene, Adviser<dim> &adviser, Log &log, TimingTree &timing)
     {
-      Progress progress(log, state.clock);
+      Progress      progress(log, state.clock);
+      MeasuredCosts costs(log, state.clock, scene.models.communicator());
+      scene.scheme->follow([&](const std::string &how_far) {
+        progress.within_step(how_far);
+        return !interruption_requested();
+      });
       listen_for_interruption();
       while (!state.clock.ended())
         {
@@ -38,6 +45,7 @@ namespace undine
             if (output->due(state.clock))
               output->write(state, report);
           progress.report(state.clock, report);
+          costs.observe(state.clock);
         }
     }
 
@@ -203,27 +211,47 @@ namespace undine
     }
 
 
+    /// Nothing is built that the machine may have too little memory for.
+    template <int dim>
+    void
+    validate(const Options &options, const Request &request, MPI_Comm communicator)
+    {
+      Log log(communicator);
+      check_sections<dim>(options); // mistakes first
+      const auto  size   = SizeCheck::of<dim>(options, communicator);
+      std::string checks = "no mistakes found";
+      if (size.may_be_too_large())
+        checks += " in its sections; nothing was built, so whether meshes, places, boundaries and "
+                  "probes fit each other was not checked";
+      else
+        {
+          const auto scene     = read_scene<dim>(options, communicator);
+          const auto complaint = complaint_at_start(scene.models);
+          if (!complaint.empty())
+            log.print("note: {}", complaint);
+        }
+      size.print(log, request.output.empty() ? "." : request.output);
+      log.print("{}: {}", options.file().name(), checks);
+    }
+
+
     template <int dim>
     void
     simulate(Options options, const Request &request, MPI_Comm communicator)
     {
       TimingTree timing;
       Log        log(communicator);
-      auto       scene = read_scene<dim>(options, communicator);
-      if (request.action == Request::Action::validate)
-        {
-          const auto complaint = complaint_at_start(scene.models);
-          if (!complaint.empty())
-            log.print("note: {}", complaint);
-          log.print("{}: no mistakes found", options.file().name());
-          return;
-        }
+      check_sections<dim>(options); // mistakes first
+      const auto size = SizeCheck::of<dim>(options, communicator);
+      size.refuse_what_is_too_large();
+      auto scene = read_scene<dim>(options, communicator);
 
       scene.directory = results_folder(request, scene.directory);
       ResultFolder folder(communicator, scene.directory);
       if (request.action != Request::Action::resume || scene.directory != request.directory)
         assert_replaceable(folder, request.overwrite, communicator);
       print_header(log, scene, options, communicator);
+      size.print(log, scene.directory);
       State<dim> state;
       set_up(state, scene, options, request, folder, log, timing, communicator);
       print_unknowns(log, scene);
@@ -281,10 +309,13 @@ namespace undine
           print_reference();
         return;
       }
-    const auto options = Options::collecting(parameter_file(request));
+    const auto options   = Options::collecting(parameter_file(request));
+    const bool validates = request.action == Request::Action::validate;
     if (read_dimension(options) == 2)
-      simulate<2>(options, request, communicator);
+      validates ? validate<2>(options, request, communicator)
+                : simulate<2>(options, request, communicator);
     else
-      simulate<3>(options, request, communicator);
+      validates ? validate<3>(options, request, communicator)
+                : simulate<3>(options, request, communicator);
   }
 } // namespace undine

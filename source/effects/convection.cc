@@ -37,6 +37,12 @@ namespace undine
       return method->summary();
     }
 
+    typename Effect<dim>::Work
+    work() const override
+    {
+      return {dim, 0};
+    }
+
     void
     transport(FluidStep<dim> &step) const override
     {

@@ -49,6 +49,14 @@ namespace undine
 
 
   template <int dim>
+  typename Effect<dim>::Work
+  Effect<dim>::work() const
+  {
+    return {};
+  }
+
+
+  template <int dim>
   std::size_t
   Effect<dim>::memory_consumption(const FluidState<dim> &) const
   {

@@ -282,6 +282,15 @@ namespace undine
         }
     }
 
+    typename Effect<dim>::Work
+    work() const override
+    {
+      unsigned int implicit = 0;
+      for (const auto &field : fields)
+        implicit += field->diffusivity > 0 ? 1 : 0;
+      return {static_cast<unsigned int>(fields.size()), implicit};
+    }
+
     std::size_t
     memory_consumption(const FluidState<dim> &state) const override
     {

@@ -75,6 +75,12 @@ namespace undine
       add(velocity, -step.dt, gradient);
     }
 
+    typename Effect<dim>::Work
+    work() const override
+    {
+      return {0, dim};
+    }
+
     std::size_t
     memory_consumption(const FluidState<dim> &) const override
     {

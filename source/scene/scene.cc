@@ -202,8 +202,6 @@ namespace undine
   } // namespace
 
 
-  /// Read every section for its mistakes and throw them all; nothing that takes time or memory is
-  /// built.
   template <int dim>
   void
   check_sections(const Options &options)
@@ -300,6 +298,10 @@ namespace undine
   }
 
 
+  template void
+  check_sections<2>(const Options &);
+  template void
+  check_sections<3>(const Options &);
   template Scene<2>
   read_scene(const Options &, MPI_Comm);
   template Scene<3>

@@ -21,15 +21,12 @@ namespace undine
     const std::string &choice = model.numerics().linear_solver;
     if (choice != "auto")
       return choice == "direct";
-    // Where a factorisation costs as much as multigrid: 30000 unknowns of a square, 6000 of a cube.
-    // Elements with a dilatation of their own need more iterations: at a Poisson's ratio of 0.48 in
-    // 3D both cost the same with 20000 unknowns, at 0.4999 the iteration does not converge.
-    const double most = 7e9, most_if_separated = 8e10;
-    const bool   separated =
+    const bool separated =
       std::any_of(model.bodies().begin(), model.bodies().end(), [](auto &body) {
         return body.kinematics->separates_volumetric_part(*body.material);
       });
-    return factorisation_work(model) <= (separated ? most_if_separated : most);
+    return factorisation_work(model) <=
+           (separated ? MostWork::of_factors_with_dilatation : MostWork::of_factors);
   }
 
 

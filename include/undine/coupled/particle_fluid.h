@@ -24,6 +24,18 @@ namespace undine
     fill(const ParticleDomain<dim>                             &domain,
          const std::function<bool(const dealii::Point<dim> &)> &taken);
 
+    /// What is known of the fluid at the start before its particles are made.
+    struct Sample
+    {
+      double share   = 0; ///< of the domain's cubes, obstacles and bodies aside [1]
+      double depth   = 0; ///< along gravity [m]
+      double fastest = 0; ///< [m/s]
+    };
+
+    /// Look at one cube of so many that about 1e5 are looked at. Throws InputError.
+    Sample
+    sample(const ParticleDomain<dim> &domain, const dealii::Tensor<1, dim> &gravity) const;
+
     Options                             options;
     double                              density      = 1000; ///< [kg/m^3]
     double                              bulk_modulus = 0;    ///< [Pa]; 0: incompressible

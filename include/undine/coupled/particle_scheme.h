@@ -32,6 +32,10 @@ namespace undine
     double
     choose_dt(const State<dim> &state) const override;
 
+    void
+    follow(typename Scheme<dim>::Follower follower) override;
+
+    /// Throws Interruption or particles::FrameAbandoned if the follower wants that.
     Report
     step(State<dim> &state, double dt) override;
 
@@ -43,6 +47,10 @@ namespace undine
     /// A frame. Throws SolveError, with what the scene may have to do with it.
     particles::StepControl
     advance(const State<dim> &state, const double dt);
+
+    /// Tell the follower how far the frame is. Returns false if it is to be abandoned.
+    bool
+    tell(const particles::StepControl &control);
 
     /// Copy the engine's particles, and what it says about them.
     void
@@ -61,6 +69,8 @@ namespace undine
     bool                                    is_loaded   = false;
     double                                  loaded_time = 0; ///< of the engine's particles [s]
     std::map<std::string, double>           seconds;         ///< so far
+    typename Scheme<dim>::Follower          follower;        ///< empty: nobody
+    particles::StepControl                  told;            ///< what it has been told last
   };
 
   /// The columns of the file `statistics`.

@@ -8,6 +8,9 @@
 #include <undine/coupled/report.h>
 #include <undine/coupled/state.h>
 
+#include <functional>
+#include <string>
+
 namespace undine
 {
   /// A way to take fluid and bodies from one time to the next. The only writer of State.
@@ -41,6 +44,16 @@ namespace undine
     /// The step to try next [s]; lands on the clock's landing times.
     virtual double
     choose_dt(const State<dim> &state) const = 0;
+
+    /// Is told, in words, how far a step is; returns false if the step is to be abandoned.
+    using Follower = std::function<bool(const std::string &)>;
+
+    /// From now on tell `follower` of steps that take longer than a second, about every second.
+    /// Schemes whose steps nobody can look into tell nothing.
+    virtual void
+    follow(Follower)
+    {
+    }
 
     /// Advance fluid and bodies (not the clock) by at most `dt` [s]. Throws SolveError if no step
     /// can be accepted; the state is then the one before the step.

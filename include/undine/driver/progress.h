@@ -7,6 +7,7 @@
 #include <undine/driver/log.h>
 
 #include <chrono>
+#include <string>
 
 namespace undine
 {
@@ -20,6 +21,11 @@ namespace undine
     void
     report(const Clock &clock, const Report &report);
 
+    /// A line on a step that takes long: after five seconds, then at pauses that double up to a
+    /// minute.
+    void
+    within_step(const std::string &how_far);
+
   private:
     using Moment = std::chrono::steady_clock::time_point;
 
@@ -30,6 +36,8 @@ namespace undine
     Clock  start;
     Moment begin;
     Moment last_line;
+    Moment last_step;
+    double pause_within = 0; ///< [s]
   };
 } // namespace undine
 

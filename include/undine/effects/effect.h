@@ -73,6 +73,17 @@ namespace undine
     diffuse(FluidStep<dim> &step) const;
     /// @}
 
+    /// What a stage of a step computes for the effect on every cell of the grid.
+    struct Work
+    {
+      unsigned int carried  = 0; ///< fields that go along with the flow
+      unsigned int implicit = 0; ///< fields for which a linear system is solved
+    };
+
+    /// For estimates of memory and time before anything is built.
+    virtual Work
+    work() const;
+
     /// What exists on this rank for the effect alone: matrices that it keeps, its fields in the
     /// state [bytes]. What it allocates within a phase goes to FluidStep::timing.memory.
     virtual std::size_t

@@ -9,7 +9,9 @@
 #include <undine/particles/setup.h>
 #include <undine/particles/step_control.h>
 
+#include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +39,16 @@ namespace undine::particles
     double copy    = 0; ///< of what does not fit in caches
   };
 
+  /// Somebody looked at a frame that went on and wanted no more of it.
+  class FrameAbandoned : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /// Is shown how far a frame is; false: the frame is abandoned.
+  using Look = std::function<bool(const StepControl &)>;
+
   /// Moves the particles of a scene; one for the host, one for the device.
   template <int dim>
   class Engine
@@ -53,8 +65,14 @@ namespace undine::particles
     virtual void
     move_walls(const WallPaths<dim> &paths) = 0;
 
+    /// From now on show frames that go on to `look`: whenever about `pause` [s] of wall time have
+    /// passed, but not within a sub-step. What sub-steps compute does not depend on it.
+    virtual void
+    watch(Look look, double pause) = 0;
+
     /// A frame of `length` [s] in sub-steps. Throws SolveError with the reason if it cannot be
-    /// completed.
+    /// completed, and FrameAbandoned if the one who looks wants that; the particles are then where
+    /// they were before the frame.
     virtual StepControl
     advance(double length) = 0;
 

@@ -6,6 +6,7 @@
 #include <undine/particles/engine.h>
 #include <undine/particles/failures.h>
 #include <undine/particles/measure_balance.h>
+#include <undine/particles/pace.h>
 #include <undine/particles/particle_system.h>
 #include <undine/particles/phases.h>
 #include <undine/particles/state_transfer.h>
@@ -42,6 +43,13 @@ namespace undine::particles
       if (static_cast<int>(paths_of_frame.size()) != setup.n_moving)
         throw InputError("paths are for another number of moving particles than the scene has.");
       paths = paths_of_frame;
+    }
+
+    void
+    watch(Look look_, const double pause) override
+    {
+      look = std::move(look_);
+      pace = Pace(look ? pause : 0);
     }
 
     StepControl
@@ -218,7 +226,9 @@ namespace undine::particles
       present.prepare();
     }
 
-    /// Sub-steps are enqueued in batches of as many as the last one lets expect.
+    /// Sub-steps are enqueued in batches of as many as the last one lets expect, or, if somebody
+    /// looks, as fit between two looks. What is enqueued beyond the end of the frame does nothing:
+    /// how they are cut into batches does not matter.
     template <class AnySystem>
     StepControl
     attempt(AnySystem &present, const double length)
@@ -228,19 +238,32 @@ namespace undine::particles
       int         batch = expected;
       do
         {
+          batch = pace.at_most(batch);
+          pace.start();
           for (int k = 0; k < batch; ++k)
             present.sub_step();
           executor->enter(Phase::other);
           control = present.read_control();
-          batch   = control.dt > 0
-                      ? static_cast<int>(std::ceil((length - control.elapsed) / control.dt - 1e-6))
-                      : 0;
-          batch   = std::min(batch, most_in_a_batch);
+          pace.stop(batch);
+          batch = control.dt > 0
+                    ? static_cast<int>(std::ceil((length - control.elapsed) / control.dt - 1e-6))
+                    : 0;
+          batch = std::min(batch, most_in_a_batch);
+          if (batch > 0 && control.failures == 0 && look && pace.is_due() && !look(control))
+            abandon(present);
         }
       while (batch > 0 && control.failures == 0);
       ChooseStep{&control, {}}(0); // looks at the last speed, too
       expected = std::clamp(static_cast<int>(control.sub_steps), 1, most_in_a_batch);
       return control;
+    }
+
+    template <class AnySystem>
+    [[noreturn]] void
+    abandon(AnySystem &present)
+    {
+      snapshot->restore(present.arrays(), present.elastic());
+      throw FrameAbandoned("the frame was abandoned.");
     }
 
     template <class AnySystem>
@@ -261,8 +284,10 @@ namespace undine::particles
 
     std::unique_ptr<Executor>      executor;
     Setup<dim>                     setup;
-    int                            n            = 0;
-    int                            expected     = 1; ///< sub-steps of the next frame
+    int                            n        = 0;
+    int                            expected = 1; ///< sub-steps of the next frame
+    Look                           look;         ///< empty: nobody does
+    Pace                           pace;
     int                            n_waiting    = 0; ///< particles behind inflows
     double                         inflow_speed = 0; ///< of the fastest of them [m/s]
     WallPaths<dim>                 paths;            ///< of this frame

@@ -11,6 +11,17 @@
 
 namespace undine
 {
+  /// How large the mesh of a shape is, and the shape.
+  struct ShapeSize
+  {
+    double cells     = 0;
+    double faces     = 0;     ///< on the boundary
+    double slices    = 1;     ///< cells along the axis along which there are most
+    double volume    = 0;     ///< [m^dim]
+    double area      = 0;     ///< of the boundary [m^(dim-1)]
+    bool   is_curved = false; ///< refinement puts new boundary vertices elsewhere than in between
+  };
+
   /// The shape of a body at rest, as a mesh of quadrilaterals or hexahedra. One shape is one .cc
   /// file that registers itself.
   template <int dim>
@@ -33,6 +44,11 @@ namespace undine
     /// The sides of a mesh that make_mesh() filled.
     virtual Sides
     sides(const dealii::Triangulation<dim> &mesh) const = 0;
+
+    /// For estimates: of the mesh that make_mesh() would make. Shapes whose mesh may be of any size
+    /// say it without making it. Throws as make_mesh() does.
+    virtual ShapeSize
+    size() const;
   };
 } // namespace undine
 

@@ -6,6 +6,7 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace undine
@@ -81,6 +82,25 @@ namespace undine
       for (unsigned int side = 0; side < 2 * dim; ++side)
         result[names[side]] = side;
       return result;
+    }
+
+    ShapeSize
+    size() const override
+    {
+      ShapeSize size;
+      size.cells = size.volume = 1;
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          size.cells *= cells[axis];
+          size.volume *= upper[axis] - lower[axis];
+          size.slices = std::max<double>(size.slices, cells[axis]);
+        }
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          size.faces += 2 * size.cells / cells[axis];
+          size.area += 2 * size.volume / (upper[axis] - lower[axis]);
+        }
+      return size;
     }
 
   private:

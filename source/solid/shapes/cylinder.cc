@@ -2,11 +2,13 @@
 #include <undine/base/core/registry.h>
 #include <undine/solid/body_shape.h>
 
+#include <deal.II/base/numbers.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace undine
 {
@@ -47,6 +49,19 @@ namespace undine
     sides(const dealii::Triangulation<3> &) const override
     {
       return {{"surface", 0}, {"start", 1}, {"end", 2}};
+    }
+
+    ShapeSize
+    size() const override
+    {
+      constexpr double pi           = dealii::numbers::PI;
+      constexpr double cells_across = 5, faces_around = 4; // of a layer
+      return {cells_across * cells,
+              2 * cells_across + faces_around * cells,
+              std::max<double>(cells, std::sqrt(cells_across)),
+              pi * radius * radius * length,
+              2 * pi * radius * (radius + length),
+              true};
     }
 
   private:

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_driver_machine_h
+#define undine_driver_machine_h
+
+#include <deal.II/base/mpi.h>
+
+#include <filesystem>
+#include <limits>
+#include <string>
+
+namespace undine
+{
+  /// Room for something on a machine, and what says so.
+  struct Room
+  {
+    double      bytes = std::numeric_limits<double>::infinity(); ///< infinity: nothing bounds it
+    std::string by;
+  };
+
+  /// Memory that the processes of this host may still take: what /proc/meminfo calls available and
+  /// what the control groups of this process (versions 1 and 2) leave of their limits. Other `root`
+  /// than "/" are for tests.
+  Room
+  free_memory_of_host(const std::filesystem::path &root = "/");
+
+  /// Memory that this process may still take by its own limits (`ulimit -v`, `ulimit -d`).
+  Room
+  free_memory_of_process();
+
+  /// What each rank may still take, if those of a host share its memory evenly: the least of all
+  /// ranks. Collective.
+  Room
+  free_memory_of_each_rank(MPI_Comm communicator);
+
+  /// What this process has in memory now [bytes]; 0 if the system does not tell.
+  double
+  memory_in_use();
+
+  /// Of the disk on which `folder`, or where it will be, is.
+  Room
+  free_disk(const std::filesystem::path &folder);
+} // namespace undine
+
+#endif

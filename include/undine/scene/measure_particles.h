@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_scene_measure_particles_h
+#define undine_scene_measure_particles_h
+
+#include <undine/scene/scene_size.h>
+
+namespace undine
+{
+  /// How many particles a scene of the scheme 'particle' has, and how many sub-steps a frame. The
+  /// region of the fluid is looked at in a sample of places; no particle is made. Throws
+  /// InputError, FileError.
+  template <int dim>
+  ParticleSize
+  measure_particles(const Options &scene);
+} // namespace undine
+
+#endif

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Scenes that are too large are found out before they take memory, and runs that run out of it say so.
+
+usage: check_memory_limit.py PROGRAM PRM_FOLDER
+
+With less and less memory allowed, a run ends well, then for want of memory with exit code 6 and a
+message, then is refused before it begins with exit code 2 and what would fit; on one and two ranks.
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+import scene_tools
+
+MEMORY = 6  # exit codes
+REFUSED = 2
+SECONDS = 1.5
+PEAK = 300e6  # [bytes]
+HUGE = {"plume.prm": "Domain/Cells=400, 625, 400", "cavity.prm": "Domain/Cells=10000, 10000",
+        "dam_break_impact_particles_3d.prm": "Particles/Spacing=0.0005",
+        "cantilever.prm": "Bodies/beam/Cells=1000, 100, 100"}
+
+
+def limited(limit, command):
+    """`command` with at most `limit` bytes of data for each rank."""
+    return ["sh", "-c", f'ulimit -d {int(limit / 1024)} && exec "$0" "$@"'] + command
+
+
+def run(program, scene, settings, ranks=1, limit=None, more=()):
+    """Exit code, what was printed, seconds, largest memory of a process [bytes]."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [program, scene, "--output", os.path.join(folder, "results"), *more]
+        for setting in settings:
+            command += ["--set", setting]
+        command = limited(limit, command) if limit else command
+        if ranks > 1:
+            command = ["mpirun", "-np", str(ranks)] + command
+        start = time.time()
+        with open(os.path.join(folder, "printed"), "w+") as printed:
+            process = subprocess.Popen(command, env=scene_tools.environment(), stdout=printed,
+                                       stderr=subprocess.STDOUT)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            printed.seek(0)
+            text = printed.read()
+        return process.returncode, text, time.time() - start, 1024 * usage.ru_maxrss
+
+
+def expect(holds, what, text):
+    if not holds:
+        sys.exit(f"{what}\n{text[-3000:]}")
+
+
+def check_huge_scenes(program, folder):
+    """1e8 cells or particles, or so many elements, on a machine that lets a process have 4 GB."""
+    for name, setting in HUGE.items():
+        scene = os.path.join(folder, name)
+        code, text, seconds, peak = run(program, scene, [setting], limit=4e9, more=["--validate"])
+        what = f"{name} --validate: exit code {code}, {seconds:.1f} s, {peak / 1e6:.0f} MB"
+        expect(code == 0 and "warning: memory may not suffice" in text and "not checked" in text,
+               f"{what}: must warn", text)
+        expect(seconds < SECONDS and peak < PEAK, f"{what}: takes too much", text)
+
+        code, text, seconds, peak = run(program, scene, [setting], limit=4e9)
+        what = f"{name}: exit code {code}, {seconds:.1f} s, {peak / 1e6:.0f} MB"
+        expect(code == REFUSED and "too large for this machine" in text and " fit" in text,
+               f"{what}: must be refused", text)
+        expect(seconds < SECONDS and peak < PEAK, f"{what}: takes too much", text)
+
+        for more in [], ["--validate"]:
+            code, text, _, _ = run(program, scene, [setting, "Time/Endd=1"], limit=4e9, more=more)
+            expect(code == REFUSED and "Endd" in text, f"{name}: mistakes are to be found first",
+                   text)
+
+
+def check_less_and_less(program, scene, settings, ranks):
+    """Returns the exit codes that were met."""
+    name = f"{os.path.basename(scene)} on {ranks} rank(s)"
+    settings = settings + ["Time/Maximum steps=2", "Output/Parts=statistics"]
+    code, text, _, peak = run(program, scene, settings, ranks)
+    expect(code == 0, f"{name} must run", text)
+    codes = []
+    limit = 1.5e9
+    while REFUSED not in codes[-1:] and limit > 3e7:
+        code, text, _, _ = run(program, scene, settings, ranks, limit)
+        what = f"{name} with {limit / 1e6:.0f} MB each: exit code {code}"
+        expect(code in (0, MEMORY, REFUSED), what, text)
+        expect(code != MEMORY or "out of memory" in text, f"{what} without a message", text)
+        expect(code != REFUSED or re.search(r"too large for this machine.* fit", text, re.S),
+               f"{what} without a message", text)
+        codes.append(code)
+        limit *= 0.85
+    print(f"{name}: {codes}")
+    order = [0, MEMORY, REFUSED]
+    expect(codes == sorted(codes, key=order.index), f"{name}: exit codes {codes}", text)
+    return set(codes)
+
+
+def main():
+    program, folder = sys.argv[1:3]
+    check_huge_scenes(program, folder)
+    met = set()
+    for name, setting, most in (("plume.prm", "Domain/Cells=48, 96, 48", 2),
+                                ("jet_two_sheets.prm", "Domain/Cells=48, 24, 24", 2),
+                                ("cantilever.prm", "Bodies/beam/Cells=32, 4, 6", 2),
+                                ("dam_break_particles.prm", "Particles/Spacing=0.146/96", 1)):
+        for ranks in range(1, most + 1):
+            met |= check_less_and_less(program, os.path.join(folder, name), [setting], ranks)
+    expect(met == {0, MEMORY, REFUSED}, f"only these exit codes were met: {met}", "")
+
+
+main()
