@@ -104,7 +104,7 @@ TEST_CASE("all mistakes of a scene are reported at once", "[options]")
       options.section("Time").require("Step", step, "s", Allowed::positive(), "The step.");
       options.section("Time").add("End", end, "s", Allowed::positive(), "The end.");
     }
-  options.attempt([&] { throw options.error("Title", "is missing", ""); });
+  options.attempt([&] { throw options.error("Title", "is missing", ""); }, {"Title"});
   options.assert_all_used();
   CHECK(options.n_mistakes() == 7);
   CHECK(end == 2); // as before
@@ -119,6 +119,19 @@ TEST_CASE("all mistakes of a scene are reported at once", "[options]")
                                  ":3: section 'Time', key 'Stepp'",
                                  "Did you mean 'Step'?"})
     CHECK_THAT(text, Catch::Contains(part));
+}
+
+
+TEST_CASE("what a reading that was given up has not read is no mistake", "[options]")
+{
+  std::ofstream("scene_under_test.prm") << "subsection Fluid\n set Density = 1\nend\n"
+                                           "subsection Tim\n set End = 1\nend\n";
+  const auto options = Options::collecting(ParameterFile("scene_under_test.prm"));
+  options.attempt([&] { throw options.error("Domain", "is missing", ""); }, {"Fluid"});
+  options.assert_all_used();
+  const auto text = message([&] { options.throw_mistakes(); });
+  CHECK(options.n_mistakes() == 2);
+  CHECK_THAT(text, Catch::Contains("'Tim'") && !Catch::Contains("Density"));
 }
 
 

@@ -23,7 +23,7 @@ namespace
 
 
   bool
-  exists(const std::filesystem::path &path)
+  is_there(const std::filesystem::path &path)
   {
     MPI_Barrier(MPI_COMM_WORLD);
     const bool result = std::filesystem::exists(path);
@@ -63,10 +63,10 @@ TEST_CASE("a new run replaces what runs have written, and nothing else", "[folde
     folder.begin();
     CHECK_FALSE(folder.is_finished());
   }
-  CHECK_FALSE(exists(path / "statistics"));
-  CHECK_FALSE(exists(path / "statistics.part"));
-  CHECK_FALSE(exists(path / "solution" / "fluid_000000.vtu"));
-  CHECK_FALSE(exists(path / "checkpoint")); // empty
+  CHECK_FALSE(is_there(path / "statistics"));
+  CHECK_FALSE(is_there(path / "statistics.part"));
+  CHECK_FALSE(is_there(path / "solution" / "fluid_000000.vtu"));
+  CHECK_FALSE(is_there(path / "checkpoint")); // empty
   CHECK(read_file(path / "solution" / "notes.txt") == "mine");
   CHECK(read_file(path / "pictures" / "one.png") == "mine");
 }
@@ -83,7 +83,7 @@ TEST_CASE("somebody else's files stop a run before it changes anything", "[folde
   CHECK_THROWS_WITH(folder.begin(), Catch::Contains(name));
   CHECK_THROWS_WITH(folder.claim(name), Catch::Contains(name));
   CHECK(read_file(path / name) == "mine");
-  CHECK_FALSE(exists(path / "record.txt"));
+  CHECK_FALSE(is_there(path / "record.txt"));
   CHECK_NOTHROW(folder.go_on()); // a run whose record is lost
   CHECK_NOTHROW(folder.claim(name));
 }
@@ -129,8 +129,8 @@ TEST_CASE("a record that leads out of the folder, or is torn, is not acted upon"
                      "\nfile mine");
   });
   ResultFolder(MPI_COMM_WORLD, path).begin();
-  CHECK(exists(temporary.path / "mine.txt"));
-  CHECK(exists(path / "mine"));
+  CHECK(is_there(temporary.path / "mine.txt"));
+  CHECK(is_there(path / "mine"));
 
   write(path / "record.txt", "my notes\n");
   CHECK_THROWS_WITH(ResultFolder(MPI_COMM_WORLD, path), Catch::Contains("record.txt"));
@@ -143,9 +143,9 @@ TEST_CASE("folders that a run made and did not use go", "[folder][mpi]")
   TemporaryFolder temporary;
   {
     ResultFolder folder(MPI_COMM_WORLD, temporary.path / "a" / "b");
-    CHECK(exists(temporary.path / "a" / "b" / "lock"));
+    CHECK(is_there(temporary.path / "a" / "b" / "lock"));
   }
-  CHECK_FALSE(exists(temporary.path / "a"));
+  CHECK_FALSE(is_there(temporary.path / "a"));
 }
 
 
@@ -157,9 +157,9 @@ TEST_CASE("only one run at a time is in a folder", "[folder][mpi]")
     ResultFolder folder(MPI_COMM_WORLD, temporary.path);
     CHECK_THROWS_WITH(ResultFolder(MPI_COMM_WORLD, temporary.path),
                       Catch::Contains("in use by process"));
-    CHECK(exists(file));
+    CHECK(is_there(file));
   }
-  CHECK_FALSE(exists(file));
+  CHECK_FALSE(is_there(file));
 
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
@@ -168,11 +168,11 @@ TEST_CASE("only one run at a time is in a folder", "[folder][mpi]")
   };
   left_on(host.data()); // by a process that holds it no more
   CHECK_NOTHROW(ResultFolder(MPI_COMM_WORLD, temporary.path));
-  CHECK_FALSE(exists(file));
+  CHECK_FALSE(is_there(file));
   left_on("somewhere-else");
   CHECK_THROWS_WITH(ResultFolder(MPI_COMM_WORLD, temporary.path),
                     Catch::Contains("somewhere-else") && Catch::Contains("remove"));
-  CHECK(exists(file));
+  CHECK(is_there(file));
   write(file, "a lock of another program\n");
   CHECK_THROWS_AS(ResultFolder(MPI_COMM_WORLD, temporary.path), FileError);
   CHECK(read_file(file) == "a lock of another program\n");
