@@ -62,7 +62,7 @@ namespace undine
       for (const auto &node : nodes)
         for (unsigned int d = 0; d < dim; ++d)
           extent = std::max(extent, std::abs(node[d] - nodes[0][d]) / widths[d]);
-      return std::clamp(static_cast<int>(std::ceil(extent * all_along_cell)), 1, most);
+      return static_cast<int>(std::clamp(std::ceil(extent * all_along_cell), 1., double(most)));
     }
 
 

@@ -89,13 +89,15 @@ namespace undine::particles
       return inside;
     }
 
-    /// Along one axis; what is outside counts to the outermost cells.
+    /// Along one axis; what is outside counts to the outermost cells, not-a-number to the first.
     UNDINE_HOST_DEVICE
     int
     coordinate(const Vector<dim, Real> &x, const int axis) const
     {
-      const int cell = static_cast<int>((x[axis] - lower[axis]) * inverse_cell[axis]);
-      return minimum(maximum(cell, 0), cells[axis] - 1);
+      const Real place = (x[axis] - lower[axis]) * inverse_cell[axis];
+      // No grid has as many cells as this bound, and an integer holds it.
+      const Real bounded = minimum(maximum(Real(0), place), Real(1 << 30));
+      return minimum(static_cast<int>(bounded), cells[axis] - 1);
     }
 
     UNDINE_HOST_DEVICE

@@ -245,10 +245,7 @@ namespace undine::particles
           executor->enter(Phase::other);
           control = present.read_control();
           pace.stop(batch);
-          batch = control.dt > 0
-                    ? static_cast<int>(std::ceil((length - control.elapsed) / control.dt - 1e-6))
-                    : 0;
-          batch = std::min(batch, most_in_a_batch);
+          batch = control.sub_steps_left(most_in_a_batch);
           if (batch > 0 && control.failures == 0 && look && pace.is_due() && !look(control))
             abandon(present);
         }

@@ -5,6 +5,8 @@
 #include <undine/particles/atomics.h>
 #include <undine/particles/vector.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace undine::particles
@@ -77,6 +79,16 @@ namespace undine::particles
     done() const
     {
       return dt <= 0;
+    }
+
+    /// How many sub-steps like the present one the rest of the frame takes, at most `most`.
+    int
+    sub_steps_left(const int most) const
+    {
+      if (!(dt > 0))
+        return 0;
+      const double left = std::ceil((frame - elapsed) / dt - 1e-6);
+      return static_cast<int>(std::min(left, static_cast<double>(most)));
     }
   };
 

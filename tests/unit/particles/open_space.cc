@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/particles/cell_grid.h>
+
 #include <catch2/catch.hpp>
 
 #include "particle_scene.h"
+
+#include <limits>
 
 using namespace particle_tests;
 
@@ -202,4 +207,41 @@ TEMPLATE_TEST_CASE_SIG(
   engine->fetch(state);
   for (const auto &velocity : state.velocities)
     REQUIRE(norm_square(velocity - v) < 1e-12);
+}
+
+
+TEMPLATE_TEST_CASE_SIG(
+  "A frame of more sub-steps than an integer counts does not end before its time",
+  "[particles]",
+  ((int dim), dim),
+  2,
+  3)
+{
+  ParticleScene<dim> scene(.1);
+  scene.set_free_space(1);
+  scene.add(Point<dim>::zero(), Kind::fluid, 0, along<dim>(0, 1e12));
+  const auto engine = scene.engine();
+  CHECK_THROWS_AS(engine->advance(1), SolveError); // it leaves its space long before
+}
+
+
+TEMPLATE_TEST_CASE_SIG(
+  "Places far outside a grid count to its outermost cells", "[particles]", ((int dim), dim), 2, 3)
+{
+  const bool periodic[dim] = {};
+  Point<dim> upper;
+  for (int axis = 0; axis < dim; ++axis)
+    upper[axis] = 5 + axis;
+  const auto grid = make_cell_grid<dim, float>(Point<dim>::zero(), upper, periodic, 1);
+  for (int axis = 0; axis < dim; ++axis)
+    {
+      Vector<dim, float> place = Vector<dim, float>::zero();
+      for (const float far : {1e3f, 1e15f, std::numeric_limits<float>::infinity()})
+        {
+          place[axis] = far;
+          CHECK(grid.coordinate(place, axis) == grid.cells[axis] - 1);
+          place[axis] = -far;
+          CHECK(grid.coordinate(place, axis) == 0);
+        }
+    }
 }
