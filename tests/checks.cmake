@@ -70,3 +70,18 @@ add_test(NAME fuzz/sample
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/fuzz.py
                  $<TARGET_FILE:undine> --cases 30 --run 3 --jobs 2 --limit 120)
 set_tests_properties(fuzz/sample PROPERTIES PROCESSORS 2 TIMEOUT 600)
+add_test(NAME long/memory_coupled
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_memory.py
+                 $<TARGET_FILE:undine> ${CMAKE_CURRENT_SOURCE_DIR}/resume/friction.prm
+                 "Domain/Cells=24, 3" "Bodies/bar/Cells=8, 1" "Time/Step=1/40" "Output/Interval=1"
+                 "Fluid/Boundaries/open/Pressure=2000*sin(5*t)")
+add_test(NAME long/memory_obstacle
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_memory.py
+                 $<TARGET_FILE:undine> ${CMAKE_CURRENT_SOURCE_DIR}/resume/paddle.prm
+                 "Output/Interval=1")
+add_test(NAME long/memory_particles
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_memory.py
+                 $<TARGET_FILE:undine> ${PROJECT_SOURCE_DIR}/prm/jet_over_weir_particles.prm
+                 "Particles/Spacing=0.03" "Output/Interval=1")
+set_tests_properties(long/memory_coupled long/memory_obstacle long/memory_particles PROPERTIES
+  LABELS long TIMEOUT 3600)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
-#include <undine/base/parallel/random_vectors.h>
 #include <undine/fluid/diffusion_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
@@ -29,7 +28,6 @@ namespace undine
     data.aggregation_threshold = 0.02;
     data.smoother_type         = "Chebyshev";
     data.smoother_sweeps       = 2;
-    restart_random_vectors(matrix.get_mpi_communicator());
     multigrid->initialize(matrix, data);
     preconditioner = std::move(multigrid);
   }

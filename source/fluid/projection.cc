@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/relative.h>
-#include <undine/base/parallel/random_vectors.h>
 #include <undine/fluid/boundary_condition.h>
 #include <undine/fluid/entering_flow.h>
 #include <undine/fluid/pressure_gradient.h>
@@ -77,7 +76,6 @@ namespace undine
     data.smoother_type         = "Chebyshev";
     data.smoother_sweeps       = 2;
     multigrid                  = std::make_unique<dealii::TrilinosWrappers::PreconditionAMG>();
-    restart_random_vectors(model.grid().communicator());
     multigrid->initialize(*matrix, data);
     numbers = std::move(new_numbers);
   }

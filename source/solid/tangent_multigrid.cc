@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/parallel/random_vectors.h>
 #include <undine/solid/factorisation_work.h>
 #include <undine/solid/rigid_motions.h>
 #include <undine/solid/sparse.h>
@@ -55,7 +54,6 @@ namespace undine
       parameters.set("null space: dimension", motions.NumVectors());
       parameters.set("null space: vectors", motions.Values());
       parameters.set("null space: add default vectors", false);
-      restart_random_vectors(model.communicator());
       multigrid.initialize(A, parameters);
     }
   } // namespace

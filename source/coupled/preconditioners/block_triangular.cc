@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/registry.h>
-#include <undine/base/parallel/random_vectors.h>
 #include <undine/coupled/block_triangular.h>
 
 namespace undine
@@ -26,7 +25,6 @@ namespace undine
     data.aggregation_threshold = 0.02;
     data.smoother_type         = "Chebyshev";
     data.smoother_sweeps       = 2;
-    restart_random_vectors(schur->get_mpi_communicator());
     multigrid.initialize(*schur, data);
   }
 
