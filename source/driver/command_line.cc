@@ -11,6 +11,28 @@
 
 namespace undine
 {
+  namespace
+  {
+    /// Where results go, and with which settings: for new runs and for those that are taken up
+    /// again.
+    void
+    add_run_options(CLI::App &command, Request &request, const std::string &output)
+    {
+      command.add_option("--output", request.output, output)->type_name("DIR");
+      command.add_flag("--overwrite",
+                       request.overwrite,
+                       "replace a run in that folder which has not reached its end");
+      command
+        .add_option("--set",
+                    request.assignments,
+                    "change a parameter: --set \"Time/End=2\" (may be given several times)")
+        ->type_name("Section/Key=value")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+  } // namespace
+
+
   Request
   read_command_line(const int argc, char **argv, const bool first_rank)
   {
@@ -26,20 +48,7 @@ namespace undine
     bool validate = false, reference = false;
     app.add_option("scene", request.scene_file, "the parameter file to run")
       ->type_name("SCENE.prm");
-    const auto add_output_options = [&](CLI::App &command, const std::string &meaning) {
-      command.add_option("--output", request.output, meaning)->type_name("DIR");
-      command.add_flag("--overwrite",
-                       request.overwrite,
-                       "replace a run in that folder which has not reached its end");
-    };
-    add_output_options(app, "folder for the results");
-    app
-      .add_option("--set",
-                  request.assignments,
-                  "change a parameter: --set \"Time/End=2\" (may be given several times)")
-      ->type_name("Section/Key=value")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_run_options(app, request, "folder for the results");
     app.add_flag("--validate", validate, "check the scene, run nothing");
     app.add_flag("--reference", reference, "print every parameter with unit, range and default");
 
@@ -47,11 +56,7 @@ namespace undine
     resume->add_option("directory", request.directory, "folder of the run")
       ->required()
       ->type_name("DIR");
-    add_output_options(*resume, "folder for what follows, which leaves the run as it is");
-    resume->add_option("--set", request.assignments, "change a parameter, for example Time/End")
-      ->type_name("Section/Key=value")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_run_options(*resume, request, "folder for what follows, which leaves the run as it is");
 
     std::ostringstream out, err;
     try
