@@ -43,7 +43,9 @@ namespace
     auto state                   = scene.linear_state();
     state.clock.end_time         = 1;
     state.clock.landing_interval = 0.5;
-    output->start({MPI_COMM_WORLD, folder, scene.models, probes, timing}, state);
+    ResultFolder results(MPI_COMM_WORLD, folder);
+    results.begin();
+    output->start({MPI_COMM_WORLD, results, scene.models, probes, timing}, state);
     while (true)
       {
         if (output->due(state.clock))
