@@ -114,28 +114,25 @@ namespace undine
   void
   read_value(const std::string &text, const Allowed &allowed, double &value)
   {
-    char        *end    = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    if (!text.empty() && *end == '\0' && end == text.c_str() + text.size())
-      value = number;
-    else
-      {
-        try
-          {
-            const Expression<1> expression(text);
-            if (expression.names_time() || expression.names_place())
-              throw InputError("names a variable, but must be constant");
-            value = expression.value(dealii::Point<1>(), 0);
-          }
-        catch (const InputError &reason)
-          {
-            throw InputError(std::string("is not a number: it ") + reason.what());
-          }
-      }
-    if (!std::isfinite(value))
+    char  *end    = nullptr;
+    double number = std::strtod(text.c_str(), &end);
+    if (text.empty() || end != text.c_str() + text.size())
+      try
+        {
+          const Expression<1> expression(text);
+          if (expression.names_time() || expression.names_place())
+            throw InputError("names a variable, but must be constant");
+          number = expression.value(dealii::Point<1>(), 0);
+        }
+      catch (const InputError &reason)
+        {
+          throw InputError(std::string("is not a number: it ") + reason.what());
+        }
+    if (!std::isfinite(number))
       throw InputError("is not a finite number");
-    if (allowed.number && !allowed.number(value))
+    if (allowed.number && !allowed.number(number))
       throw InputError("is out of range");
+    value = number;
   }
 
 
