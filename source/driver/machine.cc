@@ -159,7 +159,7 @@ namespace undine
   free_disk(const fs::path &folder)
   {
     std::error_code problem;
-    auto            existing = fs::absolute(folder, problem);
+    auto            existing = fs::absolute(folder / ".", problem).lexically_normal();
     while (!existing.empty() && existing.has_relative_path() && !fs::exists(existing, problem))
       existing = existing.parent_path();
     const auto space = fs::space(existing, problem);

@@ -86,7 +86,7 @@ namespace undine
     log.print("size: {}", describe(*size));
     log.print(
       "estimate: {} of memory (within a factor of {}), {} a step (within {}), {} for {:.0f} "
-      "steps",
+      "step(s)",
       readable_bytes(needed.memory),
       Estimate::uncertainty_of_memory,
       readable_seconds(needed.seconds),

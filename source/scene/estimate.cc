@@ -62,16 +62,16 @@ namespace undine
     {
       const auto  &particles = size.particles;
       const auto  &figures   = cost_figures::particles[size.dimension - 2];
-      const double wide      = particles.is_double ? cost_figures::double_precision : 1;
-      result.memory += particles.all() * figures.bytes_state;
+      const double n         = particles.all();
+      result.memory += n * figures.bytes_state;
       if (!particles.on_device)
         result.memory +=
-          wide * (particles.all() * figures.bytes + particles.solid * figures.bytes_solid) +
+          (particles.is_double ? cost_figures::double_precision : 1) *
+            (n * (figures.bytes + (n > cost_figures::multigrid_from ? figures.multigrid : 0)) +
+             particles.solid * figures.bytes_solid) +
           particles.grid_cells * figures.bytes_cell;
-      result.seconds += particles.sub_steps * (particles.all() * figures.sub_step +
-                                               particles.fluid * figures.pressure) +
+      result.seconds += particles.sub_steps * n * figures.sub_step +
                         particles.elastic_steps * particles.solid * figures.elastic;
-      result.seconds *= wide;
       result.picture += particles.all() * cost_figures::picture_particle;
       result.checkpoint += sizeof(double) * particles.all() * (2. * size.dimension + 3);
     }

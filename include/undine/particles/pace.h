@@ -12,13 +12,14 @@ namespace undine::particles
   class Pace
   {
   public:
-    /// `pause` between looks [s]; zero or less: any number of sub-steps.
-    explicit Pace(const double pause = 0)
-      : pause(pause)
+    /// `seconds` between looks; zero or less: any number of sub-steps.
+    void
+    set_pause(const double seconds)
     {
+      pause = seconds;
     }
 
-    /// `batch`, or what fits into the pause, but one.
+    /// `batch`, or what fits into the pause, but at least one.
     int
     at_most(const int batch) const
     {
@@ -56,7 +57,7 @@ namespace undine::particles
   private:
     using Clock = std::chrono::steady_clock;
 
-    double            pause;            ///< [s]
+    double            pause        = 0; ///< [s]
     double            seconds_each = 0; ///< of the last sub-steps [s]
     double            since_look   = 0; ///< [s]
     Clock::time_point begin;

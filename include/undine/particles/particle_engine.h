@@ -49,7 +49,7 @@ namespace undine::particles
     watch(Look look_, const double pause) override
     {
       look = std::move(look_);
-      pace = Pace(look ? pause : 0);
+      pace.set_pause(look ? pause : 0);
     }
 
     StepControl

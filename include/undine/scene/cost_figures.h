@@ -54,21 +54,23 @@ namespace undine
     };
     constexpr Solid solid{58, 24, 60, 0.45e-6, 4e-10, 1e-6};
 
-    /// Particles on the host in single precision; in double precision all of it is so many times
-    /// as much.
-    constexpr double double_precision = 1.8;
+    /// Particles on the host, by particles_benchmark on one core, 7992 to 1052600 particles: what
+    /// one takes in memory in single precision and in all of a sub-step; in double precision the
+    /// engine takes more memory, and as long.
     struct Particles
     {
-      double bytes_state; ///< of a particle in the state, its copies and the model
-      double bytes;       ///< of a particle in the engine: its arrays
+      double bytes_state; ///< in the model, the state and its copies: runs less the benchmark
+      double bytes;       ///< in the engine
+      double multigrid;   ///< besides, if there are as many as it is used for
       double bytes_solid; ///< besides, of a body's particle
       double bytes_cell;  ///< of the grid for neighbours
-      double sub_step;    ///< of a particle without pressure [s]
-      double pressure;    ///< of a particle of the fluid, in a sub-step [s]
+      double sub_step;    ///< with fluid [s]
       double elastic;     ///< of a body's particle in an elastic step [s]
     };
+    constexpr double                   double_precision = 2.3; ///< 45360 particles
     constexpr std::array<Particles, 2> particles{
-      {{500, 620, 400, 24, 0.6e-6, 1.5e-6, 0.6e-6}, {600, 1350, 1800, 24, 2e-6, 4e-6, 2.5e-6}}};
+      {{500, 560, 100, 500, 24, 2.5e-6, 1e-6}, {500, 1270, 300, 2000, 24, 6e-6, 3e-6}}};
+    constexpr double multigrid_from = 100000; ///< particles
 
     /// Files [bytes]: sizes of those of the same runs.
     constexpr double picture_value    = 10; ///< of a value in a cell
