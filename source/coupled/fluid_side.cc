@@ -80,6 +80,25 @@ namespace undine
   }
 
 
+  /// A state from a file lies on parts of its own. If no surface has moved since, those are the
+  /// same as ours, and nothing is carried over from the ones to the others: it goes on bit by bit.
+  template <int dim>
+  void
+  FluidSide<dim>::share_parts(FluidState<dim> &state) const
+  {
+    const auto &parts = bodies().open_parts;
+    if (state.pressure.open_parts() == parts || !cut->is_unmoved())
+      return;
+    for (auto *velocity : {&state.velocity, &state.acceleration, &state.change})
+      for (auto &component : velocity->components)
+        component.share(parts);
+    state.pressure.share(parts);
+    for (auto *fields : {&state.scalars, &state.scalar_rates})
+      for (auto &field : *fields)
+        field.second.share(parts);
+  }
+
+
   template <int dim>
   void
   FluidSide<dim>::initialize(State<dim>      &state,
@@ -142,6 +161,7 @@ namespace undine
     if (stage.is_first)
       ledger.start(state.fluid.velocity);
     place_surfaces(state, stage);
+    share_parts(state.fluid);
     auto fluid = std::make_unique<FluidStep<dim>>(model,
                                                   state.fluid,
                                                   state.next_velocity,

@@ -54,7 +54,7 @@ namespace undine
     progress_of_frame(const particles::StepControl &now, const particles::StepControl &before)
     {
       static const std::array<const char *, static_cast<int>(particles::Bound::count)> words{
-        "as long as allowed", "bounded by speed", "bounded by waves", "bounded by viscosity"};
+        {"as long as allowed", "bounded by speed", "bounded by waves", "bounded by viscosity"}};
       unsigned int most = 0, which = 0;
       for (unsigned int bound = 0; bound < words.size(); ++bound)
         {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
 #include <undine/base/core/interruption.h>
 #include <undine/driver/command_line.h>
 #include <undine/driver/out_of_memory.h>
@@ -10,6 +11,7 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
@@ -80,6 +82,13 @@ main(int argc, char **argv)
   catch (const std::bad_alloc &)
     {
       return leave("Error: out of memory. Try fewer cells or refinements, or more machines.", 6);
+    }
+  catch (const std::filesystem::filesystem_error &error)
+    {
+      return leave("Error: the file or folder '" + error.path1().string() +
+                     "' cannot be used: " + error.code().message() +
+                     ". Check the name and the permissions of the folders on its path.",
+                   undine::FileError("").exit_code());
     }
   catch (const std::exception &error)
     {

@@ -112,7 +112,7 @@ namespace undine
   std::string
   readable_bytes(const double bytes)
   {
-    const std::array<const char *, 5> units{"kB", "MB", "GB", "TB", "PB"};
+    const std::array<const char *, 5> units{{"kB", "MB", "GB", "TB", "PB"}};
     double                            number = bytes / 1000;
     unsigned int                      unit   = 0;
     for (; number >= 1000 && unit + 1 < units.size(); ++unit)

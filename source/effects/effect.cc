@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/options/similar_words.h>
 #include <undine/effects/effect.h>
 
 #include <algorithm>
@@ -114,8 +115,11 @@ namespace undine
       {
         if (!registry.contains(name))
           {
-            section.mistake(section.error(
-              name, "there is no such effect", "Allowed: " + registry.joined_names()));
+            const auto guess = did_you_mean(registry.names(), name);
+            section.mistake(
+              section.error(name,
+                            "there is no such effect" + (guess.empty() ? "" : ". " + guess),
+                            "Allowed: " + registry.joined_names()));
             section.leave_unjudged(name);
             continue;
           }

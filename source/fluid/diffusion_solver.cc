@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/base/parallel/algebraic_multigrid.h>
 #include <undine/fluid/diffusion_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
@@ -22,13 +23,8 @@ namespace undine
         preconditioner = std::move(relaxation);
         return;
       }
-    auto multigrid = std::make_unique<Trilinos::PreconditionAMG>();
-    Trilinos::PreconditionAMG::AdditionalData data;
-    data.elliptic              = true;
-    data.aggregation_threshold = 0.02;
-    data.smoother_type         = "Chebyshev";
-    data.smoother_sweeps       = 2;
-    multigrid->initialize(matrix, data);
+    auto multigrid = std::make_unique<AlgebraicMultigrid>();
+    multigrid->initialize(matrix);
     preconditioner = std::move(multigrid);
   }
 
@@ -57,8 +53,7 @@ namespace undine
   DiffusionSolver::memory_consumption() const
   {
     // deal.II knows the size of a hierarchy's finest matrix, and of relaxation nothing.
-    const auto *multigrid =
-      dynamic_cast<const dealii::TrilinosWrappers::PreconditionAMG *>(preconditioner.get());
+    const auto *multigrid = dynamic_cast<const AlgebraicMultigrid *>(preconditioner.get());
     return matrix.memory_consumption() + (multigrid ? multigrid->memory_consumption() : 0);
   }
 } // namespace undine

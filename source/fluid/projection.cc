@@ -69,14 +69,8 @@ namespace undine
       }
     matrix = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
     build_pressure_matrix(*matrix, model, *new_numbers, closed_regions->pinned());
-
-    dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
-    data.elliptic              = true;
-    data.aggregation_threshold = 0.02;
-    data.smoother_type         = "Chebyshev";
-    data.smoother_sweeps       = 2;
-    multigrid                  = std::make_unique<dealii::TrilinosWrappers::PreconditionAMG>();
-    multigrid->initialize(*matrix, data);
+    multigrid = std::make_unique<AlgebraicMultigrid>();
+    multigrid->initialize(*matrix);
     numbers = std::move(new_numbers);
   }
 

@@ -209,8 +209,8 @@ namespace undine
         size.fluid        = std::max(0., sample.share * cubes(box) - size.solid);
         setup.depth       = sample.depth;
         fastest           = sample.fastest;
-        size.walls += count_waiting(*fluid, box);
-        size.sub_steps = count_sub_steps(setup, frame, fastest);
+        size.waiting      = count_waiting(*fluid, box);
+        size.sub_steps    = count_sub_steps(setup, frame, fastest);
       }
     size.elastic_steps = count_elastic_steps(setup.bodies, setup.numerics, box.spacing, frame);
     if (setup.numerics.most_elastic_steps > 0)

@@ -199,6 +199,21 @@ namespace undine
             scene.models.void_regions = std::move(voids);
         }
     }
+
+
+    /// "Bodies/", "Fluid/Boundaries/", ...: the sections that a scene may have, but for the names
+    /// that its author chooses.
+    template <int dim>
+    std::vector<std::string>
+    all_sections()
+    {
+      const auto reference = Options::for_reference();
+      declare_scene<dim>(reference);
+      std::vector<std::string> sections;
+      for (const auto &entry : reference.entries())
+        sections.push_back(entry.section.substr(0, entry.section.find('<')));
+      return sections;
+    }
   } // namespace
 
 
@@ -246,7 +261,7 @@ namespace undine
         options.attempt([&] { read_direction(options, given("Bodies") && given("Fluid")); },
                         {"Coupling"});
       }
-    options.assert_all_used();
+    options.assert_all_used(all_sections<dim>());
     options.throw_mistakes();
   }
 

@@ -37,6 +37,14 @@ namespace undine
     refined(ShapeSize size, const unsigned int dim, const unsigned int refinements)
     {
       const double halves = power(2, refinements);
+      for (unsigned int i = 0; i < refinements; ++i)
+        {
+          const auto [vertices, lines, quadrilaterals, hexahedra] = size.parts;
+          size.parts = {{vertices + lines + quadrilaterals + hexahedra,
+                         2 * lines + 4 * quadrilaterals + 6 * hexahedra,
+                         4 * quadrilaterals + 12 * hexahedra,
+                         8 * hexahedra}};
+        }
       size.cells *= power(halves, dim);
       size.faces *= power(halves, dim - 1);
       size.slices *= halves;
@@ -136,11 +144,17 @@ namespace undine
     }
 
 
-    /// Nodes of a mesh of hexahedra: exact for boxes in the plane, else but for its edges.
+    /// Of Lagrange's elements: 1 in each vertex, more in lines, quadrilaterals and hexahedra.
     double
-    count_nodes(const ShapeSize &mesh, const unsigned int dim, const unsigned int degree)
+    count_nodes(const ShapeSize &mesh, const unsigned int degree)
     {
-      return power(degree, dim) * mesh.cells + power(degree, dim - 1) * mesh.faces / 2 + 1;
+      double nodes = 0, within = 1;
+      for (const double n : mesh.parts)
+        {
+          nodes += n * within;
+          within *= degree - 1;
+        }
+      return nodes;
     }
 
 
@@ -171,7 +185,7 @@ namespace undine
       for (const auto &body : bodies)
         {
           const auto   mesh     = refined(body.shape->size(), dim, body.refinements);
-          const double unknowns = dim * count_nodes(mesh, dim, numerics.degree);
+          const double unknowns = dim * count_nodes(mesh, numerics.degree);
           solid.elements += mesh.cells;
           solid.unknowns += unknowns;
           solid.work += unknowns * power(unknowns / mesh.slices, 2);

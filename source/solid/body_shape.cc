@@ -32,6 +32,10 @@ namespace undine
     ShapeSize              size;
     dealii::Tensor<1, dim> extents; // the sum of those of the cells
     size.cells = mesh.n_active_cells();
+    size.parts = {{double(mesh.n_used_vertices()),
+                   double(mesh.n_active_lines()),
+                   double(mesh.n_active_quads()),
+                   double(mesh.n_active_hexs())}};
     for (const auto &cell : mesh.active_cell_iterators())
       for (unsigned int axis = 0; axis < dim; ++axis)
         extents[axis] += cell->extent_in_direction(axis);

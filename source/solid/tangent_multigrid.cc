@@ -34,13 +34,13 @@ namespace undine
     /// A has to live as long as the result. Throws what ML throws.
     template <int dim>
     void
-    initialize_multigrid(dealii::TrilinosWrappers::PreconditionAMG    &multigrid,
+    initialize_multigrid(AlgebraicMultigrid                           &multigrid,
                          const dealii::TrilinosWrappers::SparseMatrix &A,
                          const SolidModel<dim>                        &model,
                          const typename SolidModel<dim>::Vector       &displacement)
     {
-      auto motions = rigid_motions(model, displacement);
-      dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
+      auto                               motions = rigid_motions(model, displacement);
+      AlgebraicMultigrid::AdditionalData data;
       data.elliptic              = true;
       data.higher_order_elements = model.numerics().degree > 1;
       data.smoother_sweeps       = 2;

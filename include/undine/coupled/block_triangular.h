@@ -2,9 +2,8 @@
 #ifndef undine_coupled_block_triangular_h
 #define undine_coupled_block_triangular_h
 
+#include <undine/base/parallel/algebraic_multigrid.h>
 #include <undine/coupled/block_preconditioner.h>
-
-#include <deal.II/lac/trilinos_precondition.h>
 
 namespace undine
 {
@@ -25,10 +24,10 @@ namespace undine
     vmult(BlockVector &result, const BlockVector &right_side) const override;
 
   private:
-    const BlockSystem                        *system = nullptr;
-    std::shared_ptr<const Matrix>             schur;
-    ApplyInverse                              tangent_inverse;
-    dealii::TrilinosWrappers::PreconditionAMG multigrid;
+    const BlockSystem            *system = nullptr;
+    std::shared_ptr<const Matrix> schur;
+    ApplyInverse                  tangent_inverse;
+    AlgebraicMultigrid            multigrid;
   };
 } // namespace undine
 

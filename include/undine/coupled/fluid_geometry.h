@@ -45,6 +45,13 @@ namespace undine
     typename Flow<dim>::Bodies
     bodies() const;
 
+    /// Are the surfaces where they were when the fields of the fluid were computed?
+    bool
+    is_unmoved() const
+    {
+      return positions == was_at;
+    }
+
     /// Of all nodes, where place() was told that they are now.
     const Positions &
     surface_positions() const

@@ -68,6 +68,8 @@ namespace undine
     expected_places(const State<dim> &state, const Stage &stage, double time) const;
     void
     place_surfaces(const State<dim> &state, const Stage &stage);
+    void
+    share_parts(FluidState<dim> &state) const;
     typename Flow<dim>::Bodies
     bodies() const;
     typename Flow<dim>::Bodies

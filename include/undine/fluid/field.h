@@ -46,6 +46,14 @@ namespace undine
       return open;
     }
 
+    /// Values stay as they are; `equal_parts` must be what open_parts() is, as another object.
+    void
+    share(const std::shared_ptr<const OpenParts<dim>> &equal_parts)
+    {
+      AssertDimension(divided()->all().size(), equal_parts->of(*points).all().size());
+      open = equal_parts;
+    }
+
     /// What is left of this field's points; nullptr: everything.
     const LatticeParts<dim> *
     divided() const

@@ -2,6 +2,7 @@
 #ifndef undine_fluid_projection_h
 #define undine_fluid_projection_h
 
+#include <undine/base/parallel/algebraic_multigrid.h>
 #include <undine/fluid/closed_regions.h>
 #include <undine/fluid/entering_flow.h>
 #include <undine/fluid/fluid_model.h>
@@ -11,7 +12,6 @@
 #include <undine/fluid/pressure_numbers.h>
 #include <undine/fluid/pushed_volume.h>
 
-#include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -108,12 +108,12 @@ namespace undine
                                     const double               dt,
                                     const std::vector<double> &body_fluxes);
 
-    const FluidModel<dim>                                     &model;
-    std::unique_ptr<const PressureNumbers<dim>>                numbers;
-    std::unique_ptr<const ClosedRegions<dim>>                  closed_regions;
-    std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    matrix; ///< none without fluid
-    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid;
-    double                                                     smallest_area = 0; ///< [m^(dim-1)]
+    const FluidModel<dim>                                  &model;
+    std::unique_ptr<const PressureNumbers<dim>>             numbers;
+    std::unique_ptr<const ClosedRegions<dim>>               closed_regions;
+    std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix> matrix; ///< none without fluid
+    std::unique_ptr<AlgebraicMultigrid>                     multigrid;
+    double                                                  smallest_area = 0; ///< [m^(dim-1)]
   };
 } // namespace undine
 

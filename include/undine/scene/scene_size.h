@@ -36,7 +36,8 @@ namespace undine
   {
     double fluid         = 0;
     double solid         = 0;
-    double walls         = 0;     ///< also those that move and those behind inflows
+    double walls         = 0;     ///< also those that move
+    double waiting       = 0;     ///< to flow in; a state does not count them
     double grid_cells    = 0;     ///< of the grid by which neighbours are found
     double sub_steps     = 0;     ///< of a frame with fluid
     double elastic_steps = 0;     ///< of bodies in a frame
@@ -46,7 +47,7 @@ namespace undine
     double
     all() const
     {
-      return fluid + solid + walls;
+      return fluid + solid + walls + waiting;
     }
   };
 

@@ -6,6 +6,7 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <array>
 #include <map>
 #include <string>
 
@@ -14,7 +15,11 @@ namespace undine
   /// How large the mesh of a shape is, and the shape.
   struct ShapeSize
   {
+    /// How many of each there are in the whole mesh: vertices, lines, quadrilaterals, hexahedra.
+    using Parts = std::array<double, 4>;
+
     double cells     = 0;
+    Parts  parts     = {};
     double faces     = 0;     ///< on the boundary
     double slices    = 1;     ///< cells along the axis along which there are most
     double volume    = 0;     ///< [m^dim]

@@ -2,9 +2,9 @@
 #ifndef undine_solid_tangent_multigrid_h
 #define undine_solid_tangent_multigrid_h
 
+#include <undine/base/parallel/algebraic_multigrid.h>
 #include <undine/solid/solid_model.h>
 
-#include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <memory>
@@ -20,8 +20,8 @@ namespace undine
   /// Smoothed aggregation (ML) that knows the rigid-body motions, and the matrix it was made for.
   struct TangentMultigrid
   {
-    dealii::TrilinosWrappers::SparseMatrix    matrix;
-    dealii::TrilinosWrappers::PreconditionAMG hierarchy;
+    dealii::TrilinosWrappers::SparseMatrix matrix;
+    AlgebraicMultigrid                     hierarchy;
   };
 
   /// For a copy of A, bodies being displaced by `displacement` [m]. nullptr, on all ranks, if A is

@@ -1,49 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/options/options.h>
+#include <undine/base/options/similar_words.h>
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 namespace undine
 {
   namespace
   {
-    /// Number of edits that turn one word into the other (Levenshtein).
-    unsigned int
-    distance(const std::string &a, const std::string &b)
-    {
-      std::vector<unsigned int> row(b.size() + 1);
-      std::iota(row.begin(), row.end(), 0);
-      for (std::size_t i = 1; i <= a.size(); ++i)
-        {
-          unsigned int diagonal = row[0];
-          row[0]                = i;
-          for (std::size_t j = 1; j <= b.size(); ++j)
-            {
-              const unsigned int above   = row[j];
-              const bool         differs = std::tolower(a[i - 1]) != std::tolower(b[j - 1]);
-              row[j]   = std::min({above + 1, row[j - 1] + 1, diagonal + (differs ? 1 : 0)});
-              diagonal = above;
-            }
-        }
-      return row.back();
-    }
-
-
-    std::string
-    most_similar_first(std::vector<std::string> names, const std::string &word)
-    {
-      std::stable_sort(names.begin(), names.end(), [&](const auto &a, const auto &b) {
-        return distance(a, word) < distance(b, word);
-      });
-      std::string list;
-      for (const auto &name : names)
-        list += (list.empty() ? "'" : ", '") + name + "'";
-      return list;
-    }
-
-
     /// Names become parts of file names, of XML and of columns' headers.
     bool
     can_be_a_name(const std::string &name)
@@ -51,21 +16,6 @@ namespace undine
       return std::all_of(name.begin(), name.end(), [](const unsigned char c) {
         return c >= 0x80 || std::isalnum(c) || std::string(" _-+.:()").find(c) != std::string::npos;
       });
-    }
-
-
-    /// A guess at what an unknown word was meant to be; empty if none is near.
-    std::string
-    guess(const std::set<std::string> &names, const std::string &word)
-    {
-      const std::string *nearest = nullptr;
-      for (const auto &name : names)
-        if (nearest == nullptr || distance(name, word) < distance(*nearest, word))
-          nearest = &name;
-      const std::size_t near = std::max<std::size_t>(1, word.size() / 3);
-      return nearest != nullptr && distance(*nearest, word) <= near
-               ? " Did you mean '" + *nearest + "'?"
-               : "";
     }
 
 
@@ -206,7 +156,8 @@ namespace undine
 
   /// What is wrong with an assignment that no part has read.
   InputError
-  Options::unknown(const std::string &full_path) const
+  Options::unknown(const std::string              &full_path,
+                   const std::vector<std::string> &sections_of_others) const
   {
     const auto  slash = full_path.rfind('/');
     const bool  top   = slash == std::string::npos;
@@ -229,22 +180,30 @@ namespace undine
       }
 
     std::set<std::string> names;
+    const auto            insert_section = [&](const std::string &section) {
+      if (section.size() > place.size() && section.compare(0, place.size(), place) == 0)
+        names.insert(section.substr(place.size(), section.find('/', place.size()) - place.size()));
+    };
     for (const auto &entry : store->entries)
-      if (entry.section == place)
-        names.insert(entry.key);
-      else if (entry.section.compare(0, place.size(), place) == 0)
-        names.insert(
-          entry.section.substr(place.size(), entry.section.find('/', place.size()) - place.size()));
+      {
+        insert_section(entry.section);
+        if (entry.section == place)
+          names.insert(entry.key);
+      }
+    if (unknown_section)
+      std::for_each(sections_of_others.begin(), sections_of_others.end(), insert_section);
+    const std::vector<std::string> known(names.begin(), names.end());
+    const std::string              guess = did_you_mean(known, word);
     return InputError(store->file.at(full_path).place + ": " + section_label(place) + ", " +
                       (unknown_section ? "subsection '" : "key '") + word + "': there is no such " +
-                      (unknown_section ? "subsection" : "key") + " here." + guess(names, word) +
-                      "\n  Allowed: " + most_similar_first({names.begin(), names.end()}, word) +
-                      ".");
+                      (unknown_section ? "subsection" : "key") + " here." +
+                      (guess.empty() ? "" : " " + guess) +
+                      "\n  Allowed: " + most_similar_first(known, word) + ".");
   }
 
 
   void
-  Options::assert_all_used() const
+  Options::assert_all_used(const std::vector<std::string> &sections_of_others) const
   {
     for (const auto &full_path : store->file.paths())
       {
@@ -253,7 +212,7 @@ namespace undine
             return full_path.compare(0, section.size(), section) == 0;
           });
         if (judged && !store->file.at(full_path).used)
-          mistake(unknown(full_path));
+          mistake(unknown(full_path, sections_of_others));
       }
   }
 

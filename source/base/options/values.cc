@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/base/options/similar_words.h>
 #include <undine/base/options/values.h>
 
 #include <deal.II/base/utilities.h>
@@ -162,7 +163,10 @@ namespace undine
   {
     if (!allowed.words.empty() &&
         std::find(allowed.words.begin(), allowed.words.end(), text) == allowed.words.end())
-      throw InputError("is not among the allowed words");
+      {
+        const std::string guess = did_you_mean(allowed.words, text);
+        throw InputError("is not among the allowed words" + (guess.empty() ? "" : ". " + guess));
+      }
     value = text;
   }
 

@@ -20,12 +20,7 @@ namespace undine
     if (schur == new_schur)
       return;
     schur = new_schur;
-    dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
-    data.elliptic              = true;
-    data.aggregation_threshold = 0.02;
-    data.smoother_type         = "Chebyshev";
-    data.smoother_sweeps       = 2;
-    multigrid.initialize(*schur, data);
+    multigrid.initialize(*schur);
   }
 
 

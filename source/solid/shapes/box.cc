@@ -95,6 +95,12 @@ namespace undine
           size.volume *= upper[axis] - lower[axis];
           size.slices = std::max<double>(size.slices, cells[axis]);
         }
+      // Vertices, lines, ... are products of the vertices and lines along the axes.
+      size.parts[0] = 1;
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        for (unsigned int k = axis + 2; k-- > 0;)
+          size.parts[k] =
+            size.parts[k] * (cells[axis] + 1.) + (k > 0 ? size.parts[k - 1] * cells[axis] : 0.);
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
           size.faces += 2 * size.cells / cells[axis];

@@ -54,14 +54,18 @@ namespace undine
     ShapeSize
     size() const override
     {
-      constexpr double pi           = dealii::numbers::PI;
-      constexpr double cells_across = 5, faces_around = 4; // of a layer
-      return {cells_across * cells,
-              2 * cells_across + faces_around * cells,
-              std::max<double>(cells, std::sqrt(cells_across)),
-              pi * radius * radius * length,
-              2 * pi * radius * (radius + length),
-              true};
+      constexpr double pi = dealii::numbers::PI;
+      // A disk across: 5 cells, 8 vertices, 12 lines of which 4 are on the boundary.
+      ShapeSize    size;
+      const double n = cells;
+      size.cells     = 5 * n;
+      size.parts     = {{8 * (n + 1), 12 * (n + 1) + 8 * n, 5 * (n + 1) + 12 * n, 5 * n}};
+      size.faces     = 2 * 5 + 4 * n;
+      size.slices    = std::max(n, std::sqrt(5.));
+      size.volume    = pi * radius * radius * length;
+      size.area      = 2 * pi * radius * (radius + length);
+      size.is_curved = true;
+      return size;
     }
 
   private:

@@ -91,6 +91,36 @@ TEST_CASE("unknown keys and sections stop with the nearest names", "[options]")
 }
 
 
+TEST_CASE("sections that the scene could have, and words, are guessed", "[options]")
+{
+  const auto wrong_section = read("subsection Boddies\n subsection ball\n  set Density = 1\n end\n"
+                                  "end\nsubsection Fluid\n set Density = 1\n"
+                                  " subsection Boundries\n  set Kind = wall\n end\nend\n");
+  double     density       = 0;
+  wrong_section.section("Fluid").add("Density", density, "", Allowed::positive(), "The density.");
+  const auto complaint = [&](const std::vector<std::string> &others) {
+    return message([&] { wrong_section.assert_all_used(others); });
+  };
+  CHECK(complaint({}).find("Did you mean") == std::string::npos);
+  CHECK(complaint({"Bodies/", "Time/"}).find("Did you mean 'Bodies'?") != std::string::npos);
+
+  const auto inner =
+    read("subsection Fluid\n subsection Boundries\n  set Kind = wall\n end\nend\n");
+  inner.section("Fluid").add("Density", density, "", Allowed::positive(), "The density.");
+  CHECK(message([&] {
+          inner.assert_all_used({"Fluid/", "Fluid/Boundaries/"});
+        })
+          .find("section 'Fluid', subsection 'Boundries': there is no such subsection here. "
+                "Did you mean 'Boundaries'?") != std::string::npos);
+
+  const auto  wrong_word = read("set Kind = cirle\n");
+  std::string kind       = "circle";
+  CHECK(message([&] {
+          wrong_word.add("Kind", kind, "", Allowed::one_of({"box", "circle"}), "Its shape.");
+        }).find("Did you mean 'circle'?") != std::string::npos);
+}
+
+
 TEST_CASE("all mistakes of a scene are reported at once", "[options]")
 {
   std::ofstream("scene_under_test.prm") << "nonsense\n"

@@ -147,9 +147,10 @@ namespace undine
     error(const std::string &key, const std::string &what, const std::string &hint) const;
 
     /// Mistakes are assignments that no part has read: each with its place and the keys that exist
-    /// there, the most similar one first.
+    /// there, the most similar one first. `sections_of_others` ("Bodies/", "Fluid/Boundaries/") are
+    /// sections that this scene does not have, but could: what was meant may be one of them.
     void
-    assert_all_used() const;
+    assert_all_used(const std::vector<std::string> &sections_of_others = {}) const;
 
     /// Run `action`, which reads this section, or the given subsections of it. If mistakes are
     /// collected, an InputError that it throws is noted, unless it may follow from others that the
@@ -252,7 +253,7 @@ namespace undine
     under_condition(const std::string &condition) const;
 
     InputError
-    unknown(const std::string &full_path) const;
+    unknown(const std::string &full_path, const std::vector<std::string> &sections_of_others) const;
 
     bool
     collects() const;
