@@ -134,11 +134,11 @@ def row(program, scene, settings, ranks, steps):
 def cases(arguments):
     if not arguments.ladder:
         for scene in sorted((ROOT / "prm").glob("*.prm")):
-            yield f"prm/{scene.name}", 1, []
+            yield f"prm/{scene.name}", [], 1
     if not arguments.scenes:
         for scene, ranks, values in LADDER:
             for settings in values:
-                yield scene, ranks, settings
+                yield scene, settings, ranks
 
 
 def main():

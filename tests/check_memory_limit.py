@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Scenes that are too large are found out before they take memory, and runs that run out of it say so.
 
-usage: check_memory_limit.py PROGRAM PRM_FOLDER
+usage: check_memory_limit.py PROGRAM PRM_FOLDER [--long]
 
 With less and less memory allowed, a run ends well, then for want of memory with exit code 6 and a
-message, then is refused before it begins with exit code 2 and what would fit; on one and two ranks.
+message, then is refused before it begins with exit code 2 and what would fit. A short test looks
+for one limit of the second kind, on two ranks; a long one steps down through all of them, in several
+scenes on one and two ranks.
 """
 import os
 import re
@@ -75,39 +77,69 @@ def check_huge_scenes(program, folder):
                    text)
 
 
-def check_less_and_less(program, scene, settings, ranks):
-    """Returns the exit codes that were met."""
-    name = f"{os.path.basename(scene)} on {ranks} rank(s)"
-    settings = settings + ["Time/Maximum steps=2", "Output/Parts=statistics"]
-    code, text, _, peak = run(program, scene, settings, ranks)
-    expect(code == 0, f"{name} must run", text)
-    codes = []
-    limit = 0.9 * peak  # of which libraries are a part that the limit is not about
-    while REFUSED not in codes[-1:] and limit > 3e7:
-        code, text, _, _ = run(program, scene, settings, ranks, limit)
-        what = f"{name} with {limit / 1e6:.0f} MB each: exit code {code}"
+class LimitedRuns:
+    """Short runs of one scene with limits of memory."""
+
+    def __init__(self, program, scene, setting, ranks):
+        self.name = f"{os.path.basename(scene)} on {ranks} rank(s)"
+        self.arguments = (program, scene,
+                          [setting, "Time/Maximum steps=2", "Output/Parts=statistics"], ranks)
+        code, text, _, self.peak = run(*self.arguments)
+        expect(code == 0, f"{self.name} must run", text)
+
+    def code(self, limit):
+        """The exit code, after its message has been looked at."""
+        code, text, _, _ = run(*self.arguments, limit)
+        what = f"{self.name} with {limit / 1e6:.0f} MB each: exit code {code}"
         expect(code in (0, MEMORY, REFUSED), what, text)
         expect(code != MEMORY or "out of memory" in text, f"{what} without a message", text)
         expect(code != REFUSED or re.search(r"too large for this machine.* fit", text, re.S),
                f"{what} without a message", text)
-        codes.append(code)
+        return code
+
+
+def check_less_and_less(runs):
+    """Returns the exit codes that were met."""
+    codes = []
+    limit = 0.9 * runs.peak  # of which libraries are a part that the limit is not about
+    while REFUSED not in codes[-1:] and limit > 3e7:
+        codes.append(runs.code(limit))
         limit *= 0.87
-    print(f"{name}: {codes}")
+    print(f"{runs.name}: {codes}")
     order = [0, MEMORY, REFUSED]
-    expect(codes == sorted(codes, key=order.index), f"{name}: exit codes {codes}", text)
+    expect(codes == sorted(codes, key=order.index), f"{runs.name}: exit codes {codes}", "")
     return set(codes)
+
+
+def check_one_limit(runs):
+    """Somewhere between what suffices and what is refused a run ends for want of memory."""
+    lower, upper = 3e7, runs.peak
+    for _ in range(8):
+        limit = (lower * upper) ** 0.5
+        code = runs.code(limit)
+        if code == MEMORY:
+            print(f"{runs.name}: out of memory with {limit / 1e6:.0f} MB each")
+            return
+        lower, upper = (limit, upper) if code == REFUSED else (lower, limit)
+    sys.exit(f"{runs.name}: no limit between {lower / 1e6:.0f} and {upper / 1e6:.0f} MB was met "
+             "during the run")
 
 
 def main():
     program, folder = sys.argv[1:3]
     check_huge_scenes(program, folder)
+    if "--long" not in sys.argv:
+        check_one_limit(LimitedRuns(program, os.path.join(folder, "jet_two_sheets.prm"),
+                                    "Domain/Cells=48, 24, 24", 2))
+        return
     met = set()
     for name, setting, ranks in (("plume.prm", "Domain/Cells=48, 96, 48", 1),
                                  ("plume.prm", "Domain/Cells=48, 96, 48", 2),
                                  ("jet_two_sheets.prm", "Domain/Cells=48, 24, 24", 2),
                                  ("cantilever.prm", "Bodies/beam/Cells=32, 4, 6", 2),
                                  ("dam_break_particles.prm", "Particles/Spacing=0.146/96", 1)):
-        met |= check_less_and_less(program, os.path.join(folder, name), [setting], ranks)
+        met |= check_less_and_less(
+            LimitedRuns(program, os.path.join(folder, name), setting, ranks))
     expect(met == {0, MEMORY, REFUSED}, f"only these exit codes were met: {met}", "")
 
 

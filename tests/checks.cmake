@@ -30,7 +30,11 @@ set_tests_properties(runs/time_integration PROPERTIES TIMEOUT 300)
 add_test(NAME runs/memory_limit
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_memory_limit.py $<TARGET_FILE:undine>
                  ${PROJECT_SOURCE_DIR}/prm)
-set_tests_properties(runs/memory_limit PROPERTIES PROCESSORS 2 LABELS long TIMEOUT 1200)
+set_tests_properties(runs/memory_limit PROPERTIES PROCESSORS 2 TIMEOUT 600)
+add_test(NAME long/memory_limits
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_memory_limit.py $<TARGET_FILE:undine>
+                 ${PROJECT_SOURCE_DIR}/prm --long)
+set_tests_properties(long/memory_limits PROPERTIES PROCESSORS 2 LABELS long TIMEOUT 1800)
 add_test(NAME runs/long_frame
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_long_frame.py $<TARGET_FILE:undine>
                  ${PROJECT_SOURCE_DIR}/prm/dam_break_particles.prm)
@@ -69,7 +73,7 @@ set_tests_properties(fuzz/tester PROPERTIES TIMEOUT 300)
 add_test(NAME fuzz/sample
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/fuzz.py
                  $<TARGET_FILE:undine> --cases 30 --run 3 --jobs 2 --limit 120)
-set_tests_properties(fuzz/sample PROPERTIES PROCESSORS 2 LABELS long TIMEOUT 1200)
+set_tests_properties(fuzz/sample PROPERTIES PROCESSORS 2 TIMEOUT 1200)
 add_test(NAME long/memory_coupled
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_memory.py
                  $<TARGET_FILE:undine> ${CMAKE_CURRENT_SOURCE_DIR}/resume/friction.prm

@@ -179,7 +179,7 @@ namespace undine
     if (equations.has_motion())
       {
         const auto system = equations.motion_predictor();
-        parts.motion_solver.start_counting();
+        parts.motion_solver.begin_stage();
         velocity.add(1.,
                      parts.motion_solver.solve(
                        system.matrix, system.right_side, equations.displacement(velocity)));

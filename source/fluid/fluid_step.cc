@@ -105,6 +105,8 @@ namespace undine
       return; // accelerations have been carried as part of velocities
     for (auto &component : state.acceleration.components)
       component = moved_to(component, now);
+    for (auto &component : state.change.components) // which this integrator does not know
+      component = Field<dim>(component.shared_lattice(), now);
     if (!now)
       return;
     // Parts have no acceleration to be carried: a body may just have uncovered them.

@@ -213,6 +213,14 @@ namespace undine
 
 
   template <int dim>
+  void
+  BodyContact<dim>::begin_stage() const
+  {
+    pattern.clear();
+  }
+
+
+  template <int dim>
   Columns
   BodyContact<dim>::columns(const Vector &displacement, const double time) const
   {

@@ -42,6 +42,14 @@ namespace undine
 
   template <int dim>
   void
+  ContactPattern<dim>::clear()
+  {
+    pairs.clear();
+  }
+
+
+  template <int dim>
+  void
   ContactPattern<dim>::rebuild(const Matrix &A)
   {
     const auto                    &owned = solid.locally_owned();

@@ -41,6 +41,8 @@ namespace undine
   {
     const auto timed = timing.section("assemble forces");
     timing.memory.hold("deformable bodies", mass.memory_consumption());
+    if (contact)
+      contact->begin_stage();
     if (environment.stiffness_damping > 0 && coefficients.damping != 0)
       find_damping_stiffness();
     find_known_forces();

@@ -32,8 +32,8 @@ namespace undine
                 "",
                 Allowed::one_of({"auto", "direct", "multigrid"}),
                 "direct: sparse factorisation; multigrid: conjugate gradients with algebraic "
-                "multigrid; auto: direct for few unknowns, and from the first system on for which "
-                "multigrid does not converge.");
+                "multigrid; auto: direct for few unknowns, and in a stage from the first system on for "
+                "which multigrid does not converge.");
     options.add("Linear tolerance",
                 linear_tolerance,
                 "1",

@@ -35,7 +35,7 @@ namespace undine
         , tolerance(tolerance)
         , timing(timing)
       {
-        solver.start_counting();
+        solver.begin_stage();
       }
 
       double

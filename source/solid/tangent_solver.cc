@@ -89,8 +89,10 @@ namespace undine
 
   template <int dim>
   void
-  TangentSolver<dim>::start_counting()
+  TangentSolver<dim>::begin_stage()
   {
+    multigrid.reset();
+    gave_up        = false;
     all_iterations = 0;
     all_notes.clear();
   }

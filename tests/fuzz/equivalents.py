@@ -66,7 +66,7 @@ def numbers(rng, case, key_types):
             elif said == ["end"] and sections:
                 sections.pop()
             match = seeds.ASSIGNMENT.match(line)
-            if not match or included and not sections:
+            if not match or "\\" in match[4] or included and not sections:
                 continue
             head, key, equals, value, rest = match.groups()
             kinds = key_types.of("/".join([*sections, key.strip()]))

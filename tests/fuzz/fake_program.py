@@ -13,6 +13,7 @@ import expressions
 import file_mutations
 import scene_reader
 
+RANKS = os.environ.get("FAKE_RANKS")
 PLACE = "scene.prm:1: section 'Time', key 'End': wrong.\n"
 
 
@@ -58,6 +59,8 @@ IN_RUN = {
     "run is stopped": lambda: wait_for_signal(7),
     "run goes on": ignore_signal,
     "run refuses": lambda: refuse(2, "Error: section 'Time' is wrong"),
+    "particles": lambda: RANKS == "2" and refuse(2, "top level, key 'Scheme': particles are computed by one rank"),
+    "particles refused": lambda: RANKS == "2" and refuse(2, "Error: section 'Time' is wrong"),
     "run writes elsewhere": lambda: pathlib.Path("left").write_text("over"),
 }
 
@@ -85,7 +88,7 @@ def write_results(folder, scene, fault, again):
         for name in names:
             place = place.setdefault(name, {})
         place[key] = "7" if fault == "misread value" and key == "End" else as_used(value)
-    rows = int(scene.values["Time/Maximum steps"]) + (fault == f"ranks differ {os.environ.get('FAKE_RANKS')}")
+    rows = int(scene.values["Time/Maximum steps"]) + (fault == f"ranks differ {RANKS}")
     broken = fault == "broken JSON"
     (folder / "checkpoint").mkdir(parents=True, exist_ok=True)
     (folder / "checkpoint/state").write_text("state")
@@ -103,7 +106,7 @@ def write_results(folder, scene, fault, again):
 def main():
     if "--reference" in sys.argv:
         print("## Top level\n\n| key | default | allowed | unit | meaning |\n|---|---|---|---|---|\n"
-              "| Title | | text | | |\n| Dimension | | whole number, from 2 to 3 | | |\n\n## Time\n\n"
+              "| Title | | text | | |\n| Scheme | | text | | |\n| Dimension | | whole number, from 2 to 3 | | |\n\n## Time\n\n"
               "| End | | number, \\> 0 | s | |\n| Maximum steps | | whole number | | |")
         return
     words, settings, output = options()

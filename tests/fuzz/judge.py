@@ -76,29 +76,35 @@ class Judge:
         before = tree(folder)
         codes = {}
         for ranks in self.ranks:
-            output = case.output if ranks == self.ranks[0] else f"on {ranks} ranks"
+            output = self.output(case, ranks)
             result = self.start(outcome, folder, case.run(self.steps, output), ranks, may_be_stopped=True)
+            if ranks > 1 and scene.values.get("Scheme") == "particle":
+                outcome.found += verdicts.of_particles(case, result)
+                continue
             codes[ranks] = result.code
             outcome.answer = {0: "run", 7: "stopped"}.get(result.code, "failed")
-            outcome.found += self.faults_of_run(case, result, folder / output, scene)
+            outcome.found += self.faults_of_run(case, result, folder / os.path.normpath(output), scene)
             if outcome.found or result.too_long:
                 return
         self.compare_ranks(case, folder, codes, outcome)
         outside = tree(folder).symmetric_difference(before)
-        top = {case.output.strip("./").split("/")[0], case.output, *(f"on {ranks} ranks" for ranks in self.ranks)}
-        if any(name.split("/")[0] not in top and not name.startswith(case.output) for name, _ in outside):
+        own = tuple(os.path.normpath(self.output(case, ranks)) + "/" for ranks in codes)
+        if not all(name.startswith(own) for name, _ in outside):
             outcome.found.append(("wrote elsewhere", "a run writes outside of its folder"))
-        if codes[self.ranks[0]] == 0 and not outcome.found:
+        if codes.get(self.ranks[0]) == 0 and not outcome.found:
             self.repeat(case, folder, outcome)
             self.resume(case, folder, outcome)
+
+    def output(self, case, ranks):
+        return case.output if ranks == self.ranks[0] else f"./{case.results()} on {ranks} ranks"
 
     def faults_of_run(self, case, result, results, scene):
         found = verdicts.of_end(result) + verdicts.of_message(case, result)
         if result.code == 2 and "step " not in result.err:
             found.append(("validate and run differ", verdicts.plain(result.err)))
-        if results.is_dir():
+        if os.path.isdir(results):  # not a method of pathlib: the name may be too long
             found += result_files.faults(results)
-        if not found and (results / "parameters.json").is_file():
+        if not found and os.path.isfile(results / "parameters.json"):
             used = result_files.read_json(results / "parameters.json")
             found += [("misread", text) for text in misreadings.misreadings(self.with_steps(scene), self.key_types, used)]
         return found
@@ -107,24 +113,24 @@ class Judge:
         return dataclasses.replace(scene, values={**scene.values, STEPS_BETWEEN: str(self.steps)})
 
     def compare_ranks(self, case, folder, codes, outcome):
-        first = self.ranks[0]
-        for ranks in self.ranks[1:]:
+        first, *others = codes or [None]
+        for ranks in others:
             if codes[ranks] != codes[first]:
                 outcome.found.append(("ranks differ", f"exit code {codes[first]} on {first}, {codes[ranks]} on {ranks}"))
             elif codes[first] == 0:
-                one, other = (result_files.content(folder / name, "statistics").split(b"\n")
-                              for name in (case.output, f"on {ranks} ranks"))
+                one, other = (result_files.content(folder / os.path.normpath(self.output(case, number)), "statistics")
+                              .split(b"\n") for number in (first, ranks))
                 if len(one) != len(other) or [line for line in one if line[:1] == b"#"] != [
                         line for line in other if line[:1] == b"#"]:
                     outcome.found.append(("ranks differ", "columns or number of rows of statistics"))
 
     def repeat(self, case, folder, outcome):
         """The parameters.prm that a run wrote gives the same run."""
-        result = self.start(outcome, folder, [f"{case.output}/parameters.prm", "--output", "again"], self.ranks[0])
+        result = self.start(outcome, folder, [f"./{case.results()}/parameters.prm", "--output", "again"], self.ranks[0])
         found = verdicts.of_end(result)
         if not found and result.code != 0:
             found = [("not repeatable", f"exit code {result.code}: {verdicts.plain(result.err)}")]
-        found = found or [("not repeatable", text) for text in result_files.same_run(folder / case.output, folder / "again")]
+        found = found or [("not repeatable", text) for text in result_files.same_run(folder / case.results(), folder / "again")]
         outcome.found += found
 
     def resume(self, case, folder, outcome):
@@ -140,7 +146,7 @@ class Judge:
         elif result.code == 0:
             found = [] if damaged else result_files.faults(folder / "part")
             outcome.found += found or [("resume differs", f"{text}{damaged}") for text in
-                                       result_files.same_run(folder / case.output, folder / "part")]
+                                       result_files.same_run(folder / case.results(), folder / "part")]
         elif not outcome.found and not result.err.strip():
             outcome.found.append(("unclear message", f"none, exit code {result.code}"))
 
@@ -165,10 +171,11 @@ class Judge:
             if lock[1] is None:
                 lock[1] = self.judge_in(seed, original)
         if lock[1].answer != outcome.answer:
-            return [("equivalent differs", f"{outcome.answer}, but {lock[1].answer} without the edits")]
+            why = "".join(f" ({verdict}: {detail})" for verdict, detail in lock[1].found)
+            return [("equivalent differs", f"{outcome.answer}, but {lock[1].answer} without the edits{why}")]
         if outcome.answer == "run":
             return [("equivalent differs", text) for text in
-                    result_files.same_run(folder / case.output, original / seed.output)]
+                    result_files.same_run(folder / case.results(), original / seed.results())]
         return []
 
 

@@ -8,6 +8,7 @@ import shlex
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -93,10 +94,10 @@ class Program:
         has GRACE seconds to end."""
         arguments = [word.encode("utf-8", "surrogateescape") for word in arguments]
         begin = time.monotonic()
-        with open(folder / "screen.out", "w+b") as out, open(folder / "screen.err", "w+b") as err:
+        with (open(folder / "screen.out", "w+b") as out, open(folder / "screen.err", "w+b") as err,
+              tempfile.TemporaryDirectory(prefix="mpi_", ignore_cleanup_errors=True) as own):
             process = subprocess.Popen(self.command(arguments, ranks), cwd=folder, stdout=out, stderr=err,
-                                       stdin=subprocess.DEVNULL, start_new_session=True,
-                                       env=scene_tools.environment())
+                                       stdin=subprocess.DEVNULL, start_new_session=True, env=environment(own))
             result = Result(0, "", "", 0.)
             try:
                 self.wait(process, result, may_be_stopped)
@@ -121,7 +122,7 @@ class Program:
                 return None
             if time.monotonic() > until:
                 if result.too_long or not may_be_stopped:
-                    result.too_long = result.hung = True
+                    result.hung = True
                     return None
                 result.too_long = True
                 until += GRACE
@@ -139,6 +140,15 @@ class Program:
         process.wait()
 
 
+def environment(folder):
+    """Open MPI's own files go to `folder`: programs that share one remove it for each other while they start."""
+    return dict(scene_tools.environment(), OMPI_MCA_orte_tmpdir_base=folder)
+
+
 def read_screen(file):
     file.seek(0)
-    return file.read(LONGEST_OUTPUT).decode("utf-8", "backslashreplace")
+    return readable(file.read(LONGEST_OUTPUT))
+
+
+def readable(data):
+    return data.decode("utf-8", "backslashreplace")

@@ -4,6 +4,7 @@ import copy
 import dataclasses
 import os
 import pathlib
+import posixpath
 import re
 import shutil
 
@@ -56,6 +57,10 @@ class Case:
     def run(self, steps, output):
         return [self.scene, *self.settings(), *self.words, "--set", f"Time/Maximum steps={steps}",
                 "--output", output]
+
+    def results(self):
+        """The folder that `output` means, also if folders on its path do not exist: 'b' for 'a/../b'."""
+        return posixpath.normpath(self.output)
 
     def settings(self):
         return [word for assignment in self.assignments for word in ("--set", assignment)]

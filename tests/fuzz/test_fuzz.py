@@ -13,6 +13,7 @@ import random  # noqa: E402
 import subprocess  # noqa: E402
 import tempfile  # noqa: E402
 import unittest  # noqa: E402
+from unittest import mock  # noqa: E402
 
 import cases  # noqa: E402
 import equivalents  # noqa: E402
@@ -25,6 +26,7 @@ import minimise  # noqa: E402
 import process  # noqa: E402
 import scene_reader  # noqa: E402
 import seeds  # noqa: E402
+import verdicts  # noqa: E402
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 PYTHON = f"{sys.executable} -B -S"  # starts fast: no packages are needed
@@ -70,6 +72,42 @@ class Verdicts(unittest.TestCase):
         for title, answer in (("good", "run"), ("refused", "refused"), ("run is stopped", "stopped")):
             with self.subTest(title):
                 self.assertEqual(self.of(case(title)), (answer, []))
+
+    def test_particles_on_several_ranks(self):
+        self.judge.ranks = (1, 2)
+        for title, found in (("particles", []), ("particles refused", ["ranks differ"]), ("good", ["ranks differ"])):
+            one = case(title)
+            one.assignments = ["Scheme=particle"]
+            with self.subTest(title):
+                self.assertEqual(self.of(one), ("run", found))
+
+    def test_odd_folders_of_results(self):
+        self.judge.ranks = (1, 2)
+        for output in ("a/../b", "a//b/", "./-a", "a\nb", "a" * 200):
+            one = case("good")
+            one.output = output
+            with self.subTest(output):
+                self.assertEqual(self.of(one), ("run", []))
+
+    def test_too_long_name_of_results(self):
+        one = case("good")
+        one.output = "a" * 300
+        answer, found = self.of(one)
+        self.assertEqual((answer, found), ("failed", ["exit code"]))  # of Python
+
+    def test_keys_with_odd_bytes(self):
+        one = case("good")
+        one.files["scene.prm"] = b"set a\tb = 1\nset c\xff = 1\n"
+        message = "scene.prm:{}: top level, key '{}': there is no such key"
+        for line, key, wrong in ((1, "a?b", 0), (2, "c\\xff", 0), (1, "c\\xff", 1), (2, "a b", 1)):
+            with self.subTest(key):
+                self.assertEqual(len(verdicts.wrong_places(one, message.format(line, key))), wrong)
+
+    def test_end_after_the_limit(self):
+        result = self.program.run(["--reference"], self.work)
+        self.assertEqual((result.code, result.hung, result.too_long), (0, False, False))
+        for title, detail in (("timeout", "no end"), ("run goes on", "no end, neither by itself nor by SIGTERM")):
+            self.assertIn(("timeout", detail), self.judge.judge(case(title), "case").found)
 
     def test_what_must_not_be_accepted(self):
         self.judge.steps = 0

@@ -8,8 +8,11 @@ import re
 import signal
 
 import file_mutations
+import process
+import scene_reader
 
 DOCUMENTED = {0, 2, 3, 4, 6, 7}  # exit codes; 7 only for a run that was asked to stop
+ONE_RANK = "particles are computed by one rank"
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
 PLACE = re.compile(r"^(?:Error: )?(?P<file>.+?):(?P<line>\d+): (?:section '.*?'|top level), key '(?P<key>[^']*)'", re.M)
 # Every scene may have these sections.
@@ -35,8 +38,16 @@ def of_end(result):
         text = result.err.partition("unexpected condition")[2].split("\n")
         return [("unexpected condition", plain(" ".join(text[1:4])))]
     if result.code not in DOCUMENTED or result.code == 7 and not result.too_long:
-        return [("exit code", str(result.code))]
+        return [("exit code", f"{result.code}: {plain(result.err)}")]
     return []
+
+
+def of_particles(case, result):
+    """From an answer to particles on several ranks: they are refused, with the reason."""
+    found = of_end(result) + of_message(case, result)
+    if not found and (result.code != 2 or ONE_RANK not in result.err):
+        found = [("ranks differ", f"particles on several ranks: exit code {result.code}: {plain(result.err)}")]
+    return found
 
 
 def plain(text):
@@ -71,12 +82,17 @@ def names_a_place(case, message):
     return any(word in message for word in words)
 
 
+def shown(text):
+    """A scene's text as it stands in messages, which have '?' for control characters."""
+    return re.sub(r"[\x00-\x09\x0b-\x1f\x7f]", "?", process.readable(scene_reader.encode(text)))
+
+
 def wrong_places(case, message):
     """The line that an error names must have the key that it names."""
     for match in PLACE.finditer(message):
         name = posixpath.normpath(match["file"])
         if name in case.files:
-            lines = case.text(name).split("\n")
+            lines = shown(case.text(name)).split("\n")
             number = int(match["line"])
             if match["key"] not in "\n".join(lines[max(0, number - LINES_BEFORE):number]):
                 return [("wrong place", plain(match[0]))]

@@ -56,6 +56,8 @@ namespace undine
     nodal_forces(const Vector &displacement, double time) const override;
     void
     add_stiffness(Matrix &A, double factor, const Vector &displacement, double time) const override;
+    void
+    begin_stage() const override;
     double
     free_part(const Place &from, const Place &to) const override;
     void

@@ -29,6 +29,10 @@ namespace undine
     void
     make_room(Matrix &A, const Pairs &needed);
 
+    /// Have no places for pairs.
+    void
+    clear();
+
   private:
     void
     rebuild(const Matrix &A);

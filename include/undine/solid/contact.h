@@ -46,6 +46,11 @@ namespace undine
       double        time;         ///< [s]
     };
 
+    /// Places that earlier stages have needed are not kept for this one: what is solved follows
+    /// from the state alone, whether a run was resumed or not.
+    virtual void
+    begin_stage() const = 0;
+
     /// The largest part of the straight way on which no gap closes to less than a fifth [1]: 1 if
     /// the whole way is free.
     virtual double

@@ -15,9 +15,9 @@ namespace undine
   /// factorisation, or by conjugate gradients with smoothed aggregation (ML) that knows the
   /// rigid-body motions. Where follower pressures make the tangent unsymmetric, GMRES takes the
   /// place of conjugate gradients. An iteration that does not converge, as when the tangent is not
-  /// positive definite, gives way to the factorisation, with `auto` for good. The analysis of the
-  /// sparsity pattern and the multigrid hierarchy are kept from one system to the next; the
-  /// hierarchy is renewed when the number of iterations has grown by half.
+  /// positive definite, gives way to the factorisation, with `auto` for all of the stage. The
+  /// analysis of the sparsity pattern is kept from one system to the next, the multigrid hierarchy
+  /// in a stage until the number of iterations has grown by half.
   template <int dim>
   class TangentSolver
   {
@@ -34,11 +34,12 @@ namespace undine
     Vector
     solve(const Matrix &A, const Vector &b, const Vector &displacement, double negligible = 0);
 
-    /// Forget iterations() and note(), but not what helps to solve the next system.
+    /// Forget iterations(), note() and the hierarchy: what is solved follows from the state alone,
+    /// whether a run was resumed or not.
     void
-    start_counting();
+    begin_stage();
 
-    /// Of the iterative solver, since start_counting().
+    /// Of the iterative solver, since begin_stage().
     unsigned int
     iterations() const;
 
