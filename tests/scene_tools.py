@@ -61,10 +61,10 @@ def timed_columns(program, scene, settings):
     return {name: [row[k] for row in rows] for k, name in enumerate(names)}, seconds
 
 
-def differences(text, record, tolerance, compare_iterations):
+def differences(text, record, tolerance, compare_iterations, rounding=ROUNDING):
     """A list of differences, one line each. Two numbers are the same if they differ by no more than
-    `tolerance` of the largest number of the same unit in the record: rounding noise in a component
-    that should be zero is measured by its neighbours."""
+    `rounding`, or than `tolerance` of the largest number of the same unit in the record: rounding
+    noise in a component that should be zero is measured by its neighbours."""
     names, units, rows = parse(text)
     expected_names, expected_units, expected_rows = parse(record)
     if (names, units) != (expected_names, expected_units):
@@ -81,7 +81,7 @@ def differences(text, record, tolerance, compare_iterations):
             counted = "iterations" in name.lower()
             if counted and not compare_iterations:
                 continue
-            allowed = SLACK if counted else max(tolerance * scale[unit], ROUNDING)
+            allowed = SLACK if counted else max(tolerance * scale[unit], rounding)
             if not abs(value - wanted) <= allowed:
                 result.append(f"row {number}, {name}: {value!r} instead of {wanted!r} "
                               f"(allowed difference {allowed:.3g} {unit})")

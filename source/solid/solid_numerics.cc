@@ -27,13 +27,14 @@ namespace undine
                 "1",
                 Allowed::not_negative(),
                 "Do exactly so many, converged or not, from d = d^n; 0: as many as it takes.");
-    options.add("Linear solver",
-                linear_solver,
-                "",
-                Allowed::one_of({"auto", "direct", "multigrid"}),
-                "direct: sparse factorisation; multigrid: conjugate gradients with algebraic "
-                "multigrid; auto: direct for few unknowns, and in a stage from the first system on for "
-                "which multigrid does not converge.");
+    options.add(
+      "Linear solver",
+      linear_solver,
+      "",
+      Allowed::one_of({"auto", "direct", "multigrid"}),
+      "direct: sparse factorisation; multigrid: conjugate gradients with algebraic "
+      "multigrid; auto: direct for few unknowns, and in a stage from the first system on for "
+      "which multigrid does not converge.");
     options.add("Linear tolerance",
                 linear_tolerance,
                 "1",

@@ -46,7 +46,9 @@ SCENES = (
     Scene("coupled, void region, 2D", "prm/hydrostatic_plate.prm",
           ("Time/End=2/3",) + EXACT_COUPLING),
     Scene("coupled, 3D", "prm/sheet_in_cross_flow.prm",
-          ("Domain/Cells=12, 6, 6", "Bodies/sheet/Cells=1, 4, 3", "Time/End=2/3",
+          # Nodes of the sheet stay on its plane of symmetry. If that were a plane of the grid, rounding
+          # would decide on which side of it they are.
+          ("Domain/Cells=12, 6, 5", "Bodies/sheet/Cells=1, 4, 3", "Time/End=2/3",
            "Output/Interval=0.1") + EXACT_COUPLING),
     Scene("particles: floating block, 2D", "prm/floating_block.prm",
           ("Particles/Spacing=0.02", "Time/End=0.4"), 1),

@@ -121,6 +121,8 @@ def read_arguments():
 
 def main():
     arguments = read_arguments()
+    if arguments.work:
+        os.makedirs(arguments.work, exist_ok=True)
     work = tempfile.mkdtemp(prefix="kills.", dir=arguments.work)
     launcher, disks = Launcher(arguments.program, arguments.launcher), faults.SmallDisks()
     print(disks.describe(), flush=True)
