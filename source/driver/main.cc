@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/base/core/interruption.h>
+#include <undine/base/core/utf8.h>
 #include <undine/driver/command_line.h>
 #include <undine/driver/out_of_memory.h>
 #include <undine/driver/run.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <exception>
 #include <filesystem>
@@ -39,17 +38,11 @@ namespace
   /// Print why the run ends and leave with `code`. What all ranks have seen is printed by the
   /// first; an error that only some have seen must end the others too, which wait for them.
   int
-  leave(std::string message, const int code)
+  leave(const std::string &message, const int code)
   {
     const bool together = all_ranks_are_here();
-    // Bytes of a scene may be commands to a terminal.
-    std::replace_if(
-      message.begin(),
-      message.end(),
-      [](const unsigned char c) { return std::iscntrl(c) && c != '\n'; },
-      '?');
     if (!together || dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cerr << '\n' << message << std::endl;
+      std::cerr << '\n' << printable(message) << std::endl;
     if (!together)
       MPI_Abort(MPI_COMM_WORLD, code);
     return code;

@@ -82,7 +82,7 @@ class Judge:
                 outcome.found += verdicts.of_particles(case, result)
                 continue
             codes[ranks] = result.code
-            outcome.answer = {0: "run", 7: "stopped"}.get(result.code, "failed")
+            outcome.answer = "stopped" if result.too_long else "run" if result.code == 0 else "failed"
             outcome.found += self.faults_of_run(case, result, folder / os.path.normpath(output), scene)
             if outcome.found or result.too_long:
                 return
@@ -170,6 +170,8 @@ class Judge:
         with lock[0]:
             if lock[1] is None:
                 lock[1] = self.judge_in(seed, original)
+        if "stopped" in (lock[1].answer, outcome.answer):
+            return []  # for their time, which says nothing about the edits
         if lock[1].answer != outcome.answer:
             why = "".join(f" ({verdict}: {detail})" for verdict, detail in lock[1].found)
             return [("equivalent differs", f"{outcome.answer}, but {lock[1].answer} without the edits{why}")]

@@ -17,7 +17,7 @@ import scene_tools  # noqa: E402  beside the folder of this file
 
 GIGABYTE = 1e9
 WATCH = 0.25  # seconds between looks at the memory
-GRACE = 15  # seconds that a run has to end after SIGTERM
+GRACE = 15  # seconds that a run has to end after a signal
 LONGEST_OUTPUT = 1000000  # characters of the screen that are read
 
 
@@ -36,6 +36,7 @@ class Result:
     seconds: float
     too_long: bool = False  # it was asked to end after the limit
     hung: bool = False  # and did not
+    asked_by: int = 0  # the signal
     too_large: bool = False  # it was killed for its memory
 
 
@@ -90,8 +91,9 @@ class Program:
         return start + [self.executable] + arguments
 
     def run(self, arguments, folder, ranks=1, may_be_stopped=False):
-        """In `folder`; what it prints goes to files there. `may_be_stopped`: a run over its time is sent SIGTERM and
-        has GRACE seconds to end."""
+        """In `folder`; what it prints goes to files there. `may_be_stopped`: a run over its time is sent a signal and
+        has GRACE seconds to end. At SIGTERM mpirun itself would end its ranks before they can."""
+        stop = (signal.SIGTERM if ranks == 1 else signal.SIGUSR1) if may_be_stopped else None
         arguments = [word.encode("utf-8", "surrogateescape") for word in arguments]
         begin = time.monotonic()
         with (open(folder / "screen.out", "w+b") as out, open(folder / "screen.err", "w+b") as err,
@@ -100,7 +102,7 @@ class Program:
                                        stdin=subprocess.DEVNULL, start_new_session=True, env=environment(own))
             result = Result(0, "", "", 0.)
             try:
-                self.wait(process, result, may_be_stopped)
+                self.wait(process, result, stop)
             finally:
                 self.end(process, result)
             result.code = process.returncode
@@ -110,7 +112,7 @@ class Program:
             (folder / name).unlink()
         return result
 
-    def wait(self, process, result, may_be_stopped):
+    def wait(self, process, result, stop):
         until = time.monotonic() + self.limits.seconds
         while True:
             try:
@@ -121,12 +123,12 @@ class Program:
                 result.too_large = True
                 return None
             if time.monotonic() > until:
-                if result.too_long or not may_be_stopped:
+                if result.too_long or not stop:
                     result.hung = True
                     return None
-                result.too_long = True
+                result.too_long, result.asked_by = True, stop
                 until += GRACE
-                process.send_signal(signal.SIGTERM)
+                process.send_signal(stop)
 
     def end(self, process, result):
         """Whatever is left of the session is killed: ranks live on if their mpirun is."""

@@ -27,10 +27,12 @@ KINDS = ("crash", "unexpected condition", "exit code", "timeout", "memory", "not
 def of_end(result):
     """From the exit code and the limits."""
     if result.hung:
-        return [("timeout", "no end" if not result.too_long else "no end, neither by itself nor by SIGTERM")]
+        return [("timeout", "no end" if not result.too_long else "no end, neither by itself nor by a signal")]
     if result.too_large:
         return [("memory", "more than allowed")]
     number = -result.code if result.code < 0 else result.code - 128
+    if result.asked_by and number == result.asked_by:
+        return []  # before it listened to signals
     if result.code < 0 or 1 <= number <= 64:
         name = signal.Signals(number).name if number in set(signal.Signals) else str(number)
         return [("crash", name)]

@@ -121,8 +121,11 @@ namespace undine
     catch (const std::exception &)
       {
         std::cerr.rdbuf(screen);
-        throw InputError("is not an expression in " + variables<dim>() + ": " +
-                         first_message(complaint.str()));
+        const auto reason = first_message(complaint.str());
+        // What muParser says of an operator without an operand.
+        throw InputError(
+          "is not an expression in " + variables<dim>() + ": " +
+          (reason.find("Internal error") == std::string::npos ? reason : "a part is missing"));
       }
   }
 

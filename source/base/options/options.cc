@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/utf8.h>
 #include <undine/base/options/options.h>
 #include <undine/base/options/similar_words.h>
 
@@ -13,9 +14,10 @@ namespace undine
     bool
     can_be_a_name(const std::string &name)
     {
-      return std::all_of(name.begin(), name.end(), [](const unsigned char c) {
-        return c >= 0x80 || std::isalnum(c) || std::string(" _-+.:()").find(c) != std::string::npos;
-      });
+      return is_utf8(name) && std::all_of(name.begin(), name.end(), [](const unsigned char c) {
+               return c >= 0x80 || std::isalnum(c) ||
+                      std::string(" _-+.:()").find(c) != std::string::npos;
+             });
     }
 
 
@@ -133,6 +135,7 @@ namespace undine
   {
     if (is_reference())
       return {"<" + example_name + ">"};
+    store->sections_of_names.insert(path);
     const auto names = store->file.subsections(path);
     for (const auto &name : names)
       if (!can_be_a_name(name))
@@ -165,9 +168,10 @@ namespace undine
     std::string word  = top ? full_path : full_path.substr(slash + 1);
 
     const auto section_exists = [&](const std::string &section) {
-      return std::any_of(store->entries.begin(), store->entries.end(), [&](const Entry &entry) {
-        return entry.section.compare(0, section.size(), section) == 0;
-      });
+      return store->sections_of_names.count(section) > 0 ||
+             std::any_of(store->entries.begin(), store->entries.end(), [&](const Entry &entry) {
+               return entry.section.compare(0, section.size(), section) == 0;
+             });
     };
     bool unknown_section = false;
     while (!place.empty() && !section_exists(place))
@@ -193,12 +197,15 @@ namespace undine
     if (unknown_section)
       std::for_each(sections_of_others.begin(), sections_of_others.end(), insert_section);
     const std::vector<std::string> known(names.begin(), names.end());
-    const std::string              guess = did_you_mean(known, word);
+    const std::string              guess   = did_you_mean(known, word);
+    std::string                    allowed = most_similar_first(known, word);
+    if (store->sections_of_names.count(place) > 0)
+      allowed +=
+        std::string(allowed.empty() ? "" : ", and ") + "subsections with names of their own";
     return InputError(store->file.at(full_path).place + ": " + section_label(place) + ", " +
                       (unknown_section ? "subsection '" : "key '") + word + "': there is no such " +
                       (unknown_section ? "subsection" : "key") + " here." +
-                      (guess.empty() ? "" : " " + guess) +
-                      "\n  Allowed: " + most_similar_first(known, word) + ".");
+                      (guess.empty() ? "" : " " + guess) + "\n  Allowed: " + allowed + ".");
   }
 
 

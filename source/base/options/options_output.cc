@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/utf8.h>
 #include <undine/base/options/options.h>
 
 #include <boost/property_tree/json_parser.hpp>
@@ -71,10 +72,10 @@ namespace undine
     boost::property_tree::ptree
     json_section(const SectionTree &tree)
     {
-      // push_back, not put: keys may contain dots.
+      // push_back, not put: keys may contain dots. JSON must be UTF-8, a title may be anything.
       boost::property_tree::ptree json;
       for (const auto *entry : tree.entries)
-        json.push_back({entry->key, boost::property_tree::ptree(entry->value)});
+        json.push_back({entry->key, boost::property_tree::ptree(valid_utf8(entry->value))});
       for (const auto &[name, section] : tree.sections)
         json.push_back({name, json_section(section)});
       return json;

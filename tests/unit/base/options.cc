@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/utf8.h>
 #include <undine/base/options/options.h>
 
 #include <catch2/catch.hpp>
@@ -316,4 +317,22 @@ TEST_CASE("expressions are functions of place and time", "[options]")
   CHECK_THROWS_AS((Expression<2>("x +")), InputError);
   CHECK_THROWS_AS((Expression<2>("z")), InputError);
   CHECK_THROWS_AS((Expression<2, 2>("x")), InputError);
+}
+
+
+TEST_CASE("texts that are no UTF-8 are shown and written to JSON as what can be read", "[options]")
+{
+  const std::string spoilt = "a\xff\xc3\xb6\x1b[2J\xc2\x9b\n";
+  CHECK(valid_utf8(spoilt) == "a\xEF\xBF\xBD\xc3\xb6\x1b[2J\xc2\x9b\n");
+  CHECK(printable(spoilt) == "a?\xc3\xb6?[2J?\n");
+  CHECK(is_utf8("\xc3\xb6"));
+  CHECK(!is_utf8("\xc3"));
+
+  const auto  options = read("set Title = a\xff\n");
+  std::string title;
+  options.add("Title", title, "", Allowed::anything(), "What it is called.");
+  CHECK(title == "a\xff");
+  std::ostringstream json;
+  options.write_json(json);
+  CHECK(is_utf8(json.str()));
 }

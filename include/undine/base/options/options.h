@@ -9,6 +9,7 @@
 
 #include <iosfwd>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -216,7 +217,8 @@ namespace undine
       bool                     collects  = false;
       std::vector<Entry>       entries;
       std::vector<std::string> mistakes;
-      std::vector<std::string> unjudged; ///< sections in which any key may be right
+      std::vector<std::string> unjudged;          ///< sections in which any key may be right
+      std::set<std::string>    sections_of_names; ///< whose subsections the scene names
     };
 
     Options() = default;
