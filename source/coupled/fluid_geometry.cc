@@ -260,25 +260,6 @@ namespace undine
 
 
   template <int dim>
-  std::string
-  complaint_at_start(const Models<dim> &models)
-  {
-    if (!models.fluid || !models.surface || models.solid)
-      return "";
-    const auto       &grid      = models.fluid->grid();
-    const auto        positions = models.surface->positions(SolidState(), 0.);
-    CutCells<dim>     cells(block_of_rank(grid));
-    CutWorkspace<dim> work;
-    const auto       &surface = models.surface->surface();
-    cut_block(cells,
-              work,
-              {surface, beyond_planes(cells.block.planes(), surface, positions)},
-              grid.cells()->blocks());
-    return report(cells, surface, grid.communicator()).message;
-  }
-
-
-  template <int dim>
   std::unique_ptr<FluidGeometry<dim>>
   geometry_of(const Models<dim> &models, const State<dim> &state)
   {
@@ -292,10 +273,6 @@ namespace undine
   }
 
 
-  template std::string
-  complaint_at_start(const Models<2> &);
-  template std::string
-  complaint_at_start(const Models<3> &);
   template class FluidGeometry<2>;
   template class FluidGeometry<3>;
   template std::unique_ptr<FluidGeometry<2>>

@@ -177,6 +177,24 @@ namespace undine
     }
 
 
+    /// The state at the start of a run.
+    template <int dim>
+    Report
+    start(State<dim> &state, Scene<dim> &scene, TimingTree &timing)
+    {
+      state.clock = scene.clock;
+      return scene.scheme->initialize(state, scene.models, timing);
+    }
+
+
+    void
+    print_note(Log &log, const Report &report)
+    {
+      if (!report.note.empty())
+        log.print("note: {}", report.note);
+    }
+
+
     /// Make state, folder and outputs ready for the first step. The folder is touched last: a run
     /// that cannot start, or be taken up again, leaves what is in it as it was.
     template <int dim>
@@ -190,9 +208,8 @@ namespace undine
            TimingTree    &timing,
            const MPI_Comm communicator)
     {
-      const auto timed   = timing.section("initialise");
-      state.clock        = scene.clock;
-      const Report first = scene.scheme->initialize(state, scene.models, timing);
+      const auto   timed = timing.section("initialise");
+      const Report first = start(state, scene, timing);
 
       const OutputContext<dim>   context{communicator, folder, scene.models, scene.probes, timing};
       std::optional<ResumedFrom> from;
@@ -205,13 +222,13 @@ namespace undine
       prepare_directory(folder, options, from, communicator);
       log.open(folder.path(),
                from && from->directory == folder.path() ? std::ios::app : std::ios::trunc);
-      if (!first.note.empty())
-        log.print("note: {}", first.note);
+      print_note(log, first);
       start_outputs(state, first, scene, context);
     }
 
 
-    /// Nothing is built that the machine may have too little memory for.
+    /// All that a run does before its first step, but nothing is built that the machine may have
+    /// too little memory for.
     template <int dim>
     void
     validate(const Options &options, const Request &request, MPI_Comm communicator)
@@ -225,10 +242,10 @@ namespace undine
                   "probes fit each other was not checked";
       else
         {
-          const auto scene     = read_scene<dim>(options, communicator);
-          const auto complaint = complaint_at_start(scene.models);
-          if (!complaint.empty())
-            log.print("note: {}", complaint);
+          auto       scene = read_scene<dim>(options, communicator);
+          State<dim> state;
+          TimingTree timing;
+          print_note(log, start(state, scene, timing));
         }
       size.print(log, request.output.empty() ? "." : request.output);
       log.print("{}: {}", options.file().name(), checks);

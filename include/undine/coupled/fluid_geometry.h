@@ -152,11 +152,6 @@ namespace undine
     std::unique_ptr<const SurfaceQueries<dim>> queries;
   };
 
-  /// What is wrong with the surfaces at the start, see CutReport::message. Collective.
-  template <int dim>
-  std::string
-  complaint_at_start(const Models<dim> &models);
-
   /// The grid as it was cut when the fluid's fields of a state were computed, with surfaces that
   /// stand still. nullptr if nothing stands in the fluid. Collective. Throws SolveError as place()
   /// does.
