@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/base/core/interruption.h>
-#include <undine/base/core/utf8.h>
+#include <undine/base/options/utf8.h>
 #include <undine/driver/command_line.h>
 #include <undine/driver/out_of_memory.h>
 #include <undine/driver/run.h>

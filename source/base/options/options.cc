@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/utf8.h>
 #include <undine/base/options/options.h>
 #include <undine/base/options/similar_words.h>
+#include <undine/base/options/utf8.h>
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/utf8.h>
 #include <undine/base/options/options.h>
+#include <undine/base/options/utf8.h>
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_base_core_utf8_h
-#define undine_base_core_utf8_h
+#ifndef undine_base_options_utf8_h
+#define undine_base_options_utf8_h
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/utf8.h>
+#include <undine/base/options/utf8.h>
 
 #include <boost/locale/utf.hpp>
 
