@@ -42,7 +42,7 @@ namespace
   {
     const bool together = all_ranks_are_here();
     if (!together || dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cerr << '\n' << printable(message) << std::endl;
+      std::cerr << '\n' << undine::printable(message) << std::endl;
     if (!together)
       MPI_Abort(MPI_COMM_WORLD, code);
     return code;
