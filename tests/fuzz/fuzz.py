@@ -4,7 +4,7 @@
 
 usage: fuzz.py PROGRAM [--cases N] [--first K] [--seed S] [--jobs J] [--run STEPS] [--ranks R ...] [--minimise]
                [--keep DIR] [--log FILE] [--work DIR] [--limit SECONDS] [--memory GB] [--time SECONDS]
-               [--launcher "COMMAND -n {ranks}"] [--only K ...] [--unmutated]
+               [--launcher "COMMAND -n {ranks}"] [--only K ...] [--unmutated] [--fork-server]
 
 Case k of seed S is the same whatever the other options. Every case is validated; with --run what is accepted is
 also run for so many steps on each number of ranks, run again from the parameters.prm that it wrote, and stopped and
@@ -27,6 +27,7 @@ import time  # noqa: E402
 import traceback  # noqa: E402
 
 import cases as making  # noqa: E402
+import fork_server  # noqa: E402
 import judge as judging  # noqa: E402
 import key_types  # noqa: E402
 import minimise  # noqa: E402
@@ -50,6 +51,7 @@ def arguments():
     parser.add_argument("--run", type=int, default=0, metavar="STEPS", help="run what is accepted")
     parser.add_argument("--ranks", type=int, nargs="+", default=[1], help="run it on each of these numbers of ranks")
     parser.add_argument("--launcher", default="", help="starts the program on {ranks} ranks; default: mpirun for several")
+    parser.add_argument("--fork-server", action="store_true", help="starts on one rank are copies of a loaded program")
     parser.add_argument("--minimise", action="store_true", help="the first case of each fault")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the first case of each fault")
     parser.add_argument("--log", type=pathlib.Path, help="one line of JSON for each case, written as they end")
@@ -68,7 +70,7 @@ class Campaign:
         self.until = time.monotonic() + options.time if options.time else float("inf")
         launcher = " ".join(shlex.quote(executable(word)) for word in shlex.split(options.launcher))
         program = process.Program(executable(options.program), launcher,
-                                  process.Limits(options.limit, options.memory))
+                                  process.Limits(options.limit, options.memory), servers(options))
         kinds = key_types.KeyTypes(reference(program, work))
         all_seeds = seeds.read_seeds(ROOT)
         self.seeds = {one.seed: one for one in all_seeds}
@@ -164,6 +166,12 @@ def executable(program):
     """Without folders that are relative: it is started elsewhere."""
     path = pathlib.Path(program)
     return str(path.resolve()) if path.is_file() else program
+
+
+def servers(options):
+    if not options.fork_server:
+        return None
+    return fork_server.ForkServers(executable(options.program), options.jobs, process.scene_tools.environment())
 
 
 def reference(program, work):

@@ -77,10 +77,12 @@ def read_sessions():
 class Program:
     """The program to be tested, and how it is started on so many ranks."""
 
-    def __init__(self, executable, launcher, limits):
+    def __init__(self, executable, launcher, limits, servers=None):
+        """`servers`: a ForkServers, for starts on one rank."""
         self.executable = executable
         self.launcher = launcher
         self.limits = limits
+        self.servers = servers
         self.watch = MemoryWatch()
 
     def command(self, arguments, ranks=1):
@@ -98,8 +100,11 @@ class Program:
         begin = time.monotonic()
         with (open(folder / "screen.out", "w+b") as out, open(folder / "screen.err", "w+b") as err,
               tempfile.TemporaryDirectory(prefix="mpi_", ignore_cleanup_errors=True) as own):
-            process = subprocess.Popen(self.command(arguments, ranks), cwd=folder, stdout=out, stderr=err,
-                                       stdin=subprocess.DEVNULL, start_new_session=True, env=environment(own))
+            if self.servers and ranks == 1:
+                process = self.servers.start(arguments, folder, out.name, err.name, own)
+            else:
+                process = subprocess.Popen(self.command(arguments, ranks), cwd=folder, stdout=out, stderr=err,
+                                           stdin=subprocess.DEVNULL, start_new_session=True, env=environment(own))
             result = Result(0, "", "", 0.)
             try:
                 self.wait(process, result, stop)
