@@ -2,7 +2,7 @@
 #ifndef undine_cuda_device_engine_h
 #define undine_cuda_device_engine_h
 
-#include <undine/particles/engine.h>
+#include <undine/particles/engine/engine.h>
 
 namespace undine::particles
 {

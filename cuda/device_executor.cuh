@@ -6,10 +6,10 @@
 #include "device_kernels.cuh"
 #include "device_stopwatch.cuh"
 #include "find_device.h"
-#include "resident_bodies.cuh"
-#include "resident_solver.cuh"
+#include "resident/bodies.cuh"
+#include "resident/solver.cuh"
 
-#include <undine/particles/damped_iterations.h>
+#include <undine/particles/pressure/damped_iterations.h>
 
 #include <cub/device/device_scan.cuh>
 

@@ -44,7 +44,7 @@ def is_code(file):
 
 
 def guard_of(root, file):
-    """undine_solid_body_h for include/undine/solid/body.h; the file's own name elsewhere."""
+    """undine_solid_body_h for include/undine/solid/mesh/body.h; the file's own name elsewhere."""
     include = root / "include"
     if include in file.parents:
         return re.sub(r"[/.]", "_", file.relative_to(include).as_posix())

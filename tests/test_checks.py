@@ -19,10 +19,10 @@ class Tree(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
-        self.write("include/undine/solid/beam.h",
-                   LICENCE + "#ifndef undine_solid_beam_h\n#define undine_solid_beam_h\n"
+        self.write("include/undine/solid/mesh/beam.h",
+                   LICENCE + "#ifndef undine_solid_mesh_beam_h\n#define undine_solid_mesh_beam_h\n"
                    "#include <undine/base/core/clock.h>\n#endif\n")
-        self.write("source/solid/beam.cc", LICENCE + "#include <undine/solid/beam.h>\n")
+        self.write("source/solid/mesh/beam.cc", LICENCE + "#include <undine/solid/mesh/beam.h>\n")
 
     def write(self, name, text):
         file = self.root / name
@@ -30,8 +30,7 @@ class Tree(unittest.TestCase):
         file.write_text(text)
 
     def includes(self):
-        return (list(check_include_direction.wrong_directions(self.root)) +
-                list(check_include_direction.cycles(self.root)))
+        return list(check_include_direction.problems(self.root))
 
     def style(self):
         return list(check_style.problems(self.root))
@@ -47,12 +46,38 @@ class IncludeDirection(Tree):
         self.assertEqual(self.includes(), [])
 
     def test_solid_sees_fluid(self):
-        self.write("source/solid/beam.cc", LICENCE + "\n#include <undine/fluid/grid.h>\n")
-        self.expect(self.includes(), "source/solid/beam.cc:3:", "'solid'", "'fluid'")
+        self.write("source/solid/mesh/beam.cc", LICENCE + "\n#include <undine/fluid/grid/lattice.h>\n")
+        self.expect(self.includes(), "source/solid/mesh/beam.cc:3:", "'solid/mesh'", "'fluid/grid'")
 
     def test_upward(self):
-        self.write("source/fluid/grid.cc", LICENCE + "#include <undine/effects/effect.h>\n")
-        self.expect(self.includes(), "source/fluid/grid.cc:2:", "'effects'")
+        self.write("source/fluid/grid/lattice.cc", LICENCE + "#include <undine/effects/effect.h>\n")
+        self.expect(self.includes(), "source/fluid/grid/lattice.cc:2:", "'effects'")
+
+    def test_room_sees_one_above_it(self):
+        self.write("source/solid/material/rubber.cc", LICENCE + "#include <undine/solid/mesh/beam.h>\n")
+        self.expect(self.includes(), "source/solid/material/rubber.cc:2:", "'solid/mesh'")
+
+    def test_room_sees_the_face_of_its_module(self):
+        self.write("source/fluid/grid/lattice.cc", LICENCE + "#include <undine/fluid/fluid_step.h>\n")
+        self.expect(self.includes(), "source/fluid/grid/lattice.cc:2:", "'fluid'")
+
+    def test_contact_sees_cutting(self):
+        self.write("source/contact/barrier.cc", LICENCE + "#include <undine/cutting/cut_block.h>\n")
+        self.expect(self.includes(), "source/contact/barrier.cc:2:", "'contact'", "'cutting'")
+
+    def test_folders_of_parts_belong_to_their_room(self):
+        self.write("source/solid/material/materials/rubber.cc",
+                   LICENCE + "#include <undine/solid/mesh/beam.h>\n")
+        self.expect(self.includes(), "'solid/material'")
+
+    def test_unknown_room(self):
+        self.write("source/fluid/cellar/wine.cc", LICENCE)
+        self.expect(self.includes(), "source/fluid/cellar/wine.cc:1:")
+
+    def test_crowded_folder(self):
+        for number in range(26):
+            self.write(f"source/contact/part_{number}.cc", LICENCE)
+        self.expect(self.includes(), "source/contact:1:", "26 files")
 
     def test_core_sees_deal_ii(self):
         self.write("source/base/core/clock.cc", LICENCE + "#include <deal.II/base/mpi.h>\n")
@@ -73,8 +98,8 @@ class IncludeDirection(Tree):
 
     def test_cycle(self):
         for name, other in (("a", "b"), ("b", "a")):
-            self.write(f"include/undine/fluid/{name}.h",
-                       f"#include <undine/fluid/{other}.h>\n")
+            self.write(f"include/undine/fluid/grid/{name}.h",
+                       f"#include <undine/fluid/grid/{other}.h>\n")
         self.assertIn("cycle", self.includes()[0])
 
 
@@ -83,34 +108,34 @@ class Style(Tree):
         self.assertEqual(self.style(), [])
 
     def test_licence(self):
-        self.write("source/solid/beam.cc", "int a;\n")
-        self.expect(self.style(), "source/solid/beam.cc:1:", "LGPL")
+        self.write("source/solid/mesh/beam.cc", "int a;\n")
+        self.expect(self.style(), "source/solid/mesh/beam.cc:1:", "LGPL")
 
     def test_guard(self):
-        self.write("include/undine/solid/beam.h", LICENCE + "#ifndef beam_h\n#define beam_h\n#endif\n")
-        self.expect(self.style(), "undine_solid_beam_h")
+        self.write("include/undine/solid/mesh/beam.h", LICENCE + "#ifndef beam_h\n#define beam_h\n#endif\n")
+        self.expect(self.style(), "undine_solid_mesh_beam_h")
 
     def test_long_file(self):
-        self.write("source/solid/beam.cc", LICENCE + "int a;\n" * 400)
+        self.write("source/solid/mesh/beam.cc", LICENCE + "int a;\n" * 400)
         self.expect(self.style(), "401 lines")
 
     def test_long_function(self):
         body = "".join(f"    if (a)\n      {{ a = {i}; }}\n" for i in range(30))
         text = ("namespace undine\n{\n  class Beam\n  {\n  public:\n    void\n    f(int a)\n    {\n" +
                 body + "    }\n    int g() { return 1; } // {\n  };\n}\n")
-        self.write("source/solid/beam.cc", LICENCE + text)
-        self.expect(self.style(), "source/solid/beam.cc:7:", "64 lines")
+        self.write("source/solid/mesh/beam.cc", LICENCE + text)
+        self.expect(self.style(), "source/solid/mesh/beam.cc:7:", "64 lines")
 
     def test_unfinished(self):
-        self.write("source/solid/beam.cc", LICENCE + "// TODO\n")
-        self.expect(self.style(), "source/solid/beam.cc:2:")
+        self.write("source/solid/mesh/beam.cc", LICENCE + "// TODO\n")
+        self.expect(self.style(), "source/solid/mesh/beam.cc:2:")
 
     def test_switched_off(self):
-        self.write("source/solid/beam.cc", LICENCE + "#if 0\n#endif\n")
+        self.write("source/solid/mesh/beam.cc", LICENCE + "#if 0\n#endif\n")
         self.expect(self.style(), "switched-off")
 
     def test_dimension(self):
-        self.write("source/solid/beam.cc", LICENCE + "if (dim == 2)\n;\n")
+        self.write("source/solid/mesh/beam.cc", LICENCE + "if (dim == 2)\n;\n")
         self.expect(self.style(), "dim")
 
 

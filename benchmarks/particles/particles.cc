@@ -3,7 +3,7 @@
 #include "check_run.h"
 #include "dam_break.h"
 
-#include <undine/particles/engine.h>
+#include <undine/particles/engine/engine.h>
 
 #include <chrono>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/driver/adviser.h>
-#include <undine/solid/material.h>
+#include <undine/solid/material/material.h>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/driver/adviser.h>
-#include <undine/solid/internal_forces.h>
+#include <undine/solid/assembly/internal_forces.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/implied_effect.h>
+#include <undine/coupled/model/implied_effect.h>
 #include <undine/driver/effects_report.h>
-#include <undine/particles/phases.h>
+#include <undine/particles/execution/phases.h>
 
 #include <algorithm>
 

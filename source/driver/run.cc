@@ -2,7 +2,7 @@
 #include <undine/base/core/interruption.h>
 #include <undine/base/core/version.h>
 #include <undine/base/parallel/interruption.h>
-#include <undine/coupled/fluid_geometry.h>
+#include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/driver/effects_report.h>
 #include <undine/driver/log.h>
 #include <undine/driver/measured_costs.h>
@@ -10,7 +10,7 @@
 #include <undine/driver/run.h>
 #include <undine/driver/run_directory.h>
 #include <undine/driver/size_check.h>
-#include <undine/output/checkpoint.h>
+#include <undine/output/checkpoint/checkpoint.h>
 #include <undine/scene/scene.h>
 
 #include <iostream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
 #include <undine/effects/face_forces.h>
-#include <undine/solid/solid_model.h>
+#include <undine/solid/mesh/solid_model.h>
 
 #include <algorithm>
 

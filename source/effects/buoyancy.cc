@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
 #include <undine/effects/face_forces.h>
-#include <undine/fluid/pressure_numbers.h>
+#include <undine/fluid/grid/pressure_numbers.h>
 
 #include <fmt/format.h>
 

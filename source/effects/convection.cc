@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
-#include <undine/fluid/advection.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/advection/advection.h>
 
 #include <utility>
 #include <vector>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
-#include <undine/fluid/advection.h>
-#include <undine/fluid/implicit_diffusion.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/advection/advection.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/model/fluid_quantities.h>
+#include <undine/fluid/viscosity/implicit_diffusion.h>
 
 #include <algorithm>
 #include <optional>

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
-#include <undine/fluid/immersed_friction.h>
-#include <undine/fluid/implicit_diffusion.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/boundary/boundary_quantities.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/pressure/divergence.h>
+#include <undine/fluid/pressure/pressure_gradient.h>
+#include <undine/fluid/viscosity/immersed_friction.h>
+#include <undine/fluid/viscosity/implicit_diffusion.h>
 
 #include <fmt/format.h>
 
@@ -61,7 +64,7 @@ namespace undine
         pressure,
         open_faces(step.model, step.flow.velocity(), velocity.open_parts(), step.time));
       add(velocity, step.dt, gradient);
-      set_boundary_velocity(velocity, step.model, step.end);
+      set_boundary_velocity(velocity, step.model.boundaries(), step.end);
       for (unsigned int axis = 0; axis < dim; ++axis)
         step.linear_iterations +=
           step.flow.bodies().walls
@@ -103,8 +106,9 @@ namespace undine
             const FluidState<dim> &state,
             const double           time) const override
     {
-      return force_columns(
-        "Viscous force", model, viscous_forces(model, state, dynamic_viscosity, time));
+      return force_columns("Viscous force",
+                           model.boundaries(),
+                           viscous_forces(model.boundaries(), state, dynamic_viscosity, time));
     }
 
     void

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/advection.h>
+#include <undine/fluid/advection/advection.h>
 #include <undine/fluid/fluid_step.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/grid/field_algebra.h>
 
 #include <algorithm>
 

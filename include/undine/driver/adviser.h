@@ -2,9 +2,9 @@
 #ifndef undine_driver_adviser_h
 #define undine_driver_adviser_h
 
-#include <undine/coupled/models.h>
-#include <undine/coupled/report.h>
-#include <undine/coupled/state.h>
+#include <undine/coupled/model/models.h>
+#include <undine/coupled/state/report.h>
+#include <undine/coupled/state/state.h>
 
 #include <optional>
 #include <string>

@@ -5,8 +5,8 @@
 #include <undine/base/core/column.h>
 #include <undine/base/options/options.h>
 #include <undine/fluid/fluid_step.h>
-#include <undine/particles/setup.h>
-#include <undine/solid/solid_environment.h>
+#include <undine/particles/setup/setup.h>
+#include <undine/solid/assembly/solid_environment.h>
 
 #include <memory>
 #include <string>

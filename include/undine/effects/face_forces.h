@@ -3,7 +3,7 @@
 #define undine_effects_face_forces_h
 
 #include <undine/fluid/fluid_step.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/grid/field_algebra.h>
 
 namespace undine
 {

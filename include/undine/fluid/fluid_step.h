@@ -4,9 +4,9 @@
 
 #include <undine/base/core/stage.h>
 #include <undine/base/core/timing.h>
-#include <undine/fluid/flow.h>
-#include <undine/fluid/fluid_model.h>
-#include <undine/fluid/fluid_state.h>
+#include <undine/fluid/advection/flow.h>
+#include <undine/fluid/grid/fluid_state.h>
+#include <undine/fluid/model/fluid_model.h>
 
 #include <deal.II/base/tensor.h>
 

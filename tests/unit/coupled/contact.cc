@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <coupled/contact_course.h>
 
-#include <undine/interface/barrier.h>
+#include <undine/contact/barrier.h>
 
 #include <message_of.h>
 

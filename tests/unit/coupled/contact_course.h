@@ -4,7 +4,7 @@
 
 #include <coupled/coupled_run.h>
 
-#include <undine/solid/solid_columns.h>
+#include <undine/solid/step/solid_columns.h>
 
 #include <algorithm>
 #include <string>

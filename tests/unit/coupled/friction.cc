@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/fluid_side.h>
-#include <undine/interface/body_forces.h>
+#include <undine/coupled/step/fluid_side.h>
+#include <undine/operators/body_forces.h>
 
 #include <coupled/coupled_run.h>
 #include <coupled/viscous_flows.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/solid/time_integrator.h>
+#include <undine/solid/time/time_integrator.h>
 
 #include <coupled/coupled_run.h>
 

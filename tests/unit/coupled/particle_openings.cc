@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <message_of.h>
 
-#include <undine/particles/engine.h>
+#include <undine/particles/engine/engine.h>
 
 #include "particle_scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/solid/solid_model.h>
+#include <undine/solid/mesh/solid_model.h>
 
 #include <catch2/catch.hpp>
 #include <effects/flow_run.h>

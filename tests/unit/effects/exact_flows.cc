@@ -184,7 +184,7 @@ TEST_CASE("a moving lid drags Couette flow and the forces on the walls balance",
   run.run(40, 0.5);
   CHECK(largest_error(run.state.velocity[0], [](const auto &place) { return 3 * place[1]; }) <
         1e-8);
-  const auto forces = viscous_forces(run.model, run.state, 2., run.time);
+  const auto forces = viscous_forces(run.model.boundaries(), run.state, 2., run.time);
   CHECK(forces[0][0] == Approx(-6));
   CHECK(forces[1][0] == Approx(6));
   for (const auto &effect : run.effects)

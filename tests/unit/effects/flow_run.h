@@ -3,7 +3,7 @@
 #define undine_tests_flow_run_h
 
 #include <undine/effects/effect.h>
-#include <undine/fluid/projection.h>
+#include <undine/fluid/pressure/projection.h>
 
 #include <fluid/fluid_scene.h>
 

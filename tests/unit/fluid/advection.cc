@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/advection.h>
+#include <undine/fluid/advection/advection.h>
 
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>

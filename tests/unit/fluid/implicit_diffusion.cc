@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/implicit_diffusion.h>
+#include <undine/fluid/viscosity/implicit_diffusion.h>
 
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>

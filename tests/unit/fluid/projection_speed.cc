@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/projection.h>
+#include <undine/fluid/pressure/projection.h>
 
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>

@@ -2,7 +2,7 @@
 #ifndef undine_tests_output_obstacle_scene_h
 #define undine_tests_output_obstacle_scene_h
 
-#include <undine/coupled/fluid_geometry.h>
+#include <undine/coupled/immersed/fluid_geometry.h>
 
 #include "sample_scene.h"
 

@@ -3,7 +3,7 @@
 #define undine_tests_unit_particles_particle_scene_h
 
 #include <undine/base/core/registry.h>
-#include <undine/particles/engine.h>
+#include <undine/particles/engine/engine.h>
 
 #include <algorithm>
 #include <array>

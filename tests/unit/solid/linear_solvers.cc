@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_scene.h"
 
-#include <undine/solid/internal_forces.h>
-#include <undine/solid/mass_matrix.h>
-#include <undine/solid/rigid_motions.h>
-#include <undine/solid/sparse.h>
-#include <undine/solid/tangent_solver.h>
+#include <undine/solid/assembly/internal_forces.h>
+#include <undine/solid/assembly/mass_matrix.h>
+#include <undine/solid/assembly/sparse.h>
+#include <undine/solid/mesh/rigid_motions.h>
+#include <undine/solid/solvers/tangent_solver.h>
 
 #include <catch2/catch.hpp>
 

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/coupled/state/report.h>
+
+#include <cmath>
+
+namespace undine
+{
+  void
+  assert_finite(const Columns &columns)
+  {
+    for (const auto &column : columns)
+      if (!std::isfinite(column.value))
+        throw SolveError("'" + column.name +
+                         "' is not a finite number. Check the expressions of the scene at this "
+                         "time, or try a smaller Time/Step.");
+  }
+} // namespace undine

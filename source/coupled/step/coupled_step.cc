@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/step/coupled_step.h>
+#include <undine/operators/flux_matrix.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// With the surfaces where the bodies' first guess takes them.
+    template <int dim>
+    std::unique_ptr<SurfaceFlux<dim>>
+    moved(std::unique_ptr<SurfaceFlux<dim>> surface, const BlockSystem::Vector &velocity)
+    {
+      surface->move(velocity);
+      return surface;
+    }
+
+
+    /// What is left of B u if places of the size of the domain are only known to rounding.
+    template <int dim>
+    double
+    flux_rounding(const MacGrid<dim> &grid, const SurfaceFlux<dim> &surface, const double dt)
+    {
+      double size = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        size = std::max({size, std::abs(grid.lower()[d]), std::abs(grid.upper()[d])});
+      return std::numeric_limits<double>::epsilon() * size / dt * surface.matrix().frobenius_norm();
+    }
+  } // namespace
+
+
+  template <int dim>
+  CoupledStep<dim>::CoupledStep(const Parts          &parts,
+                                const FluidStep<dim> &fluid,
+                                State<dim>           &state,
+                                const std::string    &boundary_flux)
+    : parts(parts)
+    , fluid(fluid)
+    , state(state)
+    , newton(parts.models.solid->numerics().newton)
+    , end_time(fluid.end)
+    , old_solid(state.solid)
+    , equations(*parts.models.solid,
+                parts.mass,
+                old_solid,
+                parts.environment,
+                fluid.start,
+                fluid.dt,
+                parts.timing,
+                loads_besides_pressure(),
+                state.contact)
+    , numbers(parts.models.fluid->grid(), parts.geometry.bodies().open_parts)
+    , surface(
+        moved(make_surface_flux(
+                boundary_flux,
+                parts.models,
+                parts.geometry,
+                numbers,
+                equations,
+                BodiesInStage<dim>(parts.models, state, fluid.stage, fluid.end - fluid.stage.end)),
+              equations.guess()))
+    , pressures(*parts.models.fluid, numbers, filled_rows(surface->matrix()), fluid.dt)
+    , problem(*parts.models.solid,
+              equations,
+              *surface,
+              pressures,
+              parts.solver,
+              parts.timing,
+              flux_rounding(parts.models.fluid->grid(), *surface, fluid.dt))
+    , x(problem.vector())
+  {
+    pressures.start(state.fluid.velocity,
+                    fluid.flow.velocity(),
+                    end_time,
+                    parts.geometry.pushed(surface->node_velocities(), fluid.dt));
+    predicted = state.fluid.velocity;
+  }
+
+
+  /// What the fluid does to the bodies besides its reduced pressure [N]. Friction has been found
+  /// before: the fluid has its reaction.
+  template <int dim>
+  typename CoupledStep<dim>::Vector
+  CoupledStep<dim>::loads_besides_pressure()
+  {
+    surfaces.at_rest = parts.geometry.other_forces(fluid.gravity, end_time);
+    auto result      = parts.models.solid->vector();
+    parts.models.surface->add_to_bodies(result, surfaces.at_rest);
+    if (fluid.friction)
+      {
+        surfaces.friction = fluid.friction->on_nodes;
+        parts.models.surface->add_to_bodies(result, surfaces.friction);
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  SolidReport<dim>
+  CoupledStep<dim>::solve()
+  {
+    const auto       timed = parts.timing.section("couple");
+    SolidReport<dim> report;
+    parts.solver.start_step();
+    report.newton = solve_with_openings();
+    report.note   = parts.solver.note();
+    end(report);
+    return report;
+  }
+
+
+  /// Newton's method for u^{n+1} and p, and around it for how fast fluid enters through outflows:
+  /// once or twice, as long as that changes v^{n+1} (see hold_back_entering_flow()).
+  template <int dim>
+  NewtonReport
+  CoupledStep<dim>::solve_with_openings()
+  {
+    constexpr unsigned int most_rounds = 20;
+    constexpr double       tolerance   = 1e-4;
+    NewtonReport           all;
+    for (unsigned int round = 0; round < most_rounds; ++round)
+      {
+        state.fluid.velocity = predicted;
+        pressures.open(state.fluid.velocity);
+        // A given number of corrections begins anew, so that there are exactly so many.
+        const bool first  = round == 0 || newton.fixed_iterations > 0;
+        const auto report = first ? solve_first() : solve_from(x.block(0), x.block(1));
+        all.iterations += report.iterations;
+        all.linear_iterations = report.linear_iterations;
+        all.residuals.insert(all.residuals.end(), report.residuals.begin(), report.residuals.end());
+        pressures.accelerate(state.fluid.velocity, x.block(1));
+        if (pressures.update_entering_flow(state.fluid.velocity) <= tolerance)
+          break;
+      }
+    return all;
+  }
+
+
+  /// From u^n and p^n; if that fails, from bodies that keep their place. In the other order without
+  /// inertia, as without a fluid.
+  template <int dim>
+  NewtonReport
+  CoupledStep<dim>::solve_first()
+  {
+    Vector pressure = x.block(1);
+    copy_to_vector(pressure, state.fluid.pressure);
+    const bool rest_first = equations.is_static() || newton.fixed_iterations > 0;
+    try
+      {
+        return solve_from(rest_first ? resting_guess() : equations.guess(), pressure);
+      }
+    catch (const SolveError &)
+      {
+        if (newton.fixed_iterations > 0)
+          throw;
+      }
+    return solve_from(rest_first ? equations.guess() : resting_guess(), pressure);
+  }
+
+
+  template <int dim>
+  NewtonReport
+  CoupledStep<dim>::solve_from(const Vector velocity, const Vector pressure)
+  {
+    x.block(0) = equations.kept_apart(velocity);
+    x.block(1) = pressure;
+    pressures.closed_regions().ground(x.block(1));
+    problem.start();
+    return solve_newton(problem, x, newton);
+  }
+
+
+  /// u that keeps d^n, but for what supports that have moved draw with them, as without a fluid.
+  template <int dim>
+  typename CoupledStep<dim>::Vector
+  CoupledStep<dim>::resting_guess() const
+  {
+    auto velocity = equations.guess_at_rest();
+    if (equations.has_motion())
+      {
+        const auto system = equations.motion_predictor();
+        parts.motion_solver.begin_stage();
+        velocity.add(1.,
+                     parts.motion_solver.solve(
+                       system.matrix, system.right_side, equations.displacement(velocity)));
+      }
+    return velocity;
+  }
+
+
+  /// d^{n+1} from u^{n+1}, and what else follows.
+  template <int dim>
+  void
+  CoupledStep<dim>::end(SolidReport<dim> &report)
+  {
+    const auto &velocity = x.block(0);
+    surface->move(velocity);
+    const auto pressure = pressures.field(x.block(1));
+    equations.add_forces(surface->forces(pressure));
+    report.reactions          = equations.reactions(velocity);
+    report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
+    divergence_left           = pressures.divergence(state.fluid.velocity, surface->fluxes());
+    state.fluid.pressure      = pressure;
+    pressures.closed_regions().remove_means(state.fluid.pressure);
+    set_means(state.fluid.pressure, parts.models.fluid->grid());
+    report.contact_velocity = equations.contact_velocity(velocity);
+    state.solid             = equations.end_state(velocity, report.contact_velocity);
+  }
+
+
+  template <int dim>
+  double
+  CoupledStep<dim>::divergence() const
+  {
+    return divergence_left;
+  }
+
+
+  template <int dim>
+  PressureBalance<dim>
+  CoupledStep<dim>::pressure_balance() const
+  {
+    return undine::pressure_balance(*parts.models.fluid,
+                                    predicted,
+                                    state.fluid.velocity,
+                                    pressures.field(x.block(1)),
+                                    pressures.open_faces());
+  }
+
+
+  template <int dim>
+  SurfaceExchange<dim>
+  CoupledStep<dim>::exchange() const
+  {
+    const auto pressure = pressures.field(x.block(1));
+    auto       result   = surfaces;
+    result.by_fluid     = parts.geometry.pressure_forces(pressure);
+    result.pushed       = surface->nodal_forces(pressure);
+    result.velocities   = surface->node_velocities();
+    result.on_bodies    = result.pushed;
+    result.way          = parts.models.surface->with_bodies(
+      equations.increment(x.block(0)),
+      typename SurfaceExchange<dim>::Vectors(result.by_fluid.size()));
+    return result;
+  }
+
+
+  template <int dim>
+  SolidBalance<dim>
+  CoupledStep<dim>::solid_balance(const SolidReport<dim> &report) const
+  {
+    return equations.balance(x.block(0), report.reactions);
+  }
+
+
+  template class CoupledStep<2>;
+  template class CoupledStep<3>;
+} // namespace undine

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/coupled/step/one_way.h>
+#include <undine/coupled/step/solid_stage.h>
+#include <undine/solid/step/solid_columns.h>
+
+namespace undine
+{
+  template <int dim>
+  OneWay<dim>::OneWay(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing)
+    : models(models)
+    , ledger(ledger)
+    , timing(timing)
+    , environment(models.environment())
+    , fluid_side(models, ledger, timing)
+    , solid_step(*models.solid)
+    , projection(*models.fluid)
+    , at_start(start_of_bodies(*models.solid))
+  {
+    at_start.velocity = 0;
+    if (ledger.is_on())
+      solid_step.keep_balance();
+  }
+
+
+  template <int dim>
+  void
+  OneWay<dim>::initialize(State<dim> &state, const double dt, Report &report)
+  {
+    const auto start = solid_step.initialize(environment, state.clock.time, dt);
+    state.solid      = models.direction == Direction::fluid_to_body ? at_start : start;
+    fluid_side.initialize(state, projection, dt, report);
+    state.solid = start;
+    add_solid_columns(report, state, state.clock.time, SolidReport<dim>());
+  }
+
+
+  template <int dim>
+  void
+  OneWay<dim>::step(State<dim> &state, const Stage &stage, Report &report)
+  {
+    Half half = models.direction == Direction::fluid_to_body ? fluid_then_body(state, stage)
+                                                             : body_then_fluid(state, stage);
+    if (ledger.is_on() && stage.is_last)
+      book(half, state);
+    report.newton_iterations += half.solid.newton.iterations;
+    report.linear_iterations += half.solid.newton.linear_iterations + half.projected.iterations;
+    report.newton_reduction = reduction(half.solid.newton);
+    report.note             = half.solid.note;
+    fluid_side.finish(*half.fluid, state, report, half.projected.divergence);
+    if (stage.is_last)
+      add_solid_columns(report, state, half.fluid->end, half.solid);
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  OneWay<dim>::loads_on_surfaces(const State<dim> &state, const double time) const
+  {
+    if (models.direction == Direction::body_to_fluid)
+      return {};
+    return fluid_side.loads_on_surfaces(state, time);
+  }
+
+
+  template <int dim>
+  typename OneWay<dim>::Half
+  OneWay<dim>::fluid_then_body(State<dim> &state, const Stage &stage)
+  {
+    Half       half;
+    const auto moving = state.solid;
+    state.solid       = at_start;
+    half.fluid        = fluid_side.predict(state, stage);
+    state.solid       = moving;
+
+    const auto &geometry = *fluid_side.geometry();
+    project(half, state, geometry.surface_velocities());
+    half.exchange.on_bodies = geometry.pressure_forces(state.fluid.pressure);
+    half.exchange.at_rest   = geometry.other_forces(half.fluid->gravity, half.fluid->end);
+    auto forces             = models.solid->vector();
+    models.surface->add_to_bodies(forces, half.exchange.on_bodies);
+    models.surface->add_to_bodies(forces, half.exchange.at_rest);
+    if (half.fluid->friction)
+      {
+        half.exchange.friction = half.fluid->friction->on_nodes;
+        models.surface->add_to_bodies(forces, half.exchange.friction);
+      }
+
+    start_stage(state, stage, solid_step, environment, ledger);
+    advance_bodies(half, state, stage, forces);
+    half.exchange.velocities = geometry.surface_velocities();
+    return half;
+  }
+
+
+  template <int dim>
+  typename OneWay<dim>::Half
+  OneWay<dim>::body_then_fluid(State<dim> &state, const Stage &stage)
+  {
+    Half half;
+    start_stage(state, stage, solid_step, environment, ledger);
+    half.fluid = fluid_side.predict(state, stage);
+    advance_bodies(half, state, stage, {});
+    half.exchange.on_bodies  = Vectors(models.surface->surface().n_nodes());
+    half.exchange.at_rest    = half.exchange.on_bodies;
+    half.exchange.velocities = models.surface->with_bodies(
+      state.solid.velocity, fluid_side.geometry()->surface_velocities());
+    project(half, state, half.exchange.velocities);
+    return half;
+  }
+
+
+  /// Under nodal `forces` [N]; empty: none.
+  template <int dim>
+  void
+  OneWay<dim>::advance_bodies(Half                                   &half,
+                              State<dim>                             &state,
+                              const Stage                            &stage,
+                              const typename SolidModel<dim>::Vector &forces)
+  {
+    auto way   = state.solid.displacement;
+    half.solid = solid_step.step(
+      state.solid, environment, half.fluid->start, half.fluid->dt, timing, forces, state.contact);
+    way.sadd(-1, 1, state.solid.displacement);
+    end_stage(state, stage, half.solid);
+    half.exchange.way =
+      models.surface->with_bodies(way, Vectors(models.surface->surface().n_nodes()));
+  }
+
+
+  /// Between surfaces that move with `velocities`. Throws SolveError where bodies close off fluid,
+  /// whose volume their motion does not keep.
+  template <int dim>
+  void
+  OneWay<dim>::project(Half &half, State<dim> &state, const Vectors &velocities)
+  try
+    {
+      const auto phase = timing.section("project");
+      half.projected =
+        projection.project(state.fluid,
+                           half.fluid->flow.velocity(),
+                           half.fluid->end,
+                           half.fluid->dt,
+                           fluid_side.geometry()->pushed(velocities, half.fluid->dt));
+    }
+  catch (const NoOutletError &error)
+    {
+      throw SolveError(std::string(error.what()) +
+                       " If bodies close this part off, a coupling in one direction has no "
+                       "solution. Try: 'Coupling / Direction = two-way'.");
+    }
+
+
+  template <int dim>
+  void
+  OneWay<dim>::book(Half &half, const State<dim> &state)
+  {
+    const auto phase       = timing.section("measure");
+    half.exchange.by_fluid = fluid_side.geometry()->pressure_forces(state.fluid.pressure);
+    half.exchange.pushed   = half.exchange.by_fluid;
+    ledger.add(half.projected.balance(*models.fluid, state.fluid), half.fluid->dt);
+    ledger.add(half.exchange, half.fluid->dt);
+    ledger.add(*half.solid.balance, half.fluid->dt);
+  }
+
+
+  template <int dim>
+  void
+  OneWay<dim>::add_solid_columns(Report                 &report,
+                                 const State<dim>       &state,
+                                 const double            time,
+                                 const SolidReport<dim> &solid) const
+  {
+    const auto measured = timing.section("measure");
+    append(report.columns,
+           solid_columns(*models.solid, solid_step, environment, state.solid, time, solid));
+  }
+
+
+  template class OneWay<2>;
+  template class OneWay<3>;
+} // namespace undine
