@@ -6,10 +6,10 @@
 
 namespace undine::particles
 {
-  /// An engine on the first device. Throws InputError if there is none.
+  /// An engine on the device of this number, from 0 on. Throws InputError if there is none.
   template <int dim, class Real>
   std::unique_ptr<Engine<dim>>
-  make_device_engine();
+  make_device_engine(unsigned int device);
 } // namespace undine::particles
 
 #endif

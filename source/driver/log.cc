@@ -2,6 +2,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/driver/log.h>
 
+#include <algorithm>
 #include <iostream>
 
 namespace undine
@@ -24,6 +25,37 @@ namespace undine
                       "'. Check the permissions of the folder, or choose another with --output.");
     record(early);
     early.clear();
+  }
+
+
+  bool
+  Log::has_told(const Report::Warning &warning) const
+  {
+    return std::any_of(told.begin(), told.end(), [&](const auto &earlier) {
+      return earlier.subject == warning.subject;
+    });
+  }
+
+
+  bool
+  Log::has_notes(const Report &report) const
+  {
+    return !report.note.empty() ||
+           !std::all_of(report.warnings.begin(),
+                        report.warnings.end(),
+                        [this](const auto &warning) { return has_told(warning); });
+  }
+
+
+  void
+  Log::print_notes(const Report &report)
+  {
+    if (!report.note.empty())
+      print("note: {}", report.note);
+    for (const auto &warning : report.warnings)
+      if (!has_told(warning))
+        print("note: {}", warning.text);
+    told = report.warnings;
   }
 
 

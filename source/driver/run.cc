@@ -187,14 +187,6 @@ namespace undine
     }
 
 
-    void
-    print_note(Log &log, const Report &report)
-    {
-      if (!report.note.empty())
-        log.print("note: {}", report.note);
-    }
-
-
     /// Make state, folder and outputs ready for the first step. The folder is touched last: a run
     /// that cannot start, or be taken up again, leaves what is in it as it was.
     template <int dim>
@@ -222,7 +214,7 @@ namespace undine
       prepare_directory(folder, options, from, communicator);
       log.open(folder.path(),
                from && from->directory == folder.path() ? std::ios::app : std::ios::trunc);
-      print_note(log, first);
+      log.print_notes(first);
       start_outputs(state, first, scene, context);
     }
 
@@ -245,7 +237,7 @@ namespace undine
           auto       scene = read_scene<dim>(options, communicator);
           State<dim> state;
           TimingTree timing;
-          print_note(log, start(state, scene, timing));
+          log.print_notes(start(state, scene, timing));
         }
       size.print(log, request.output.empty() ? "." : request.output);
       log.print("{}: {}", options.file().name(), checks);

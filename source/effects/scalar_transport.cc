@@ -126,18 +126,20 @@ namespace undine
 
       /// s^0 of a stage that keeps rates (T9), and what the next one needs of s^n and f^n.
       void
-      start(Field<dim> &values, const Field<dim> &rate, const Stage &stage) const
+      start(FluidStep<dim> &step) const
       {
-        const auto before = values;
-        if (stage.is_first)
-          add(values, stage.rate(), rate);
+        auto       &values = step.state.scalars.at(name);
+        const auto &rate   = step.state.scalar_rates.at(name);
+        const auto  before = values;
+        if (step.stage.is_first)
+          add(values, step.stage.rate(), rate);
         else
-          values = *next;
-        next.reset();
-        if (stage.is_last)
+          values = step.next.scalars.at(name);
+        step.next.scalars.erase(name);
+        if (step.stage.is_last)
           return;
-        next = before;
-        add(*next, stage.next_old.length, rate);
+        auto &next = step.next.scalars[name] = before;
+        add(next, step.stage.next_old.length, rate);
       }
 
       std::string              name;
@@ -145,9 +147,6 @@ namespace undine
       std::vector<std::string> held_boundaries;
       double                   diffusivity = 0;
       double                   neglected   = 1e-6;
-
-      /// What the stage that follows starts from; within a step only.
-      mutable std::optional<Field<dim>> next;
 
       /// Matrix of the last step size: a cache.
       mutable std::unique_ptr<ImplicitDiffusion<dim>> equation;
@@ -274,8 +273,8 @@ namespace undine
           auto &values = step.state.scalars.at(field->name);
           step.timing.memory.hold_briefly(this->name, values.memory_consumption());
           if (field->changes() && step.stage.keeps_rates)
-            field->start(values, step.state.scalar_rates.at(field->name), step.stage);
-          if (field->next)
+            field->start(step);
+          if (step.next.scalars.count(field->name) > 0)
             step.timing.memory.hold_briefly(this->name, 2 * values.memory_consumption());
           carry(values, *field, step);
           if (field->changes())
@@ -329,12 +328,13 @@ namespace undine
     {
       std::vector<Field<dim>> carried;
       carried.push_back(std::move(values));
-      if (field.next)
-        carried.push_back(*field.next);
+      const auto next = step.next.scalars.find(field.name);
+      if (next != step.next.scalars.end())
+        carried.push_back(next->second);
       carried = method->advect(step.flow, std::move(carried), field);
       values  = std::move(carried.front());
-      if (field.next)
-        field.next = std::move(carried.back());
+      if (next != step.next.scalars.end())
+        next->second = std::move(carried.back());
     }
 
     /// Sources and diffusion, and the rate that they make.
@@ -361,8 +361,8 @@ namespace undine
       rate       = values;
       add(rate, -1., carried);
       add(rate, 1 / stage.length - 1, Field<dim>(rate));
-      if (field.next)
-        add(*field.next, stage.next_new.length, rate);
+      if (const auto next = step.next.scalars.find(field.name); next != step.next.scalars.end())
+        add(next->second, stage.next_new.length, rate);
     }
 
     static void

@@ -51,7 +51,7 @@ namespace undine
   template <int dim>
   FluidStep<dim>::FluidStep(const FluidModel<dim>            &model_,
                             FluidState<dim>                  &state_,
-                            Velocity<dim>                    &next_,
+                            FluidStageStart<dim>             &next_,
                             const dealii::Tensor<1, dim>     &gravity_,
                             const double                      time_,
                             const Stage                      &stage_,
@@ -85,12 +85,12 @@ namespace undine
     if (stage.is_first)
       add(state.velocity, stage.rate(), state.acceleration);
     else
-      state.velocity = next;
-    next = Velocity<dim>();
+      state.velocity = next.velocity;
+    next.velocity = Velocity<dim>();
     if (!stage.is_last)
       {
-        next = before;
-        add(next, stage.next_old.length, state.acceleration);
+        next.velocity = before;
+        add(next.velocity, stage.next_old.length, state.acceleration);
       }
   }
 
@@ -124,7 +124,7 @@ namespace undine
   {
     if (stage.is_last)
       return {&state.velocity};
-    return {&state.velocity, &next};
+    return {&state.velocity, &next.velocity};
   }
 
 
@@ -164,7 +164,7 @@ namespace undine
         state.acceleration = difference(state.velocity, *carried, stage.length);
         state.change       = difference(state.velocity, before, stage.way());
         if (!stage.is_last)
-          add(next, stage.next_new.length, state.acceleration);
+          add(next.velocity, stage.next_new.length, state.acceleration);
       }
     else if (carried)
       for (unsigned int axis = 0; axis < dim; ++axis)

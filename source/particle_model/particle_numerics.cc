@@ -62,9 +62,14 @@ namespace undine
       "",
       Allowed::one_of(registry.names()),
       "Where it is computed. host: this machine's cores. device: a graphics card, by CUDA.");
+    options.add("Device",
+                device,
+                "",
+                Allowed::between(0, 1023),
+                "Number of the graphics card, from 0 on, where there are several.");
     if (!options.is_reference())
       {
-        const auto reason = registry.make(executor)->reason_not_available();
+        const auto reason = registry.make(executor)->reason_not_available(device);
         if (!reason.empty())
           throw options.error(
             "Executor", "'" + executor + "' is not possible here", "Reason: " + reason);

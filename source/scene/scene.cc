@@ -64,11 +64,8 @@ namespace undine
     {
       const auto &model      = *scene.models.fluid;
       const auto  boundaries = options.section("Fluid").section("Boundaries");
-      const auto &effects    = scene.models.effects;
       const auto  wall       = model.boundaries().wall_that_needs_viscosity();
-      if (!wall.empty() && std::none_of(effects.begin(), effects.end(), [](const auto &effect) {
-            return effect->name == "viscosity";
-          }))
+      if (!wall.empty() && !scene.models.has_friction())
         throw boundaries.section(wall).error(
           "Kind",
           "fluid without viscosity does not stick to a wall",

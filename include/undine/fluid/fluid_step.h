@@ -48,7 +48,7 @@ namespace undine
     /// velocity and scalars follow when they are carried, pressure here. Collective.
     FluidStep(const FluidModel<dim>            &model,
               FluidState<dim>                  &state,
-              Velocity<dim>                    &next,
+              FluidStageStart<dim>             &next,
               const dealii::Tensor<1, dim>     &gravity,
               double                            time,
               const Stage                      &stage,
@@ -70,7 +70,7 @@ namespace undine
 
     const FluidModel<dim>       &model;
     FluidState<dim>             &state;
-    Velocity<dim>               &next;    ///< of the stage that follows [m/s]
+    FluidStageStart<dim>        &next;    ///< of the stage that follows
     const dealii::Tensor<1, dim> gravity; ///< uniform acceleration, in the reduced pressure [m/s^2]
     const Stage                  stage;
     const double                 time;  ///< where the way of parcels begins [s]

@@ -17,6 +17,7 @@ namespace undine
 
     double               spacing   = 1;      ///< l0 [m]
     std::string          executor  = "host"; ///< name of the engine's factory
+    unsigned int         device    = 0;      ///< number of the graphics card
     particles::Precision precision = particles::Precision::single_precision;
     particles::Numerics  numerics;
 

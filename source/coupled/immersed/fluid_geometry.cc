@@ -40,20 +40,20 @@ namespace undine
 
   template <int dim>
   void
-  FluidGeometry<dim>::cut()
+  FluidGeometry<dim>::cut(const VoidParts &last_voids)
   {
     const auto &grid = model.grid();
     cut_beyond_planes();
-    cut_report    = report(cells, surface.surface(), grid.communicator());
+    last_report   = report(cells, surface.surface(), grid.communicator());
     parts         = make_open_parts(grid, cells);
     flux_operator = std::make_unique<const BoundaryFlux<dim>>(cells, surface.surface());
     voids         = {};
     if (void_regions != nullptr)
       {
-        voids = void_regions->find(cells, parts, *queries, accepted_voids);
+        voids = void_regions->find(cells, parts, *queries, last_voids);
         parts = make_open_parts(grid, cells, voids);
       }
-    if (cut_report.sampled_cells > 0)
+    if (last_report.sampled_cells > 0)
       {
         close_sampled_pockets(voids, grid, cells, parts);
         parts = make_open_parts(grid, cells, voids);
@@ -70,6 +70,10 @@ namespace undine
     const bool moved = now != positions;
     if (moved)
       surface.check(now);
+    // A void must not hold what was fluid where the surfaces were: after a step that has been given
+    // up, and in a run that is resumed, the grid is not cut there.
+    if (moved && void_regions != nullptr && before != now && before != positions)
+      place(before, before, Velocities(before.size()));
     if (moved || before != was_at || new_velocities != velocities)
       queries = std::make_unique<const SurfaceQueries<dim>>(
         model.grid(), MovedSurface<dim>{&surface.surface(), before, now, new_velocities});
@@ -77,25 +81,17 @@ namespace undine
     was_at     = before;
     if (!moved)
       return;
-    positions = now;
+    const auto last_voids = before == positions ? voids : VoidParts();
+    positions             = now;
     try
       {
-        cut();
+        cut(last_voids);
       }
     catch (...)
       {
         positions.clear(); // what has been made of them is of no use
         throw;
       }
-  }
-
-
-  template <int dim>
-  void
-  FluidGeometry<dim>::accept()
-  {
-    accepted_voids = voids;
-    told           = cut_report.subject;
   }
 
 
@@ -216,17 +212,9 @@ namespace undine
     if (!friction.empty())
       for (const auto &column : body_force_columns("viscous force", surface.surface(), friction))
         columns.push_back(column);
-    columns.push_back({"Cut cells", "1", double(cut_report.cut_cells)});
-    columns.push_back({"Flagged cells", "1", double(cut_report.flagged_cells)});
+    columns.push_back({"Cut cells", "1", double(last_report.cut_cells)});
+    columns.push_back({"Flagged cells", "1", double(last_report.flagged_cells)});
     return columns;
-  }
-
-
-  template <int dim>
-  std::string
-  FluidGeometry<dim>::news() const
-  {
-    return cut_report.subject == told ? "" : cut_report.message;
   }
 
 

@@ -99,7 +99,7 @@ namespace undine
       throw InputError("this program has no executor '" + name +
                        "' for particles; it has: " + names);
     engine = Registry<particles::EngineFactory<dim>>::instance().make(name)->make(
-      model->numerics().precision);
+      model->numerics().precision, model->numerics().device);
 
     state.particles = model->initial_state();
     load(state);

@@ -2,9 +2,7 @@
 #include <undine/coupled/scheme/stepping_scheme.h>
 #include <undine/coupled/step/coupled_step.h>
 #include <undine/coupled/step/fluid_side.h>
-#include <undine/coupled/step/solid_stage.h>
-#include <undine/solid/step/solid_columns.h>
-#include <undine/solid/step/solid_step.h>
+#include <undine/coupled/step/solid_side.h>
 
 namespace undine
 {
@@ -33,9 +31,8 @@ namespace undine
       , ledger(ledger)
       , timing(timing)
       , settings(settings)
-      , environment(models.environment())
       , fluid_side(models, ledger, timing)
-      , solid_step(*models.solid)
+      , solid_side(models, ledger, timing)
       , solver(*models.solid, settings.solver)
       , motion_solver(*models.solid)
     {
@@ -44,20 +41,21 @@ namespace undine
     void
     initialize(State<dim> &state, const double dt, Report &report) override
     {
-      state.solid = solid_step.initialize(environment, state.clock.time, dt);
+      solid_side.initialize(state, dt);
       Projection<dim> projection(*models.fluid);
       fluid_side.initialize(state, projection, dt, report);
-      add_solid_columns(report, state, state.clock.time, SolidReport<dim>());
+      add_solver_columns(report);
+      solid_side.add_columns(report, state, state.clock.time);
     }
 
     void
     step(State<dim> &state, const Stage &stage, Report &report) override
     {
-      start_stage(state, stage, solid_step, environment, ledger);
+      solid_side.start(state, stage);
       const auto       fluid = fluid_side.predict(state, stage);
       CoupledStep<dim> coupled({models,
-                                solid_step.mass(),
-                                environment,
+                                solid_side.mass(),
+                                solid_side.environment(),
                                 *fluid_side.geometry(),
                                 solver,
                                 motion_solver,
@@ -66,16 +64,13 @@ namespace undine
                                state,
                                settings.boundary_flux);
       const auto       solid = coupled.solve();
-      end_stage(state, stage, solid);
+      solid_side.end(state, stage, solid);
       if (stage.is_last)
         balance(coupled, solid, stage.length);
-      report.newton_iterations += solid.newton.iterations;
-      report.linear_iterations += solid.newton.linear_iterations;
-      report.newton_reduction = reduction(solid.newton);
-      report.note             = solid.note;
       fluid_side.finish(*fluid, state, report, coupled.divergence());
       if (stage.is_last)
-        add_solid_columns(report, state, fluid->end, solid);
+        add_solver_columns(report);
+      solid_side.finish(state, stage, solid, report);
     }
 
     std::vector<dealii::Tensor<1, dim>>
@@ -97,27 +92,20 @@ namespace undine
     }
 
     void
-    add_solid_columns(Report                 &report,
-                      const State<dim>       &state,
-                      const double            time,
-                      const SolidReport<dim> &solid) const
+    add_solver_columns(Report &report) const
     {
-      const auto measured = timing.section("measure");
       report.columns.push_back(
         {"Most iterations of a solve", "1", double(solver.most_iterations())});
-      append(report.columns,
-             solid_columns(*models.solid, solid_step, environment, state.solid, time, solid));
     }
 
-    const Models<dim>          &models;
-    Ledger<dim>                &ledger;
-    TimingTree                 &timing;
-    const CouplingSettings     &settings;
-    const SolidEnvironment<dim> environment;
-    FluidSide<dim>              fluid_side;
-    SolidStep<dim>              solid_step;
-    BlockSolver<dim>            solver;
-    TangentSolver<dim>          motion_solver;
+    const Models<dim>      &models;
+    Ledger<dim>            &ledger;
+    TimingTree             &timing;
+    const CouplingSettings &settings;
+    FluidSide<dim>          fluid_side;
+    SolidSide<dim>          solid_side;
+    BlockSolver<dim>        solver;
+    TangentSolver<dim>      motion_solver;
   };
 
 

@@ -111,7 +111,7 @@ namespace undine
   {
     if (step_error)
       return state.clock.land(state.history.in_use() ? state.history.step : shortest_step());
-    return state.clock.land(std::min(asked_step, allowed_step));
+    return state.clock.land(std::min(asked_step, state.clock.longest_step));
   }
 
 
@@ -127,7 +127,7 @@ namespace undine
         {
           report.dt = asked / (1u << report.cuts);
           attempt(state, saved, report);
-          allowed_step = report.cuts > 0 ? report.dt : 2 * allowed_step;
+          state.clock.longest_step = report.cuts > 0 ? report.dt : 2 * state.clock.longest_step;
           return report;
         }
       catch (const SolveError &error)
@@ -135,7 +135,7 @@ namespace undine
           state                    = saved;
           report.newton_iterations = report.linear_iterations = 0;
           report.columns.clear();
-          report.note.clear();
+          report.warnings.clear();
           if (report.dt / 2 < shortest_step() * (1 - 1e-9))
             throw SolveError(complaint(asked, report, error));
         }
@@ -222,13 +222,13 @@ namespace undine
     append(report.columns,
            {{"Error in time", "1", *report.error_in_time},
             {"Rejected steps", "1", double(report.rejections)}});
-    if (told_of_error || !step_error->is_missed(state.history))
-      return;
-    told_of_error = true;
-    report.note += fmt::format("errors in time add up to more than Time/Tolerance = {:.4g}. It "
-                               "takes shorter steps than {:.4g} s: try more Time/Maximum cuts.",
-                               tolerance,
-                               shortest_step());
+    if (step_error->is_missed(state.history))
+      report.warn(
+        "error in time",
+        fmt::format("errors in time add up to more than Time/Tolerance = {:.4g}. It takes "
+                    "shorter steps than {:.4g} s: try more Time/Maximum cuts.",
+                    tolerance,
+                    shortest_step()));
   }
 
 

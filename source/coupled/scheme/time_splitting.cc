@@ -2,9 +2,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/coupled/scheme/stepping_scheme.h>
 #include <undine/coupled/step/fluid_side.h>
-#include <undine/coupled/step/solid_stage.h>
-#include <undine/solid/step/solid_columns.h>
-#include <undine/solid/step/solid_step.h>
+#include <undine/coupled/step/solid_side.h>
 
 namespace undine
 {
@@ -27,21 +25,18 @@ namespace undine
       , ledger(ledger)
       , timing(timing)
       , driven_by(driven_by)
-      , environment(models.environment())
       , fluid_side(models, ledger, timing)
-      , solid_step(*models.solid)
+      , solid_side(models, ledger, timing)
       , projection(*models.fluid)
     {
-      if (ledger.is_on())
-        solid_step.keep_balance();
     }
 
     void
     initialize(State<dim> &state, const double dt, Report &report) override
     {
-      state.solid = solid_step.initialize(environment, state.clock.time, dt);
+      solid_side.initialize(state, dt);
       fluid_side.initialize(state, projection, dt, report);
-      add_solid_columns(report, state, state.clock.time, SolidReport<dim>());
+      solid_side.add_columns(report, state, state.clock.time);
     }
 
     void
@@ -53,12 +48,11 @@ namespace undine
         // J p^n, where the grid was cut when p^n was computed.
         exchange.on_bodies = geometry_of(models, state)->pressure_forces(state.fluid.pressure);
       }
-      start_stage(state, stage, solid_step, environment, ledger);
-      const auto   fluid    = fluid_side.predict(state, stage);
-      const auto  &geometry = *fluid_side.geometry();
-      const double end      = fluid->end;
-      exchange.at_rest      = geometry.other_forces(fluid->gravity, end);
-      auto forces           = models.solid->vector();
+      solid_side.start(state, stage);
+      const auto  fluid    = fluid_side.predict(state, stage);
+      const auto &geometry = *fluid_side.geometry();
+      exchange.at_rest     = geometry.other_forces(fluid->gravity, fluid->end);
+      auto forces          = models.solid->vector();
       models.surface->add_to_bodies(forces, exchange.on_bodies);
       models.surface->add_to_bodies(forces, exchange.at_rest);
       if (fluid->friction)
@@ -68,10 +62,9 @@ namespace undine
         }
 
       auto       way   = state.solid.displacement;
-      const auto solid = solid_step.step(
-        state.solid, environment, fluid->start, fluid->dt, timing, forces, state.contact);
+      const auto solid = solid_side.advance(state, stage, forces);
       way.sadd(-1, 1, state.solid.displacement);
-      end_stage(state, stage, solid);
+      solid_side.end(state, stage, solid);
       exchange.way         = models.surface->with_bodies(way, still());
       exchange.velocities  = node_velocities(state, exchange.way, fluid->dt);
       const auto projected = project(state, *fluid, exchange.velocities);
@@ -84,13 +77,9 @@ namespace undine
           ledger.add(exchange, fluid->dt);
           ledger.add(*solid.balance, fluid->dt);
         }
-      report.newton_iterations += solid.newton.iterations;
-      report.linear_iterations += solid.newton.linear_iterations + projected.iterations;
-      report.newton_reduction = reduction(solid.newton);
-      report.note             = solid.note;
+      report.linear_iterations += projected.iterations;
       fluid_side.finish(*fluid, state, report, projected.divergence);
-      if (stage.is_last)
-        add_solid_columns(report, state, end, solid);
+      solid_side.finish(state, stage, solid, report);
     }
 
     std::vector<dealii::Tensor<1, dim>>
@@ -140,25 +129,13 @@ namespace undine
       return result;
     }
 
-    void
-    add_solid_columns(Report                 &report,
-                      const State<dim>       &state,
-                      const double            time,
-                      const SolidReport<dim> &solid) const
-    {
-      const auto measured = timing.section("measure");
-      append(report.columns,
-             solid_columns(*models.solid, solid_step, environment, state.solid, time, solid));
-    }
-
-    const Models<dim>          &models;
-    Ledger<dim>                &ledger;
-    TimingTree                 &timing;
-    const std::string           driven_by; ///< velocity | displacement
-    const SolidEnvironment<dim> environment;
-    FluidSide<dim>              fluid_side;
-    SolidStep<dim>              solid_step;
-    Projection<dim>             projection;
+    const Models<dim> &models;
+    Ledger<dim>       &ledger;
+    TimingTree        &timing;
+    const std::string  driven_by; ///< velocity | displacement
+    FluidSide<dim>     fluid_side;
+    SolidSide<dim>     solid_side;
+    Projection<dim>    projection;
   };
 
 

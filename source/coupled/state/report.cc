@@ -2,10 +2,20 @@
 #include <undine/base/core/errors.h>
 #include <undine/coupled/state/report.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace undine
 {
+  void
+  Report::warn(const std::string &subject, const std::string &text)
+  {
+    const auto same = [&](const Warning &warning) { return warning.subject == subject; };
+    if (!text.empty() && std::none_of(warnings.begin(), warnings.end(), same))
+      warnings.push_back({subject, text});
+  }
+
+
   void
   assert_finite(const Columns &columns)
   {

@@ -116,8 +116,7 @@ namespace undine
     report.linear_iterations += projected.iterations;
     if (cut)
       {
-        report.note += cut->news();
-        cut->accept();
+        report.warn(cut->cut_report().subject, cut->cut_report().message);
         state.surface_positions = models.surface->positions(state.solid, time);
       }
     add_columns(report, state.fluid, projected.divergence, time);
@@ -164,7 +163,7 @@ namespace undine
     share_parts(state.fluid);
     auto fluid = std::make_unique<FluidStep<dim>>(model,
                                                   state.fluid,
-                                                  state.next_velocity,
+                                                  state.next_fluid,
                                                   environment.gravity,
                                                   state.clock.time,
                                                   stage,
@@ -204,8 +203,7 @@ namespace undine
       surface_friction.end(state, fluid);
     if (cut)
       {
-        report.note += cut->news();
-        cut->accept();
+        report.warn(cut->cut_report().subject, cut->cut_report().message);
         state.surface_positions = cut->surface_positions();
       }
     report.linear_iterations += fluid.linear_iterations;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/coupled/step/one_way.h>
-#include <undine/coupled/step/solid_stage.h>
-#include <undine/solid/step/solid_columns.h>
 
 namespace undine
 {
@@ -11,15 +9,12 @@ namespace undine
     : models(models)
     , ledger(ledger)
     , timing(timing)
-    , environment(models.environment())
     , fluid_side(models, ledger, timing)
-    , solid_step(*models.solid)
+    , solid_side(models, ledger, timing)
     , projection(*models.fluid)
     , at_start(start_of_bodies(*models.solid))
   {
     at_start.velocity = 0;
-    if (ledger.is_on())
-      solid_step.keep_balance();
   }
 
 
@@ -27,11 +22,13 @@ namespace undine
   void
   OneWay<dim>::initialize(State<dim> &state, const double dt, Report &report)
   {
-    const auto start = solid_step.initialize(environment, state.clock.time, dt);
-    state.solid      = models.direction == Direction::fluid_to_body ? at_start : start;
+    solid_side.initialize(state, dt);
+    const auto start = state.solid;
+    if (models.direction == Direction::fluid_to_body)
+      state.solid = at_start;
     fluid_side.initialize(state, projection, dt, report);
     state.solid = start;
-    add_solid_columns(report, state, state.clock.time, SolidReport<dim>());
+    solid_side.add_columns(report, state, state.clock.time);
   }
 
 
@@ -43,13 +40,9 @@ namespace undine
                                                              : body_then_fluid(state, stage);
     if (ledger.is_on() && stage.is_last)
       book(half, state);
-    report.newton_iterations += half.solid.newton.iterations;
-    report.linear_iterations += half.solid.newton.linear_iterations + half.projected.iterations;
-    report.newton_reduction = reduction(half.solid.newton);
-    report.note             = half.solid.note;
+    report.linear_iterations += half.projected.iterations;
     fluid_side.finish(*half.fluid, state, report, half.projected.divergence);
-    if (stage.is_last)
-      add_solid_columns(report, state, half.fluid->end, half.solid);
+    solid_side.finish(state, stage, half.solid, report);
   }
 
 
@@ -86,7 +79,7 @@ namespace undine
         models.surface->add_to_bodies(forces, half.exchange.friction);
       }
 
-    start_stage(state, stage, solid_step, environment, ledger);
+    solid_side.start(state, stage);
     advance_bodies(half, state, stage, forces);
     half.exchange.velocities = geometry.surface_velocities();
     return half;
@@ -98,7 +91,7 @@ namespace undine
   OneWay<dim>::body_then_fluid(State<dim> &state, const Stage &stage)
   {
     Half half;
-    start_stage(state, stage, solid_step, environment, ledger);
+    solid_side.start(state, stage);
     half.fluid = fluid_side.predict(state, stage);
     advance_bodies(half, state, stage, {});
     half.exchange.on_bodies  = Vectors(models.surface->surface().n_nodes());
@@ -119,10 +112,9 @@ namespace undine
                               const typename SolidModel<dim>::Vector &forces)
   {
     auto way   = state.solid.displacement;
-    half.solid = solid_step.step(
-      state.solid, environment, half.fluid->start, half.fluid->dt, timing, forces, state.contact);
+    half.solid = solid_side.advance(state, stage, forces);
     way.sadd(-1, 1, state.solid.displacement);
-    end_stage(state, stage, half.solid);
+    solid_side.end(state, stage, half.solid);
     half.exchange.way =
       models.surface->with_bodies(way, Vectors(models.surface->surface().n_nodes()));
   }
@@ -161,19 +153,6 @@ namespace undine
     ledger.add(half.projected.balance(*models.fluid, state.fluid), half.fluid->dt);
     ledger.add(half.exchange, half.fluid->dt);
     ledger.add(*half.solid.balance, half.fluid->dt);
-  }
-
-
-  template <int dim>
-  void
-  OneWay<dim>::add_solid_columns(Report                 &report,
-                                 const State<dim>       &state,
-                                 const double            time,
-                                 const SolidReport<dim> &solid) const
-  {
-    const auto measured = timing.section("measure");
-    append(report.columns,
-           solid_columns(*models.solid, solid_step, environment, state.solid, time, solid));
   }
 
 

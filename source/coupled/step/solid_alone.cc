@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/step/single_physics.h>
-#include <undine/coupled/step/solid_stage.h>
-#include <undine/solid/step/solid_columns.h>
 
 namespace undine
 {
   template <int dim>
   SolidAlone<dim>::SolidAlone(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing)
-    : model(*models.solid)
-    , ledger(ledger)
-    , timing(timing)
-    , environment(models.environment())
-    , solid_step(model)
+    : ledger(ledger)
+    , solid_side(models, ledger, timing)
   {
-    if (ledger.is_on())
-      solid_step.keep_balance();
   }
 
 
@@ -22,11 +15,8 @@ namespace undine
   void
   SolidAlone<dim>::initialize(State<dim> &state, const double dt, Report &report)
   {
-    const double time = state.clock.time;
-    state.solid       = solid_step.initialize(environment, time, dt);
-    const SolidReport<dim> no_step;
-    append(report.columns,
-           solid_columns(model, solid_step, environment, state.solid, time, no_step));
+    solid_side.initialize(state, dt);
+    solid_side.add_columns(report, state, state.clock.time);
   }
 
 
@@ -34,22 +24,12 @@ namespace undine
   void
   SolidAlone<dim>::step(State<dim> &state, const Stage &stage, Report &report)
   {
-    const double time = state.clock.time;
-    start_stage(state, stage, solid_step, environment, ledger);
-    const auto solid = solid_step.step(
-      state.solid, environment, time + stage.start(), stage.length, timing, {}, state.contact);
-    end_stage(state, stage, solid);
+    solid_side.start(state, stage);
+    const auto solid = solid_side.advance(state, stage);
+    solid_side.end(state, stage, solid);
     if (solid.balance && stage.is_last)
       ledger.add(*solid.balance, stage.length);
-    report.newton_iterations += solid.newton.iterations;
-    report.linear_iterations += solid.newton.linear_iterations;
-    report.newton_reduction = reduction(solid.newton);
-    report.note             = solid.note;
-    if (!stage.is_last)
-      return;
-    const auto measured = timing.section("measure");
-    append(report.columns,
-           solid_columns(model, solid_step, environment, state.solid, time + stage.end, solid));
+    solid_side.finish(state, stage, solid, report);
   }
 
 

@@ -17,7 +17,7 @@ namespace undine
     namespace fs = std::filesystem;
 
     // Version 1 has no geometry and no digest of statistics.
-    constexpr std::uint64_t format_version = 2;
+    constexpr std::uint64_t format_version = 3;
 
 
     std::array<fs::path, 2>
@@ -123,6 +123,7 @@ namespace undine
       file.add_attribute("dimension", std::uint64_t(dim));
       file.add_attribute("step", std::uint64_t(clock.step));
       file.add_attribute("time", clock.time);
+      file.add_attribute("longest step", clock.longest_step);
       file.add_attribute("statistics digest",
                          dealii::Utilities::MPI::broadcast(communicator, statistics_digest));
       for (const auto &array : arrays)
@@ -186,6 +187,8 @@ namespace undine
       state.clock.step   = file.attribute<std::uint64_t>("step");
       state.clock.time   = file.attribute<double>("time");
       const auto version = file.attribute<std::uint64_t>("format");
+      if (version >= 3)
+        state.clock.longest_step = file.attribute<double>("longest step");
       if (version >= 2)
         assert_same_geometry(models, state.clock.time, file, slot);
 

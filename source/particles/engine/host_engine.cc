@@ -10,13 +10,13 @@ namespace undine::particles
   {
   public:
     std::string
-    reason_not_available() const override
+    reason_not_available(unsigned int) const override
     {
       return "";
     }
 
     std::unique_ptr<Engine<dim>>
-    make(const Precision precision) const override
+    make(const Precision precision, unsigned int) const override
     {
       auto executor = std::make_unique<HostExecutor>(0);
       if (precision == Precision::single_precision)

@@ -9,16 +9,16 @@ namespace undine::particles
   {
   public:
     std::string
-    reason_not_available() const override
+    reason_not_available(unsigned int) const override
     {
       return "this program was built without CUDA, so the executor 'device' is not in it. Choose "
              "the executor 'host', or install the CUDA toolkit (nvcc) and configure again.";
     }
 
     std::unique_ptr<Engine<dim>>
-    make(const Precision) const override
+    make(const Precision, const unsigned int number) const override
     {
-      throw InputError(reason_not_available());
+      throw InputError(reason_not_available(number));
     }
   };
 

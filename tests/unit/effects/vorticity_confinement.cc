@@ -9,7 +9,7 @@ namespace
   /// What the effect alone does to the velocity in a unit of time, on a grid of `n` cells along
   /// each axis: at once, before anything else.
   template <int dim>
-  Velocity<dim>
+  FluidStageStart<dim>
   confining_acceleration(const std::string &fluid, const double strength)
   {
     const auto options =
@@ -20,7 +20,7 @@ namespace
     const auto            effects = make_effects<dim>(options);
     auto                  state   = model.initial_state();
     const auto            before  = state.velocity;
-    Velocity<dim>         unused;
+    FluidStageStart<dim>  unused;
     TimingTree            timing;
     FluidStep<dim>        step(model, state, unused, {}, 0, single_stage(1.), timing);
     effects[0]->accelerate(step);

@@ -38,10 +38,6 @@ namespace undine
     void
     place(const Positions &before, const Positions &now, const Velocities &velocities);
 
-    /// The step that place() began has been accepted.
-    void
-    accept();
-
     typename Flow<dim>::Bodies
     bodies() const;
 
@@ -117,10 +113,12 @@ namespace undine
             double                        time,
             const Velocities             &friction = {}) const;
 
-    /// What is wrong with the surfaces, where; empty if nothing is, or if accept() has been called
-    /// for the same since.
-    std::string
-    news() const;
+    /// How the cutting went: what is wrong with the surfaces, where.
+    const CutReport &
+    cut_report() const
+    {
+      return last_report;
+    }
 
     /// Of the lists of cut cells, pieces, components and entries of B, on this rank [bytes].
     std::size_t
@@ -128,7 +126,7 @@ namespace undine
 
   private:
     void
-    cut();
+    cut(const VoidParts &last_voids);
     void
     cut_beyond_planes();
     Velocities
@@ -139,15 +137,14 @@ namespace undine
     const ImmersedSurface<dim>                &surface;
     const FluidModel<dim>                     &model;
     const VoidRegions<dim>                    *void_regions; ///< nullptr: none
-    VoidParts                                  voids, accepted_voids;
-    Positions                                  positions; ///< for which `cells` holds
-    Positions                                  was_at;    ///< as place() was told
+    VoidParts                                  voids;        ///< for `positions`
+    Positions                                  positions;    ///< for which `cells` holds
+    Positions                                  was_at;       ///< as place() was told
     Velocities                                 velocities;
     CutCells<dim>                              cells;
     CutWorkspace<dim>                          work;
     CutParts<dim>                              parts;
-    CutReport                                  cut_report;
-    std::string                                told; ///< CutReport::subject
+    CutReport                                  last_report;
     std::unique_ptr<const BoundaryFlux<dim>>   flux_operator;
     std::unique_ptr<const SurfaceQueries<dim>> queries;
   };

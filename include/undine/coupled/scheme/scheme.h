@@ -55,8 +55,8 @@ namespace undine
     {
     }
 
-    /// Advance fluid and bodies (not the clock) by at most `dt` [s]. Throws SolveError if no step
-    /// can be accepted; the state is then the one before the step.
+    /// Advance fluid and bodies (of the clock only Clock::longest_step) by at most `dt` [s]. Throws
+    /// SolveError if no step can be accepted; the state is then the one before the step.
     virtual Report
     step(State<dim> &state, double dt) = 0;
   };

@@ -9,7 +9,6 @@
 #include <undine/coupled/step/physics.h>
 #include <undine/solid/time/time_integrator.h>
 
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -19,10 +18,9 @@ namespace undine
   ///
   /// A step that fails is redone from the saved state with half its length, as long as that is not
   /// below the shortest one, Time/Step halved `Maximum cuts` times. The next step has the length
-  /// that went well, and those after it double it up to the length asked for; a resumed run begins
-  /// with the latter. The limit is one of lengths, not of cuts of each step: short of a time that
-  /// no step gets past, every accepted step would allow yet shorter ones. Wrong input fails at
-  /// once.
+  /// that went well, and those after it double it up to the length asked for. The limit is one of
+  /// lengths, not of cuts of each step: short of a time that no step gets past, every accepted step
+  /// would allow yet shorter ones. Wrong input fails at once.
   ///
   /// With a tolerance Time/Step is the longest step, and StepError chooses: a step with too large
   /// an error is redone like one that fails, but the shortest one is accepted. What it needs is
@@ -75,12 +73,10 @@ namespace undine
     double                          tolerance    = 0;    // [1]
     double                          displacement = 0;    // [m]
     unsigned int                    maximum_cuts = 6;
-    double                          allowed_step = std::numeric_limits<double>::infinity(); // [s]
     bool                            keeps_ledger = false;
     std::unique_ptr<Ledger<dim>>    ledger;
     std::unique_ptr<Physics<dim>>   physics;
 
-    bool                                  told_of_error = false;
     std::unique_ptr<const StepError<dim>> step_error; // nullptr: constant steps
   };
 } // namespace undine

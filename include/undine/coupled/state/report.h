@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace undine
 {
@@ -18,7 +19,19 @@ namespace undine
     unsigned int cuts              = 0; ///< how often the asked step was cut and redone
     unsigned int rejections        = 0; ///< those of the cuts that the error in time asked for
     double       newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
-    std::string  note;                 ///< what was unusual; empty if nothing was
+    std::string  note;                 ///< what the user may want to know; empty if nothing
+
+    /// Something unusual. Users are told once, as long as each step has one of the same subject.
+    struct Warning
+    {
+      std::string subject;
+      std::string text;
+    };
+    std::vector<Warning> warnings; ///< at most one a subject: that of the first stage that had one
+
+    /// Add a warning unless `text` is empty.
+    void
+    warn(const std::string &subject, const std::string &text);
 
     /// Where steps are chosen by their error in time: that of all steps so far [1].
     std::optional<double> error_in_time;

@@ -35,10 +35,10 @@ namespace undine
     };
 
     /// Only within a step. @{
-    StageStart                            next;          ///< of the stage that follows
-    Velocity<dim>                         next_velocity; ///< the same for the fluid [m/s]
-    dealii::TrilinosWrappers::MPI::Vector way;           ///< of the bodies, t^n to this start [m]
-    ContactStart                          contact;       ///< of the bodies in this stage
+    StageStart                            next;       ///< of the stage that follows
+    FluidStageStart<dim>                  next_fluid; ///< the same for the fluid
+    dealii::TrilinosWrappers::MPI::Vector way;        ///< of the bodies, t^n to this start [m]
+    ContactStart                          contact;    ///< of the bodies in this stage
     /// @}
 
     /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].

@@ -4,7 +4,7 @@
 
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/physics.h>
-#include <undine/solid/step/solid_step.h>
+#include <undine/coupled/step/solid_side.h>
 
 namespace undine
 {
@@ -57,20 +57,14 @@ namespace undine
     project(Half &half, State<dim> &state, const Vectors &velocities);
     void
     book(Half &half, const State<dim> &state);
-    void
-    add_solid_columns(Report                 &report,
-                      const State<dim>       &state,
-                      double                  time,
-                      const SolidReport<dim> &solid) const;
 
-    const Models<dim>          &models;
-    Ledger<dim>                &ledger;
-    TimingTree                 &timing;
-    const SolidEnvironment<dim> environment;
-    FluidSide<dim>              fluid_side;
-    SolidStep<dim>              solid_step;
-    Projection<dim>             projection;
-    SolidState                  at_start; ///< what the fluid sees with `fluid to body`
+    const Models<dim> &models;
+    Ledger<dim>       &ledger;
+    TimingTree        &timing;
+    FluidSide<dim>     fluid_side;
+    SolidSide<dim>     solid_side;
+    Projection<dim>    projection;
+    SolidState         at_start; ///< what the fluid sees with `fluid to body`
   };
 } // namespace undine
 

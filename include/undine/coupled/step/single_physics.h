@@ -5,8 +5,8 @@
 #include <undine/base/core/timing.h>
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/physics.h>
+#include <undine/coupled/step/solid_side.h>
 #include <undine/fluid/pressure/projection.h>
-#include <undine/solid/step/solid_step.h>
 
 namespace undine
 {
@@ -25,11 +25,8 @@ namespace undine
     step(State<dim> &state, const Stage &stage, Report &report) override;
 
   private:
-    const SolidModel<dim> &model;
-    Ledger<dim>           &ledger;
-    TimingTree            &timing;
-    SolidEnvironment<dim>  environment;
-    SolidStep<dim>         solid_step;
+    Ledger<dim>   &ledger;
+    SolidSide<dim> solid_side;
   };
 
   /// A fluid without deformable bodies; obstacles may stand and move in it.

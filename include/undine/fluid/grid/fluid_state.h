@@ -59,6 +59,14 @@ namespace undine
     std::map<std::string, Field<dim>> scalars;      ///< by name, e.g. "smoke", "temperature"
     std::map<std::string, Field<dim>> scalar_rates; ///< Ds/Dt of the last stage, of those that have
   };
+
+  /// What the stage that follows starts from (Stage); only within a step.
+  template <int dim>
+  struct FluidStageStart
+  {
+    Velocity<dim>                     velocity; ///< [m/s]
+    std::map<std::string, Field<dim>> scalars;  ///< those that change besides by the flow
+  };
 } // namespace undine
 
 #endif

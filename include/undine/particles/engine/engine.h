@@ -117,13 +117,14 @@ namespace undine::particles
   public:
     virtual ~EngineFactory() = default;
 
-    /// Why this program on this machine cannot make them; empty if it can.
+    /// Why this program on this machine cannot make them; empty if it can. `device`: the number of
+    /// the graphics processor; means nothing on the host.
     virtual std::string
-    reason_not_available() const = 0;
+    reason_not_available(unsigned int device) const = 0;
 
     /// Throws InputError, with the reason, if this machine cannot.
     virtual std::unique_ptr<Engine<dim>>
-    make(Precision precision) const = 0;
+    make(Precision precision, unsigned int device) const = 0;
   };
 } // namespace undine::particles
 
