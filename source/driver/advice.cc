@@ -239,7 +239,9 @@ namespace undine
   {
     if (models.particles)
       return {};
-    return Rules<dim>(models, largest).advice();
+    auto result = Rules<dim>(models, largest).advice();
+    result.missing.assign(missing.begin(), missing.end());
+    return result;
   }
 
 

@@ -2,7 +2,6 @@
 #include <undine/base/core/errors.h>
 #include <undine/driver/log.h>
 
-#include <algorithm>
 #include <iostream>
 
 namespace undine
@@ -29,21 +28,9 @@ namespace undine
 
 
   bool
-  Log::has_told(const Report::Warning &warning) const
-  {
-    return std::any_of(told.begin(), told.end(), [&](const auto &earlier) {
-      return earlier.subject == warning.subject;
-    });
-  }
-
-
-  bool
   Log::has_notes(const Report &report) const
   {
-    return !report.note.empty() ||
-           !std::all_of(report.warnings.begin(),
-                        report.warnings.end(),
-                        [this](const auto &warning) { return has_told(warning); });
+    return !report.note.empty() || !new_warnings(report.warnings, told).empty();
   }
 
 
@@ -52,9 +39,8 @@ namespace undine
   {
     if (!report.note.empty())
       print("note: {}", report.note);
-    for (const auto &warning : report.warnings)
-      if (!has_told(warning))
-        print("note: {}", warning.text);
+    for (const auto &text : new_warnings(report.warnings, told))
+      print("note: {}", text);
     told = report.warnings;
   }
 

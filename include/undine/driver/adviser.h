@@ -6,7 +6,7 @@
 #include <undine/coupled/state/report.h>
 #include <undine/coupled/state/state.h>
 
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +34,10 @@ namespace undine
 
     std::vector<Number> numbers;
     std::vector<Remark> remarks;
+
+    /// Columns of `statistics` that the rules need and no step had: what follows from them is not
+    /// judged.
+    std::vector<std::string> missing;
   };
 
 
@@ -73,10 +77,13 @@ namespace undine
   private:
     void
     measure_length(const State<dim> &state);
+    double
+    column(const Columns &columns, const std::string &name);
 
     const Models<dim>                    &models;
     dealii::TrilinosWrappers::MPI::Vector first_displacement;
     Extremes                              largest;
+    std::set<std::string>                 missing; ///< see Advice
   };
 } // namespace undine
 

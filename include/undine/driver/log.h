@@ -52,9 +52,6 @@ namespace undine
     void
     write(const std::string &text);
 
-    bool
-    has_told(const Report::Warning &warning) const;
-
     MPI_Comm                     communicator;
     bool                         speaks;
     std::string                  early; ///< printed before the file was open

@@ -1,14 +1,37 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
 #include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/cutting/flush_facets.h>
 #include <undine/operators/body_forces.h>
 #include <undine/operators/sampled_pockets.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace undine
 {
+  namespace
+  {
+    /// Throws InputError if there is none. Collective.
+    template <int dim>
+    void
+    assert_fluid_is_left(const MacGrid<dim> &grid, const OpenParts<dim> &open)
+    {
+      bool any = false;
+      for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
+        any = any || open.cells.kind(cell) == LatticeParts<dim>::Kind::whole;
+      });
+      for (std::size_t k = 0; !any && k < open.cells.all().size(); ++k)
+        any = open.cells.owns(k);
+      if (dealii::Utilities::MPI::max(any ? 1 : 0, grid.communicator()) == 0)
+        throw InputError("Bodies and obstacles fill the domain: there is no fluid left in it. Try: "
+                         "a larger domain, smaller ones, or a scene without a fluid.");
+    }
+  } // namespace
+
+
   template <int dim>
   FluidGeometry<dim>::FluidGeometry(const Models<dim> &models)
     : surface(*models.surface)
@@ -58,6 +81,7 @@ namespace undine
         close_sampled_pockets(voids, grid, cells, parts);
         parts = make_open_parts(grid, cells, voids);
       }
+    assert_fluid_is_left(grid, *parts.open);
   }
 
 

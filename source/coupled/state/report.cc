@@ -16,6 +16,19 @@ namespace undine
   }
 
 
+  std::vector<std::string>
+  new_warnings(const std::vector<Report::Warning> &now, const std::vector<Report::Warning> &before)
+  {
+    std::vector<std::string> result;
+    for (const auto &warning : now)
+      if (std::none_of(before.begin(), before.end(), [&](const auto &earlier) {
+            return earlier.subject == warning.subject;
+          }))
+        result.push_back(warning.text);
+    return result;
+  }
+
+
   void
   assert_finite(const Columns &columns)
   {

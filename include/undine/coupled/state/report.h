@@ -39,6 +39,10 @@ namespace undine
     Columns columns; ///< energies, forces, fluxes, ... of the new state
   };
 
+  /// The texts of those warnings of `now` of whose subjects there was none in `before`.
+  std::vector<std::string>
+  new_warnings(const std::vector<Report::Warning> &now, const std::vector<Report::Warning> &before);
+
   /// Throws SolveError naming the first quantity that is no finite number.
   void
   assert_finite(const Columns &columns);
