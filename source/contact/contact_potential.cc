@@ -62,8 +62,8 @@ namespace undine
       second(const unsigned int i, const unsigned int j) const
       {
         const double factor = 2 * sign(i) * sign(j);
-        const auto   along  = [&](const auto &way) {
-          return factor * (way.norm_square() * unit<dim>() - outer_product(way, way));
+        const auto   along  = [&](const auto &path) {
+          return factor * (path.norm_square() * unit<dim>() - outer_product(path, path));
         };
         const auto across = [&](const auto &a, const auto &b) {
           return factor * (2. * outer_product(a, b) - outer_product(b, a) - (u * v) * unit<dim>());
@@ -98,12 +98,12 @@ namespace undine
       std::array<std::array<dealii::Tensor<1, dim>, dim + 1>, dim> mixed; // [way][node]
       for (unsigned int a = 0; a < term.n_ways; ++a)
         {
-          const auto &way = term.ways[a];
-          ways[a + 1]     = dealii::Point<dim>(
-            way.sign * (places[term.nodes[way.to]] - places[term.nodes[way.from]]));
+          const auto &path = term.ways[a];
+          ways[a + 1]      = dealii::Point<dim>(
+            path.sign * (places[term.nodes[path.to]] - places[term.nodes[path.from]]));
           for (unsigned int i = 0; i < term.n; ++i)
             {
-              const int change = i == way.to ? way.sign : i == way.from ? -way.sign : 0;
+              const int change = i == path.to ? path.sign : i == path.from ? -path.sign : 0;
               mixed[a][i]      = (change * term.distance) * term.direction +
                             term.shares[i] * dealii::Tensor<1, dim>(ways[a + 1]);
             }

@@ -25,23 +25,23 @@ namespace undine
     if (result.begin >= 0)
       return result;
     const auto &ends = surface.ridges()[ridge];
-    way.assign({static_cast<int>(ends[0]), static_cast<int>(ends[1])});
+    chain.assign({static_cast<int>(ends[0]), static_cast<int>(ends[1])});
     for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        finer_way.clear();
-        for (std::size_t i = 0; i + 1 < way.size(); ++i)
+        finer_chain.clear();
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i)
           {
-            finer_way.push_back(way[i]);
+            finer_chain.push_back(chain[i]);
             parts.clear();
-            chord_splitter.split_ridge(parts, way[i], way[i + 1], axis, ridge);
+            chord_splitter.split_ridge(parts, chain[i], chain[i + 1], axis, ridge);
             for (const auto &part : parts)
-              finer_way.push_back(part.vertex);
+              finer_chain.push_back(part.vertex);
           }
-        finer_way.push_back(way.back());
-        way.swap(finer_way);
+        finer_chain.push_back(chain.back());
+        chain.swap(finer_chain);
       }
     result.begin = chain_vertices.size();
-    chain_vertices.insert(chain_vertices.end(), way.begin() + 1, way.end() - 1);
+    chain_vertices.insert(chain_vertices.end(), chain.begin() + 1, chain.end() - 1);
     result.end        = chain_vertices.size();
     result.first_edge = split.n_edges;
     split.n_edges += result.end - result.begin + 1;

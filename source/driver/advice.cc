@@ -216,7 +216,7 @@ namespace undine
           }
         const double speed = U > 0 ? largest.body_speed / U : 0;
         add("motion of bodies",
-            std::max(largest.way / L, speed),
+            std::max(largest.displacement / L, speed),
             "larger of displacement / L and speed / U");
         judge(name,
               models.direction == Direction::two_way,

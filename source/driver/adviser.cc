@@ -124,9 +124,9 @@ namespace undine
         largest.body_energy = std::max(largest.body_energy,
                                        column(report.columns, "solid kinetic energy") +
                                          column(report.columns, "solid elastic energy"));
-        auto way            = state.solid.displacement;
-        way -= first_displacement;
-        largest.way = std::max(largest.way, way.linfty_norm());
+        auto displacement   = state.solid.displacement;
+        displacement -= first_displacement;
+        largest.displacement = std::max(largest.displacement, displacement.linfty_norm());
         // Costs a loop over all cells: at steps 1, 2, 4, 8, ... and at the end.
         const auto step = state.clock.step;
         if ((step & (step - 1)) == 0 || state.clock.ended())

@@ -77,13 +77,13 @@ namespace undine
     /// is also logged, after `heading`.
     template <int dim>
     std::string
-    last_words(const Error        &error,
-               const State<dim>   &state,
-               const Scene<dim>   &scene,
-               const ResultFolder &folder,
-               Log                &log,
-               const std::string  &heading  = "Error: ",
-               const std::string  &settings = " --set \"Section/Key=value\"")
+    failure_report(const Error        &error,
+                   const State<dim>   &state,
+                   const Scene<dim>   &scene,
+                   const ResultFolder &folder,
+                   Log                &log,
+                   const std::string  &heading  = "Error: ",
+                   const std::string  &settings = " --set \"Section/Key=value\"")
     {
       const std::string message = fmt::format("step {}, which begins at {:.6g} s: {}\n{}",
                                               state.clock.step + 1,
@@ -117,15 +117,15 @@ namespace undine
         }
       catch (const Interruption &error)
         {
-          throw Interruption(last_words(error, state, scene, folder, log, "", ""));
+          throw Interruption(failure_report(error, state, scene, folder, log, "", ""));
         }
       catch (const InputError &error)
         {
-          throw InputError(last_words(error, state, scene, folder, log));
+          throw InputError(failure_report(error, state, scene, folder, log));
         }
       catch (const Error &error)
         {
-          throw SolveError(last_words(error, state, scene, folder, log));
+          throw SolveError(failure_report(error, state, scene, folder, log));
         }
     }
 

@@ -103,7 +103,7 @@ namespace undine
       {
         const auto *divided = values.divided();
         for (const auto &[index, rate] : sources(values, time))
-          if (!divided || divided->kind(index) == LatticeParts<dim>::Kind::whole)
+          if (!divided || divided->kind(index) == SubLattice<dim>::Kind::whole)
             values(index) += length * rate;
         for (std::size_t k = 0; k < values.parts().size(); ++k)
           if (divided->owns(k))
@@ -251,7 +251,7 @@ namespace undine
     {
       for (const auto &field : fields)
         {
-          Field<dim> values(model.grid().cells(), state.velocity[0].open_parts());
+          Field<dim> values(model.grid().cells(), state.velocity[0].topology());
           for_each_value(values, [&](double &value, const auto &place, const auto &) {
             value = field->initial.value(place, 0);
           });
@@ -259,7 +259,7 @@ namespace undine
           state.scalars[field->name] = values;
           if (field->changes())
             state.scalar_rates[field->name] =
-              Field<dim>(model.grid().cells(), state.velocity[0].open_parts());
+              Field<dim>(model.grid().cells(), state.velocity[0].topology());
         }
     }
 
@@ -331,7 +331,7 @@ namespace undine
       const auto next = step.next.scalars.find(field.name);
       if (next != step.next.scalars.end())
         carried.push_back(next->second);
-      carried = method->advect(step.flow, std::move(carried), field);
+      carried = method->advect(step.tracer, std::move(carried), field);
       values  = std::move(carried.front());
       if (next != step.next.scalars.end())
         next->second = std::move(carried.back());
@@ -344,7 +344,7 @@ namespace undine
       auto        &values  = step.state.scalars.at(field.name);
       const auto   carried = values;
       const auto  &stage   = step.stage;
-      const double at      = stage.keeps_rates ? step.end : step.time + stage.way() / 2;
+      const double at      = stage.keeps_rates ? step.end : step.time + stage.duration() / 2;
       if (!field.source.is_zero())
         {
           field.add_source(values, at, stage.length);

@@ -148,17 +148,17 @@ namespace undine
                 const Surface<dim>                        &surface,
                 const std::vector<dealii::Point<dim>>     &place,
                 const std::vector<dealii::Point<dim>>     &before,
-                const std::vector<dealii::Tensor<1, dim>> &way)
+                const std::vector<dealii::Tensor<1, dim>> &increment)
   {
     std::vector<double> result(cut.components.size(), 0.);
     auto                after = before;
     for (std::size_t node = 0; node < after.size(); ++node)
-      after[node] += way[node];
+      after[node] += increment[node];
     for_each_wet_fragment(cut, [&](const auto &fragment) {
-      dealii::Tensor<1, dim> mean_way;
+      dealii::Tensor<1, dim> mean_increment;
       for (unsigned int k = 0; k < dim; ++k)
-        mean_way += fragment.mean[k] * way[surface.facets()[fragment.facet][k]];
-      result[fragment.component] += share_of_facet(fragment, surface, place) * mean_way *
+        mean_increment += fragment.mean[k] * increment[surface.facets()[fragment.facet][k]];
+      result[fragment.component] += share_of_facet(fragment, surface, place) * mean_increment *
                                     mean_area_vector(surface, fragment.facet, before, after);
     });
     return result;
@@ -166,18 +166,18 @@ namespace undine
 
 
   template <int dim>
-  PushedVolume
-  pushed_volume(const BoundaryFlux<dim>                   &boundary_flux,
-                const CutCells<dim>                       &cut,
-                const CutParts<dim>                       &parts,
-                const Surface<dim>                        &surface,
-                const std::vector<dealii::Tensor<1, dim>> &velocities,
-                const StepAccuracy                        &accuracy)
+  SweptVolumeFlux
+  swept_volume_flux(const BoundaryFlux<dim>                   &boundary_flux,
+                    const CutCells<dim>                       &cut,
+                    const CutTopology<dim>                    &parts,
+                    const Surface<dim>                        &surface,
+                    const std::vector<dealii::Tensor<1, dim>> &velocities,
+                    const StepAccuracy                        &accuracy)
   {
     constexpr double relative = 1e-8;
     const double     rounding =
       16 * std::numeric_limits<double>::epsilon() * accuracy.largest_coordinate;
-    PushedVolume        result;
+    SweptVolumeFlux     result;
     std::vector<double> uncertainties(cut.components.size(), 0.);
     for_each_wet_fragment(cut, [&](const auto &fragment) {
       const int component = parts.open_components[fragment.component];
@@ -199,8 +199,8 @@ namespace undine
       uncertainties[fragment.component] +=
         relative * area * speed + rounding * (area / accuracy.dt + rim * speed);
     });
-    result.fluxes        = parts.of_open_parts(boundary_flux.flux(velocities));
-    result.uncertainties = parts.of_open_parts(uncertainties);
+    result.fluxes        = parts.of_fluid_topology(boundary_flux.flux(velocities));
+    result.uncertainties = parts.of_fluid_topology(uncertainties);
     result.bodies        = surface.body_names();
     return result;
   }
@@ -257,8 +257,8 @@ namespace undine
   // clang-format off
 #define INSTANTIATE(dim)                                                                           \
   template class BoundaryFlux<dim>;                                                                \
-  template PushedVolume pushed_volume(const BoundaryFlux<dim> &, const CutCells<dim> &,            \
-                                      const CutParts<dim> &, const Surface<dim> &,                 \
+  template SweptVolumeFlux swept_volume_flux(const BoundaryFlux<dim> &, const CutCells<dim> &,            \
+                                      const CutTopology<dim> &, const Surface<dim> &,                 \
                                       const std::vector<dealii::Tensor<1, dim>> &,                 \
                                       const StepAccuracy &);                                       \
   template std::vector<double> swept_volumes(const CutCells<dim> &, const Surface<dim> &,          \

@@ -11,7 +11,7 @@ namespace undine
     /// Images of parts are where their points have images.
     template <int dim>
     void
-    move_images(std::vector<typename LatticeParts<dim>::Part> &parts, const Lattice<dim> &lattice)
+    move_images(std::vector<typename SubLattice<dim>::Part> &parts, const Lattice<dim> &lattice)
     {
       for (auto &part : parts)
         {
@@ -24,14 +24,14 @@ namespace undine
 
 
   template <int dim>
-  LatticeParts<dim>
+  SubLattice<dim>
   make_exchanged_parts(
-    const std::shared_ptr<const Lattice<dim>>                                          &lattice,
-    Field<dim>                                                                          counts,
-    const std::function<typename LatticeParts<dim>::Part(const GridIndex<dim> &, int)> &part)
+    const std::shared_ptr<const Lattice<dim>>                                        &lattice,
+    Field<dim>                                                                        counts,
+    const std::function<typename SubLattice<dim>::Part(const GridIndex<dim> &, int)> &part)
   {
-    using Kind = typename LatticeParts<dim>::Kind;
-    using Part = typename LatticeParts<dim>::Part;
+    using Kind = typename SubLattice<dim>::Kind;
+    using Part = typename SubLattice<dim>::Part;
     counts.exchange(1);
     const auto        box = known_points(*lattice);
     std::vector<Kind> kinds;
@@ -55,12 +55,12 @@ namespace undine
     for (unsigned int d = 0; d < dim; ++d)
       all_owned = all_owned && !lattice->row(d).periodic();
     if (all_owned)
-      return LatticeParts<dim>(lattice, kinds, parts);
+      return SubLattice<dim>(lattice, kinds, parts);
 
     // What other ranks own is fetched from them by a first version that knows only who has what.
-    const LatticeParts<dim> numbered(lattice, kinds, parts);
-    std::vector<double>     values(parts.size());
-    const auto              fetch = [&](const auto &value) {
+    const SubLattice<dim> numbered(lattice, kinds, parts);
+    std::vector<double>   values(parts.size());
+    const auto            fetch = [&](const auto &value) {
       for (std::size_t k = 0; k < parts.size(); ++k)
         values[k] = value(parts[k]);
       numbered.exchange(values);
@@ -71,15 +71,15 @@ namespace undine
       fetch([d](auto &p) -> double & { return p.place[d]; });
     fetch([](auto &p) -> double & { return p.measure; });
     move_images<dim>(parts, *lattice);
-    return LatticeParts<dim>(lattice, kinds, parts);
+    return SubLattice<dim>(lattice, kinds, parts);
   }
 
 
-#define UNDINE_INSTANTIATE(dim)                    \
-  template LatticeParts<dim> make_exchanged_parts( \
-    const std::shared_ptr<const Lattice<dim>> &,   \
-    Field<dim>,                                    \
-    const std::function<typename LatticeParts<dim>::Part(const GridIndex<dim> &, int)> &);
+#define UNDINE_INSTANTIATE(dim)                  \
+  template SubLattice<dim> make_exchanged_parts( \
+    const std::shared_ptr<const Lattice<dim>> &, \
+    Field<dim>,                                  \
+    const std::function<typename SubLattice<dim>::Part(const GridIndex<dim> &, int)> &);
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

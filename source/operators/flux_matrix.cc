@@ -11,7 +11,7 @@ namespace undine
     template <int dim, class Action>
     void
     for_each_free_entry(const BoundaryFlux<dim>    &boundary_flux,
-                        const CutParts<dim>        &parts,
+                        const CutTopology<dim>     &parts,
                         const PressureNumbers<dim> &numbers,
                         const ImmersedSurface<dim> &surface,
                         const SolidModel<dim>      &solid,
@@ -36,7 +36,7 @@ namespace undine
   void
   build_flux_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix,
                     const BoundaryFlux<dim>                &boundary_flux,
-                    const CutParts<dim>                    &parts,
+                    const CutTopology<dim>                 &parts,
                     const PressureNumbers<dim>             &numbers,
                     const ImmersedSurface<dim>             &surface,
                     const SolidModel<dim>                  &solid)
@@ -78,14 +78,14 @@ namespace undine
   template void
   build_flux_matrix(dealii::TrilinosWrappers::SparseMatrix &,
                     const BoundaryFlux<2> &,
-                    const CutParts<2> &,
+                    const CutTopology<2> &,
                     const PressureNumbers<2> &,
                     const ImmersedSurface<2> &,
                     const SolidModel<2> &);
   template void
   build_flux_matrix(dealii::TrilinosWrappers::SparseMatrix &,
                     const BoundaryFlux<3> &,
-                    const CutParts<3> &,
+                    const CutTopology<3> &,
                     const PressureNumbers<3> &,
                     const ImmersedSurface<3> &,
                     const SolidModel<3> &);

@@ -10,10 +10,10 @@ namespace undine
   PressurePlace<dim>
   pressure_place_at(const dealii::Point<dim> &point,
                     const MacGrid<dim>       &grid,
-                    const OpenParts<dim>     *open,
+                    const FluidTopology<dim> *open,
                     const Obstruction<dim>   *obstruction)
   {
-    using Kind      = typename LatticeParts<dim>::Kind;
+    using Kind      = typename SubLattice<dim>::Kind;
     const auto cell = grid.cell_at(point);
     if (open == nullptr || open->cells.kind(cell) == Kind::whole)
       return {cell, -1};
@@ -32,11 +32,11 @@ namespace undine
   template PressurePlace<2>
   pressure_place_at(const dealii::Point<2> &,
                     const MacGrid<2> &,
-                    const OpenParts<2> *,
+                    const FluidTopology<2> *,
                     const Obstruction<2> *);
   template PressurePlace<3>
   pressure_place_at(const dealii::Point<3> &,
                     const MacGrid<3> &,
-                    const OpenParts<3> *,
+                    const FluidTopology<3> *,
                     const Obstruction<3> *);
 } // namespace undine

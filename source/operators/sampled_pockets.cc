@@ -14,7 +14,7 @@ namespace undine
     /// 1 for components of sampled cells, 0 for all other fluid.
     template <int dim>
     Field<dim>
-    mark_sampled(const MacGrid<dim> &grid, const CutCells<dim> &cut, const CutParts<dim> &parts)
+    mark_sampled(const MacGrid<dim> &grid, const CutCells<dim> &cut, const CutTopology<dim> &parts)
     {
       Field<dim> result(grid.cells(), parts.open);
       for (std::size_t k = 0; k < result.parts().size(); ++k)
@@ -46,10 +46,10 @@ namespace undine
 
   template <int dim>
   void
-  close_sampled_pockets(VoidParts           &voids,
-                        const MacGrid<dim>  &grid,
-                        const CutCells<dim> &cut,
-                        const CutParts<dim> &parts)
+  close_sampled_pockets(VoidMask               &voids,
+                        const MacGrid<dim>     &grid,
+                        const CutCells<dim>    &cut,
+                        const CutTopology<dim> &parts)
   {
     const PressureNumbers<dim> numbers(grid, parts.open);
     const FluidRegions<dim>    regions(grid, numbers);
@@ -60,15 +60,21 @@ namespace undine
       mark = pockets[regions.of_pressures()[next++]];
     });
     marks.exchange(1);
-    voids.components.resize(cut.components.size(), VoidParts::fluid);
+    voids.components.resize(cut.components.size(), VoidMask::fluid);
     for (std::size_t c = 0; c < cut.components.size(); ++c)
       if (const int k = parts.open_components[c]; k >= 0 && marks.parts()[k] > 0)
-        voids.components[c] = VoidParts::pocket;
+        voids.components[c] = VoidMask::pocket;
   }
 
 
   template void
-  close_sampled_pockets(VoidParts &, const MacGrid<2> &, const CutCells<2> &, const CutParts<2> &);
+  close_sampled_pockets(VoidMask &,
+                        const MacGrid<2> &,
+                        const CutCells<2> &,
+                        const CutTopology<2> &);
   template void
-  close_sampled_pockets(VoidParts &, const MacGrid<3> &, const CutCells<3> &, const CutParts<3> &);
+  close_sampled_pockets(VoidMask &,
+                        const MacGrid<3> &,
+                        const CutCells<3> &,
+                        const CutTopology<3> &);
 } // namespace undine

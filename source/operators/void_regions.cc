@@ -80,9 +80,9 @@ namespace undine
   /// Where the pressure of a seed's region would sit, if this rank owns the seed's cell.
   template <int dim>
   PressurePlace<dim>
-  VoidRegions<dim>::place_of_seed(const Region           &region,
-                                  const OpenParts<dim>   &open,
-                                  const Obstruction<dim> &obstruction) const
+  VoidRegions<dim>::place_of_seed(const Region             &region,
+                                  const FluidTopology<dim> &open,
+                                  const Obstruction<dim>   &obstruction) const
   {
     try
       {
@@ -99,21 +99,21 @@ namespace undine
   }
 
 
-  /// For each region of the fluid the number of its void region, or VoidParts::fluid.
+  /// For each region of the fluid the number of its void region, or VoidMask::fluid.
   template <int dim>
   std::vector<int>
   VoidRegions<dim>::void_of_each_region(const FluidRegions<dim>    &fluid_regions,
                                         const PressureNumbers<dim> &numbers,
                                         const Obstruction<dim>     &obstruction) const
   {
-    std::vector<int> result(fluid_regions.size(), VoidParts::fluid);
+    std::vector<int> result(fluid_regions.size(), VoidMask::fluid);
     std::vector<int> others(fluid_regions.size(), -static_cast<int>(regions.size()));
     std::string      complaint;
     for (unsigned int r = 0; r < regions.size(); ++r)
       if (complaint.empty() && grid.cells()->owned().contains(grid.cell_at(regions[r].seed)))
         try
           {
-            const auto seed  = place_of_seed(regions[r], *numbers.open_parts(), obstruction);
+            const auto seed  = place_of_seed(regions[r], *numbers.topology(), obstruction);
             const auto local = numbers.owned().index_within_set(numbers.of(seed));
             const auto k     = fluid_regions.of_pressures()[local];
             result[k]        = std::max(result[k], static_cast<int>(r));
@@ -142,12 +142,12 @@ namespace undine
   }
 
 
-  /// `marks`: the number of the void region of each pressure, or VoidParts::fluid.
+  /// `marks`: the number of the void region of each pressure, or VoidMask::fluid.
   template <int dim>
   void
   VoidRegions<dim>::check_boundaries(const Field<dim> &marks) const
   {
-    const auto &open = *marks.open_parts();
+    const auto &open = *marks.topology();
     std::string complaint;
     const auto  check =
       [&](const unsigned int axis, const GridIndex<dim> &face, const auto &inside) {
@@ -167,7 +167,7 @@ namespace undine
         };
         for_each(grid.faces(axis)->owned(), [&](const GridIndex<dim> &face) {
           if (grid.at_boundary(axis, face) &&
-              open.faces[axis].kind(face) == LatticeParts<dim>::Kind::whole)
+              open.faces[axis].kind(face) == SubLattice<dim>::Kind::whole)
             check(axis, face, PressurePlace<dim>{inside(face), -1});
         });
         for (std::size_t k = 0; k < open.pieces[axis].size(); ++k)
@@ -184,15 +184,15 @@ namespace undine
 
   template <int dim>
   void
-  VoidRegions<dim>::check_last(const VoidParts     &voids,
-                               const VoidParts     &last,
+  VoidRegions<dim>::check_last(const VoidMask      &voids,
+                               const VoidMask      &last,
                                const CutCells<dim> &cut) const
   {
     std::string complaint;
     for_each(cut.block.cells(), [&](const GridIndex<dim> &cell) {
       const auto position = cut.block.cells().position(cell);
       if (voids.cells[position] >= 0 && !last.cells.empty() &&
-          last.cells[position] == VoidParts::fluid)
+          last.cells[position] == VoidMask::fluid)
         complaint = fmt::format("The void region '{}' has joined the fluid, which has been at {}. "
                                 "Try: close the gap in the bodies around it.",
                                 regions[voids.cells[position]].name,
@@ -203,13 +203,13 @@ namespace undine
 
 
   template <int dim>
-  VoidParts
+  VoidMask
   VoidRegions<dim>::find(const CutCells<dim>    &cut,
-                         const CutParts<dim>    &all,
+                         const CutTopology<dim> &all,
                          const Obstruction<dim> &obstruction,
-                         const VoidParts        &last) const
+                         const VoidMask         &last) const
   {
-    VoidParts result;
+    VoidMask result;
     if (empty())
       return result;
     const PressureNumbers<dim> numbers(grid, all.open);
@@ -224,14 +224,14 @@ namespace undine
     marks.exchange(1);
     check_boundaries(marks);
 
-    result.components.assign(cut.components.size(), VoidParts::fluid);
+    result.components.assign(cut.components.size(), VoidMask::fluid);
     for (std::size_t c = 0; c < cut.components.size(); ++c)
       if (all.open_components[c] >= 0)
         result.components[c] = static_cast<int>(marks.parts()[all.open_components[c]]);
     const auto &block = cut.block.cells();
-    result.cells.assign(block.size(), VoidParts::not_whole);
+    result.cells.assign(block.size(), VoidMask::not_whole);
     for_each(block, [&](const GridIndex<dim> &cell) {
-      if (all.open->cells.kind(cell) == LatticeParts<dim>::Kind::whole)
+      if (all.open->cells.kind(cell) == SubLattice<dim>::Kind::whole)
         result.cells[block.position(cell)] = static_cast<int>(marks(cell));
     });
     check_last(result, last, cut);
@@ -241,7 +241,7 @@ namespace undine
 
   template <int dim>
   std::vector<double>
-  VoidRegions<dim>::pressures(const VoidParts &voids, const double time) const
+  VoidRegions<dim>::pressures(const VoidMask &voids, const double time) const
   {
     std::vector<double> of_regions;
     for (const auto &region : regions)

@@ -11,7 +11,7 @@ namespace undine
   namespace
   {
     /// The part of a way that is left after cutting off half-spaces.
-    class ClippedWay
+    class ClippedSegment
     {
     public:
       /// Keep what has a distance <= 0 from a plane, given the distances of both ends of the way.
@@ -39,9 +39,9 @@ namespace undine
                   const dealii::Point<dim> &b,
                   const dealii::Point<dim> &place)
     {
-      const auto   way    = b - a;
-      const double square = way.norm_square();
-      return square > 0 ? std::clamp((place - a) * way / square, 0., 1.) : 0.;
+      const auto   segment = b - a;
+      const double square  = segment.norm_square();
+      return square > 0 ? std::clamp((place - a) * segment / square, 0., 1.) : 0.;
     }
 
 
@@ -116,9 +116,9 @@ namespace undine
   void
   ThickFacet<2>::set_rims(const FacetNodes<2> &nodes)
   {
-    auto way = nodes[1] - nodes[0];
-    way /= way.norm();
-    rims = {{{nodes[0], -way}, {nodes[1], way}}};
+    auto segment = nodes[1] - nodes[0];
+    segment /= segment.norm();
+    rims = {{{nodes[0], -segment}, {nodes[1], segment}}};
   }
 
 
@@ -128,9 +128,9 @@ namespace undine
   {
     for (unsigned int k = 0; k < 3; ++k)
       {
-        const auto way  = nodes[(k + 1) % 3] - nodes[k];
-        rims[k].place   = nodes[k];
-        rims[k].outward = dealii::cross_product_3d(way, normal);
+        const auto segment = nodes[(k + 1) % 3] - nodes[k];
+        rims[k].place      = nodes[k];
+        rims[k].outward    = dealii::cross_product_3d(segment, normal);
         rims[k].outward /= rims[k].outward.norm();
       }
   }
@@ -169,7 +169,7 @@ namespace undine
     const double doubt = thickness + 1e-12 * (std::abs(above_start) + std::abs(above_end));
     if (std::min(above_start, above_end) > doubt || std::max(above_start, above_end) < -doubt)
       return nowhere;
-    ClippedWay in_box;
+    ClippedSegment in_box;
     for (unsigned int d = 0; d < dim; ++d)
       if (!in_box.keep_behind(lower[d] - thickness - from[d], lower[d] - thickness - to[d]) ||
           !in_box.keep_behind(from[d] - upper[d] - thickness, to[d] - upper[d] - thickness))
@@ -180,16 +180,16 @@ namespace undine
     // Distances of places near the facet: of far ends of a long way they would lose digits.
     const dealii::Point<dim> start = from + in_box.enter * (to - from);
     const dealii::Point<dim> end   = from + in_box.leave * (to - from);
-    ClippedWay               way;
+    ClippedSegment           segment;
     const double             a = normal * (start - in_plane), b = normal * (end - in_plane);
-    if (!way.keep_behind(a - thickness, b - thickness) ||
-        !way.keep_behind(-a - thickness, -b - thickness))
+    if (!segment.keep_behind(a - thickness, b - thickness) ||
+        !segment.keep_behind(-a - thickness, -b - thickness))
       return nowhere;
     for (const auto &rim : rims)
-      if (!way.keep_behind(rim.outward * (start - rim.place) - thickness,
-                           rim.outward * (end - rim.place) - thickness))
+      if (!segment.keep_behind(rim.outward * (start - rim.place) - thickness,
+                               rim.outward * (end - rim.place) - thickness))
         return nowhere;
-    return in_box.enter + way.enter * (in_box.leave - in_box.enter);
+    return in_box.enter + segment.enter * (in_box.leave - in_box.enter);
   }
 
 

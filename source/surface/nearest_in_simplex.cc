@@ -63,13 +63,13 @@ namespace undine
   {
     NearestInSimplex<dim> result{simplex, {}, x - places[0], 0};
     const auto            inverse = inverse_of_products<dim>(simplex.n, places);
-    const auto            way     = result.from;
+    const auto            segment = result.from;
     result.weights[0]             = 1;
     for (unsigned int a = 0; a + 1 < simplex.n; ++a)
       {
         double weight = 0;
         for (unsigned int b = 0; b + 1 < simplex.n; ++b)
-          weight += inverse[a][b] * ((places[b + 1] - places[0]) * way);
+          weight += inverse[a][b] * ((places[b + 1] - places[0]) * segment);
         result.weights[a + 1] = weight;
         result.weights[0] -= weight;
         result.from -= weight * (places[a + 1] - places[0]);

@@ -27,9 +27,9 @@ namespace undine
                  const dealii::Point<dim> &end,
                  const dealii::Point<dim> &place)
     {
-      const auto   way    = end - begin;
-      const double square = way * way;
-      return square > 0 ? std::clamp(way * (place - begin) / square, 0., 1.) : 0.;
+      const auto   segment = end - begin;
+      const double square  = segment * segment;
+      return square > 0 ? std::clamp(segment * (place - begin) / square, 0., 1.) : 0.;
     }
   } // namespace
 

@@ -38,11 +38,11 @@ namespace undine
       {
         if (facets[ridge].size() != 2)
           continue;
-        const auto  a      = area_vector(surface, facets[ridge][0], places);
-        const auto  b      = area_vector(surface, facets[ridge][1], places);
-        const auto &nodes  = surface.ridges()[ridge];
-        const auto  way    = middle(surface.facets()[facets[ridge][1]], places) - places[nodes[0]];
-        const bool  convex = way * a < 0;
+        const auto  a       = area_vector(surface, facets[ridge][0], places);
+        const auto  b       = area_vector(surface, facets[ridge][1], places);
+        const auto &nodes   = surface.ridges()[ridge];
+        const auto  segment = middle(surface.facets()[facets[ridge][1]], places) - places[nodes[0]];
+        const bool  convex  = segment * a < 0;
         if (convex && a * b < cosine_of_sharp * a.norm() * b.norm())
           result.push_back({nodes,
                             surface.body(facets[ridge][0]),

@@ -88,7 +88,7 @@ namespace undine
   {
     Trees(const std::vector<Leaf<dim>> &boxes, const std::vector<Leaf<dim>> &swept_boxes)
       : facets(dealii::pack_rtree(boxes))
-      , swept(dealii::pack_rtree(swept_boxes))
+      , is_freshly_cleared(dealii::pack_rtree(swept_boxes))
       , box(join(boxes))
       , swept_box(join(swept_boxes))
     {
@@ -236,7 +236,7 @@ namespace undine
 
   template <int dim>
   bool
-  SurfaceQueries<dim>::swept(const dealii::Point<dim> &place) const
+  SurfaceQueries<dim>::is_freshly_cleared(const dealii::Point<dim> &place) const
   {
     bool result = false;
     if (trees->swept.empty())
@@ -253,7 +253,7 @@ namespace undine
 
   template <int dim>
   void
-  SurfaceQueries<dim>::for_each_swept(
+  SurfaceQueries<dim>::for_each_freshly_cleared(
     const Lattice<dim>                                &lattice,
     const IndexBox<dim>                               &box,
     const std::function<void(const GridIndex<dim> &)> &action) const

@@ -5,7 +5,7 @@
 #include <undine/cutting/grid_planes.h>
 #include <undine/cutting/keyed_lists.h>
 #include <undine/cutting/node_windings.h>
-#include <undine/fluid/boundary/sticking_walls.h>
+#include <undine/fluid/boundary/no_slip_surfaces.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

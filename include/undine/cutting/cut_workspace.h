@@ -2,9 +2,9 @@
 #ifndef undine_cutting_cut_workspace_h
 #define undine_cutting_cut_workspace_h
 
+#include <undine/cutting/cut_cell_cache.h>
 #include <undine/cutting/cut_cells.h>
 #include <undine/cutting/grid_edges.h>
-#include <undine/cutting/kept_cells.h>
 #include <undine/cutting/planar_regions.h>
 #include <undine/cutting/split_surface.h>
 #include <undine/surface/surface.h>
@@ -42,7 +42,7 @@ namespace undine
     std::vector<char>                   debris_piece;    ///< of each piece: PlanarRegion::debris
     std::vector<dealii::Tensor<1, dim>> closure;         ///< of each component of one cell
     std::vector<double>                 closure_defects; ///< of each cell
-    KeptCells<dim>                      kept;
+    CutCellCache<dim>                   kept;
   };
 
 

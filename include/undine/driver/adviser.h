@@ -44,10 +44,10 @@ namespace undine
   /// The largest of what was measured during a run.
   struct Extremes
   {
-    double speed      = 0; ///< of the fluid [m/s]
-    double body_speed = 0; ///< [m/s]
-    double way        = 0; ///< of the bodies from where they were at the start [m]
-    double gradient   = 0; ///< |dd/dX| in the bodies [1]
+    double speed        = 0; ///< of the fluid [m/s]
+    double body_speed   = 0; ///< [m/s]
+    double displacement = 0; ///< of the bodies from where they were at the start [m]
+    double gradient     = 0; ///< |dd/dX| in the bodies [1]
     double length = 0; ///< of a body or obstacle in the fluid along an axis, or of the domain [m]
     double viscosity   = 0; ///< dynamic [Pa s]
     double lift        = 0; ///< relative change of the fluid's density by carried fields [1]

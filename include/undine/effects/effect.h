@@ -91,7 +91,7 @@ namespace undine
 
     /// Does it need to know where the planes of the grid meet the surfaces in the fluid?
     virtual bool
-    sticks_to_surfaces() const;
+    needs_no_slip_surfaces() const;
 
     /// Say what the effect does to the bodies.
     virtual void

@@ -3,8 +3,8 @@
 #define undine_operators_boundary_flux_h
 
 #include <undine/cutting/cut_cells.h>
-#include <undine/fluid/pressure/pushed_volume.h>
-#include <undine/operators/cut_parts.h>
+#include <undine/fluid/pressure/swept_volume_flux.h>
+#include <undine/operators/cut_topology.h>
 #include <undine/surface/surface.h>
 
 #include <deal.II/base/mpi.h>
@@ -85,7 +85,7 @@ namespace undine
                 const Surface<dim>                        &surface,
                 const std::vector<dealii::Point<dim>>     &place,
                 const std::vector<dealii::Point<dim>>     &before,
-                const std::vector<dealii::Tensor<1, dim>> &way);
+                const std::vector<dealii::Tensor<1, dim>> &increment);
 
   /// What limits the accuracy of velocities in the nodes of a surface.
   struct StepAccuracy
@@ -97,13 +97,13 @@ namespace undine
   /// B u on the components of `parts`, with the names of the bodies as in the surface. Uncertain
   /// is 1e-8 of area times speed, and what the rounding of positions makes of either.
   template <int dim>
-  PushedVolume
-  pushed_volume(const BoundaryFlux<dim>                   &boundary_flux,
-                const CutCells<dim>                       &cut,
-                const CutParts<dim>                       &parts,
-                const Surface<dim>                        &surface,
-                const std::vector<dealii::Tensor<1, dim>> &velocities,
-                const StepAccuracy                        &accuracy);
+  SweptVolumeFlux
+  swept_volume_flux(const BoundaryFlux<dim>                   &boundary_flux,
+                    const CutCells<dim>                       &cut,
+                    const CutTopology<dim>                    &parts,
+                    const Surface<dim>                        &surface,
+                    const std::vector<dealii::Tensor<1, dim>> &velocities,
+                    const StepAccuracy                        &accuracy);
 
   /// Of the surface around each component of the cut cells the area of facets of the first
   /// `n_nodes` nodes [m^(dim-1)].

@@ -3,7 +3,7 @@
 #define undine_operators_exchanged_parts_h
 
 #include <undine/fluid/grid/field.h>
-#include <undine/fluid/grid/lattice_parts.h>
+#include <undine/fluid/grid/sub_lattice.h>
 
 #include <algorithm>
 #include <functional>
@@ -30,11 +30,11 @@ namespace undine
   /// The parts of a lattice's points, from those of the points that each rank owns: their counts,
   /// and part(index, number in its point). Images lie where their points have images. Collective.
   template <int dim>
-  LatticeParts<dim>
+  SubLattice<dim>
   make_exchanged_parts(
-    const std::shared_ptr<const Lattice<dim>>                                          &lattice,
-    Field<dim>                                                                          counts,
-    const std::function<typename LatticeParts<dim>::Part(const GridIndex<dim> &, int)> &part);
+    const std::shared_ptr<const Lattice<dim>>                                        &lattice,
+    Field<dim>                                                                        counts,
+    const std::function<typename SubLattice<dim>::Part(const GridIndex<dim> &, int)> &part);
 } // namespace undine
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <undine/fluid/grid/pressure_numbers.h>
 #include <undine/operators/boundary_flux.h>
-#include <undine/operators/cut_parts.h>
+#include <undine/operators/cut_topology.h>
 #include <undine/surface/immersed_surface.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -18,7 +18,7 @@ namespace undine
   void
   build_flux_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix,
                     const BoundaryFlux<dim>                &boundary_flux,
-                    const CutParts<dim>                    &parts,
+                    const CutTopology<dim>                 &parts,
                     const PressureNumbers<dim>             &numbers,
                     const ImmersedSurface<dim>             &surface,
                     const SolidModel<dim>                  &solid);

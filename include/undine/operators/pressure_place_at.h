@@ -2,7 +2,7 @@
 #ifndef undine_operators_pressure_place_at_h
 #define undine_operators_pressure_place_at_h
 
-#include <undine/fluid/grid/open_parts.h>
+#include <undine/fluid/grid/fluid_topology.h>
 #include <undine/fluid/grid/pressure_numbers.h>
 #include <undine/fluid/visibility/obstruction.h>
 
@@ -15,7 +15,7 @@ namespace undine
   PressurePlace<dim>
   pressure_place_at(const dealii::Point<dim> &point,
                     const MacGrid<dim>       &grid,
-                    const OpenParts<dim>     *open,
+                    const FluidTopology<dim> *open,
                     const Obstruction<dim>   *obstruction);
 } // namespace undine
 

@@ -2,20 +2,20 @@
 #ifndef undine_operators_sampled_pockets_h
 #define undine_operators_sampled_pockets_h
 
-#include <undine/operators/cut_parts.h>
+#include <undine/operators/cut_topology.h>
 
 namespace undine
 {
-  /// Mark as VoidParts::pocket, among the fluid that `voids` leaves, the connected parts that lie
+  /// Mark as VoidMask::pocket, among the fluid that `voids` leaves, the connected parts that lie
   /// in sampled cells alone: what bodies that overlap seem to enclose between them is no larger
   /// than what samples can tell, and what moving bodies press out of it could go nowhere. `parts`
-  /// comes from make_open_parts(grid, cut, voids) and must be made anew afterwards. Collective.
+  /// comes from make_fluid_topology(grid, cut, voids) and must be made anew afterwards. Collective.
   template <int dim>
   void
-  close_sampled_pockets(VoidParts           &voids,
-                        const MacGrid<dim>  &grid,
-                        const CutCells<dim> &cut,
-                        const CutParts<dim> &parts);
+  close_sampled_pockets(VoidMask               &voids,
+                        const MacGrid<dim>     &grid,
+                        const CutCells<dim>    &cut,
+                        const CutTopology<dim> &parts);
 } // namespace undine
 
 #endif

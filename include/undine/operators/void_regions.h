@@ -6,7 +6,7 @@
 #include <undine/fluid/boundary/boundary_map.h>
 #include <undine/fluid/grid/fluid_regions.h>
 #include <undine/fluid/visibility/obstruction.h>
-#include <undine/operators/cut_parts.h>
+#include <undine/operators/cut_topology.h>
 
 #include <string>
 #include <vector>
@@ -20,9 +20,9 @@ namespace undine
   ///
   /// They are found anew for every position of the bodies:
   ///
-  ///     const auto all   = make_open_parts(grid, cut);
+  ///     const auto all   = make_fluid_topology(grid, cut);
   ///     const auto voids = void_regions.find(cut, all, obstruction, last_voids);
-  ///     const auto parts = make_open_parts(grid, cut, voids);
+  ///     const auto parts = make_fluid_topology(grid, cut, voids);
   template <int dim>
   class VoidRegions
   {
@@ -45,16 +45,16 @@ namespace undine
     /// moved, nothing at the start. Throws SolveError, naming the region, if the seed lies in a
     /// body or too near to one, or if the region is connected with fluid: if it has an inflow or an
     /// opening, holds cells that held fluid, or leaves no fluid at all. Collective.
-    VoidParts
+    VoidMask
     find(const CutCells<dim>    &cut,
-         const CutParts<dim>    &all,
+         const CutTopology<dim> &all,
          const Obstruction<dim> &obstruction,
-         const VoidParts        &last) const;
+         const VoidMask         &last) const;
 
     /// For each of CutCells::components the pressure of the void that it belongs to [Pa], zero if
     /// it is fluid. It is the whole pressure: gravity_loads() are none there.
     std::vector<double>
-    pressures(const VoidParts &voids, const double time) const;
+    pressures(const VoidMask &voids, const double time) const;
 
   private:
     struct Region
@@ -68,9 +68,9 @@ namespace undine
     read(const Options &scene);
 
     PressurePlace<dim>
-    place_of_seed(const Region           &region,
-                  const OpenParts<dim>   &open,
-                  const Obstruction<dim> &obstruction) const;
+    place_of_seed(const Region             &region,
+                  const FluidTopology<dim> &open,
+                  const Obstruction<dim>   &obstruction) const;
 
     std::vector<int>
     void_of_each_region(const FluidRegions<dim>    &fluid_regions,
@@ -81,7 +81,7 @@ namespace undine
     check_boundaries(const Field<dim> &marks) const;
 
     void
-    check_last(const VoidParts &voids, const VoidParts &last, const CutCells<dim> &cut) const;
+    check_last(const VoidMask &voids, const VoidMask &last, const CutCells<dim> &cut) const;
 
     const MacGrid<dim>       &grid;
     const BoundaryMap<dim>   &boundaries;

@@ -16,8 +16,8 @@ namespace undine
   inline dealii::Tensor<1, 2>
   area_vector(const std::array<dealii::Point<2>, 2> &nodes)
   {
-    const auto way = nodes[1] - nodes[0];
-    return dealii::Tensor<1, 2>({way[1], -way[0]});
+    const auto segment = nodes[1] - nodes[0];
+    return dealii::Tensor<1, 2>({segment[1], -segment[0]});
   }
 
   /// Area times unit normal, to where the nodes run counter-clockwise [m^2].

@@ -66,12 +66,13 @@ namespace undine
               const dealii::Point<dim> &to) const override;
 
     bool
-    swept(const dealii::Point<dim> &place) const override;
+    is_freshly_cleared(const dealii::Point<dim> &place) const override;
 
     void
-    for_each_swept(const Lattice<dim>                                &lattice,
-                   const IndexBox<dim>                               &box,
-                   const std::function<void(const GridIndex<dim> &)> &action) const override;
+    for_each_freshly_cleared(
+      const Lattice<dim>                                &lattice,
+      const IndexBox<dim>                               &box,
+      const std::function<void(const GridIndex<dim> &)> &action) const override;
 
     dealii::Tensor<1, dim>
     nearest_velocity(const dealii::Point<dim> &place) const override;

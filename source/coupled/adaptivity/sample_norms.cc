@@ -23,7 +23,7 @@ namespace undine
     is_whole(const Field<dim> &field, const GridIndex<dim> &index)
     {
       const auto *divided = field.divided();
-      return !divided || divided->kind(index) == LatticeParts<dim>::Kind::whole;
+      return !divided || divided->kind(index) == SubLattice<dim>::Kind::whole;
     }
   } // namespace
 

@@ -169,13 +169,13 @@ namespace undine
       {
         if (!surface->moves(node))
           continue;
-        terms[by_interface].energy += surfaces.on_bodies[node] * surfaces.way[node];
+        terms[by_interface].energy += surfaces.on_bodies[node] * surfaces.increment[node];
         terms[by_interface].momentum += dt * surfaces.on_bodies[node];
-        terms[by_fluid_at_rest].energy += surfaces.at_rest[node] * surfaces.way[node];
+        terms[by_fluid_at_rest].energy += surfaces.at_rest[node] * surfaces.increment[node];
         terms[by_fluid_at_rest].momentum += dt * surfaces.at_rest[node];
         if (surfaces.friction.empty())
           continue;
-        terms[by_friction].energy += surfaces.friction[node] * surfaces.way[node];
+        terms[by_friction].energy += surfaces.friction[node] * surfaces.increment[node];
         terms[by_friction].momentum += dt * surfaces.friction[node];
       }
   }

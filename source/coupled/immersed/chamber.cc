@@ -19,10 +19,10 @@ namespace undine
     /// For each owned pressure, in the order of its number: is it in the region around the point?
     template <int dim>
     std::vector<bool>
-    region_around(const dealii::Point<dim>         &point,
-                  const MacGrid<dim>               &grid,
-                  const PressureNumbers<dim>       &numbers,
-                  const typename Flow<dim>::Bodies &bodies)
+    region_around(const dealii::Point<dim>                         &point,
+                  const MacGrid<dim>                               &grid,
+                  const PressureNumbers<dim>                       &numbers,
+                  const typename CharacteristicTracer<dim>::Bodies &bodies)
     {
       const FluidRegions<dim> regions(grid, numbers);
       int                     found = -1;
@@ -31,7 +31,7 @@ namespace undine
         try
           {
             const auto place =
-              pressure_place_at(point, grid, bodies.open_parts.get(), bodies.obstruction);
+              pressure_place_at(point, grid, bodies.topology.get(), bodies.obstruction);
             found = regions.of_pressures()[numbers.owned().index_within_set(numbers.of(place))];
           }
         catch (const SolveError &error)
@@ -53,13 +53,13 @@ namespace undine
 
     template <int dim>
     double
-    volume_around(const dealii::Point<dim>         &point,
-                  const MacGrid<dim>               &grid,
-                  const typename Flow<dim>::Bodies &bodies)
+    volume_around(const dealii::Point<dim>                         &point,
+                  const MacGrid<dim>                               &grid,
+                  const typename CharacteristicTracer<dim>::Bodies &bodies)
     {
-      const PressureNumbers<dim> numbers(grid, bodies.open_parts);
+      const PressureNumbers<dim> numbers(grid, bodies.topology);
       const auto                 is_in = region_around(point, grid, numbers, bodies);
-      Field<dim>                 volumes(grid.cells(), bodies.open_parts);
+      Field<dim>                 volumes(grid.cells(), bodies.topology);
       set_volumes(volumes, grid);
       std::size_t k   = 0;
       double      sum = 0;
@@ -72,15 +72,15 @@ namespace undine
 
     template <int dim>
     double
-    inflow_around(const dealii::Point<dim>         &point,
-                  const FluidModel<dim>            &model,
-                  const typename Flow<dim>::Bodies &bodies,
-                  const Velocity<dim>              &velocity)
+    inflow_around(const dealii::Point<dim>                         &point,
+                  const FluidModel<dim>                            &model,
+                  const typename CharacteristicTracer<dim>::Bodies &bodies,
+                  const Velocity<dim>                              &velocity)
     {
       const auto                &grid = model.grid();
-      const PressureNumbers<dim> numbers(grid, bodies.open_parts);
+      const PressureNumbers<dim> numbers(grid, bodies.topology);
       const auto                 is_in = region_around(point, grid, numbers, bodies);
-      const auto                *open  = bodies.open_parts.get();
+      const auto                *open  = bodies.topology.get();
       double                     sum   = 0;
       for_each_side_face(model.grid(), open, [&](const SideFace<dim> &face, const auto &) {
         const auto number = numbers.of(place_inside(open, face));

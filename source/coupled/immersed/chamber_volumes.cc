@@ -20,7 +20,7 @@ namespace undine
   {
     if (empty())
       return;
-    areas = geometry.cut_parts().of_open_parts(
+    areas = geometry.cut_topology().of_fluid_topology(
       wetted_areas(geometry.cut_cells(), surface, models.surface->n_body_nodes()));
     region_areas = chambers.sums_on_components(areas);
     gained       = gained_until_cut(models);
@@ -40,10 +40,10 @@ namespace undine
   ChamberVolumes<dim>::gained_until_cut(const Models<dim> &models) const
   {
     const auto &cut_at = geometry.surface_positions();
-    Vectors     way(cut_at.size());
-    for (std::size_t node = 0; node < way.size(); ++node)
-      way[node] = cut_at[node] - before[node];
-    auto        result   = swept(before, way);
+    Vectors     increment(cut_at.size());
+    for (std::size_t node = 0; node < increment.size(); ++node)
+      increment[node] = cut_at[node] - before[node];
+    auto        result   = swept(before, increment);
     const auto  at_start = chamber_volumes(models, before, chambers.places_within());
     const auto &volumes  = chambers.volumes_of_regions();
     for (std::size_t region = 0; region < result.size(); ++region)
@@ -61,19 +61,20 @@ namespace undine
 
   template <int dim>
   std::vector<double>
-  ChamberVolumes<dim>::swept(const Positions &from, const Vectors &way) const
+  ChamberVolumes<dim>::swept(const Positions &from, const Vectors &increment) const
   {
-    return chambers.sums_on_components(geometry.cut_parts().of_open_parts(
-      swept_volumes(geometry.cut_cells(), surface, geometry.surface_positions(), from, way)));
+    return chambers.sums_on_components(geometry.cut_topology().of_fluid_topology(
+      swept_volumes(geometry.cut_cells(), surface, geometry.surface_positions(), from, increment)));
   }
 
 
   template <int dim>
   std::vector<double>
-  ChamberVolumes<dim>::missing_fluxes(const std::vector<double> &fluxes, const Vectors &way) const
+  ChamberVolumes<dim>::missing_fluxes(const std::vector<double> &fluxes,
+                                      const Vectors             &increment) const
   {
     const auto &cut_at = geometry.surface_positions();
-    auto        rest   = way;
+    auto        rest   = increment;
     for (std::size_t node = 0; node < rest.size(); ++node)
       rest[node] -= cut_at[node] - before[node];
     const auto          then   = swept(cut_at, rest);

@@ -17,11 +17,11 @@ namespace undine
     /// Throws InputError if there is none. Collective.
     template <int dim>
     void
-    assert_fluid_is_left(const MacGrid<dim> &grid, const OpenParts<dim> &open)
+    assert_fluid_is_left(const MacGrid<dim> &grid, const FluidTopology<dim> &open)
     {
       bool any = false;
       for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-        any = any || open.cells.kind(cell) == LatticeParts<dim>::Kind::whole;
+        any = any || open.cells.kind(cell) == SubLattice<dim>::Kind::whole;
       });
       for (std::size_t k = 0; !any && k < open.cells.all().size(); ++k)
         any = open.cells.owns(k);
@@ -63,23 +63,23 @@ namespace undine
 
   template <int dim>
   void
-  FluidGeometry<dim>::cut(const VoidParts &last_voids)
+  FluidGeometry<dim>::cut(const VoidMask &last_voids)
   {
     const auto &grid = model.grid();
     cut_beyond_planes();
     last_report   = report(cells, surface.surface(), grid.communicator());
-    parts         = make_open_parts(grid, cells);
+    parts         = make_fluid_topology(grid, cells);
     flux_operator = std::make_unique<const BoundaryFlux<dim>>(cells, surface.surface());
     voids         = {};
     if (void_regions != nullptr)
       {
         voids = void_regions->find(cells, parts, *queries, last_voids);
-        parts = make_open_parts(grid, cells, voids);
+        parts = make_fluid_topology(grid, cells, voids);
       }
     if (last_report.sampled_cells > 0)
       {
         close_sampled_pockets(voids, grid, cells, parts);
-        parts = make_open_parts(grid, cells, voids);
+        parts = make_fluid_topology(grid, cells, voids);
       }
     assert_fluid_is_left(grid, *parts.open);
   }
@@ -105,7 +105,7 @@ namespace undine
     was_at     = before;
     if (!moved)
       return;
-    const auto last_voids = before == positions ? voids : VoidParts();
+    const auto last_voids = before == positions ? voids : VoidMask();
     positions             = now;
     try
       {
@@ -120,7 +120,7 @@ namespace undine
 
 
   template <int dim>
-  typename Flow<dim>::Bodies
+  typename CharacteristicTracer<dim>::Bodies
   FluidGeometry<dim>::bodies() const
   {
     return {queries.get(), parts.open};
@@ -128,8 +128,8 @@ namespace undine
 
 
   template <int dim>
-  PushedVolume
-  FluidGeometry<dim>::pushed(const Velocities &given, const double dt) const
+  SweptVolumeFlux
+  FluidGeometry<dim>::swept_volume_flux(const Velocities &given, const double dt) const
   {
     StepAccuracy accuracy{dt, 0};
     const auto   include = [&](const auto &place) {
@@ -140,7 +140,8 @@ namespace undine
     include(model.grid().upper());
     for (const auto &position : positions)
       include(position);
-    auto result   = pushed_volume(*flux_operator, cells, parts, surface.surface(), given, accuracy);
+    auto result =
+      swept_volume_flux(*flux_operator, cells, parts, surface.surface(), given, accuracy);
     result.bodies = surface.section_names();
     result.scene  = surface.scene_name();
     return result;
@@ -148,20 +149,20 @@ namespace undine
 
 
   template <int dim>
-  PushedVolume
-  FluidGeometry<dim>::pushed(const double dt) const
+  SweptVolumeFlux
+  FluidGeometry<dim>::swept_volume_flux(const double dt) const
   {
     return pushed(velocities, dt);
   }
 
 
   template <int dim>
-  PushedVolume
-  FluidGeometry<dim>::pushed_at_start(const double dt) const
+  SweptVolumeFlux
+  FluidGeometry<dim>::initial_swept_volume_flux(const double dt) const
   {
     auto       result     = pushed(dt);
     const auto areas      = wetted_areas(cells, surface.surface(), surface.n_body_nodes());
-    result.yielding_areas = parts.of_open_parts(areas);
+    result.yielding_areas = parts.of_fluid_topology(areas);
     return result;
   }
 

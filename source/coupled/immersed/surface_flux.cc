@@ -50,7 +50,7 @@ namespace undine
                 const BodiesInStage<dim>   &bodies)
         : SurfaceFlux<dim>(models, geometry, numbers)
         , solid(solid)
-        , way(bodies.way)
+        , increment(bodies.increment)
         , chambers(models, geometry, numbers, bodies.stage, bodies.time, bodies.before)
       {
         this->use(geometry.boundary_flux());
@@ -63,13 +63,13 @@ namespace undine
         this->velocities    = surface.with_bodies(velocity, this->velocities);
         if (chambers.empty())
           return;
-        auto       whole_way = way;
-        const auto further   = surface.with_bodies(
-          solid.increment(velocity), typename FluidGeometry<dim>::Velocities(way.size()));
-        for (std::size_t node = 0; node < way.size(); ++node)
-          whole_way[node] += further[node];
+        auto       whole_increment = increment;
+        const auto further         = surface.with_bodies(
+          solid.increment(velocity), typename FluidGeometry<dim>::Velocities(increment.size()));
+        for (std::size_t node = 0; node < increment.size(); ++node)
+          whole_increment[node] += further[node];
         this->further.clear();
-        this->further = chambers.missing_fluxes(this->fluxes(), whole_way);
+        this->further = chambers.missing_fluxes(this->fluxes(), whole_increment);
       }
 
       double
@@ -80,7 +80,7 @@ namespace undine
 
     private:
       const SolidEquations<dim>                    &solid;
-      const typename FluidGeometry<dim>::Velocities way; ///< to the start of the stage [m]
+      const typename FluidGeometry<dim>::Velocities increment; ///< to the start of the stage [m]
       const ChamberVolumes<dim>                     chambers;
     };
 
@@ -151,7 +151,7 @@ namespace undine
   {
     flux_operator = &new_operator;
     build_flux_matrix(
-      flux_matrix, new_operator, geometry.cut_parts(), numbers, *models.surface, *models.solid);
+      flux_matrix, new_operator, geometry.cut_topology(), numbers, *models.surface, *models.solid);
   }
 
 
@@ -159,7 +159,7 @@ namespace undine
   std::vector<double>
   SurfaceFlux<dim>::fluxes() const
   {
-    auto result = geometry.cut_parts().of_open_parts(flux_operator->flux(velocities));
+    auto result = geometry.cut_topology().of_fluid_topology(flux_operator->flux(velocities));
     for (std::size_t c = 0; c < further.size(); ++c)
       result[c] += further[c];
     return result;
@@ -171,7 +171,7 @@ namespace undine
   SurfaceFlux<dim>::nodal_forces(const Field<dim> &pressure) const
   {
     return undine::nodal_forces(*flux_operator,
-                                geometry.cut_parts().of_cut_cells(pressure.parts()),
+                                geometry.cut_topology().of_cut_cells(pressure.parts()),
                                 models.solid->communicator());
   }
 
@@ -200,12 +200,12 @@ namespace undine
     const auto  at_start = surface.positions(state.solid, time);
     before               = at_start;
     const auto arrived   = surface.positions(state.solid, time + stage.end);
-    way.resize(before.size());
-    for (std::size_t node = surface.n_body_nodes(); node < way.size(); ++node)
-      way[node] = arrived[node] - before[node];
-    way = surface.with_bodies(state.way, way);
+    increment.resize(before.size());
+    for (std::size_t node = surface.n_body_nodes(); node < increment.size(); ++node)
+      increment[node] = arrived[node] - before[node];
+    increment = surface.with_bodies(state.increment, increment);
     for (std::size_t node = 0; node < surface.n_body_nodes(); ++node)
-      before[node] -= way[node];
+      before[node] -= increment[node];
   }
 
 

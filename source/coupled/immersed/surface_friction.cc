@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/immersed/node_masses.h>
 #include <undine/coupled/immersed/surface_friction.h>
-#include <undine/operators/make_sticking_walls.h>
+#include <undine/operators/make_no_slip_surfaces.h>
 
 #include <cmath>
 
@@ -28,19 +28,19 @@ namespace undine
 
 
   template <int dim>
-  std::shared_ptr<const StickingWalls<dim>>
+  std::shared_ptr<const NoSlipSurfaces<dim>>
   SurfaceFriction<dim>::walls(const FluidGeometry<dim> &geometry)
   {
-    if (known_walls && cut_by == geometry.bodies().open_parts)
+    if (known_walls && cut_by == geometry.bodies().topology)
       return known_walls;
-    auto found   = make_sticking_walls(models.fluid->grid(),
-                                     geometry.cut_cells(),
-                                     geometry.cut_parts(),
-                                     geometry.boundary_flux(),
-                                     {models.surface->surface(), geometry.surface_positions()});
+    auto found   = make_no_slip_surfaces(models.fluid->grid(),
+                                       geometry.cut_cells(),
+                                       geometry.cut_topology(),
+                                       geometry.boundary_flux(),
+                                       {models.surface->surface(), geometry.surface_positions()});
     found.masses = masses;
-    cut_by       = geometry.bodies().open_parts;
-    known_walls  = std::make_shared<const StickingWalls<dim>>(std::move(found));
+    cut_by       = geometry.bodies().topology;
+    known_walls  = std::make_shared<const NoSlipSurfaces<dim>>(std::move(found));
     return known_walls;
   }
 

@@ -61,12 +61,12 @@ namespace undine
           models.surface->add_to_bodies(forces, exchange.friction);
         }
 
-      auto       way   = state.solid.displacement;
-      const auto solid = solid_side.advance(state, stage, forces);
-      way.sadd(-1, 1, state.solid.displacement);
+      auto       increment = state.solid.displacement;
+      const auto solid     = solid_side.advance(state, stage, forces);
+      increment.sadd(-1, 1, state.solid.displacement);
       solid_side.end(state, stage, solid);
-      exchange.way         = models.surface->with_bodies(way, still());
-      exchange.velocities  = node_velocities(state, exchange.way, fluid->dt);
+      exchange.increment   = models.surface->with_bodies(increment, still());
+      exchange.velocities  = node_velocities(state, exchange.increment, fluid->dt);
       const auto projected = project(state, *fluid, exchange.velocities);
       if (ledger.is_on() && stage.is_last)
         {
@@ -98,10 +98,10 @@ namespace undine
       {
         const auto phase = timing.section("project");
         return projection.project(state.fluid,
-                                  fluid.flow.velocity(),
+                                  fluid.tracer.velocity(),
                                   fluid.end,
                                   fluid.dt,
-                                  fluid_side.geometry()->pushed(velocities, fluid.dt));
+                                  fluid_side.geometry()->swept_volume_flux(velocities, fluid.dt));
       }
     catch (const NoOutletError &error)
       {
@@ -119,13 +119,13 @@ namespace undine
 
     /// What the fluid is driven by [m/s].
     Vectors
-    node_velocities(const State<dim> &state, const Vectors &way, const double dt) const
+    node_velocities(const State<dim> &state, const Vectors &increment, const double dt) const
     {
       auto result = fluid_side.geometry()->surface_velocities();
       if (driven_by == "velocity")
         return models.surface->with_bodies(state.solid.velocity, result);
       for (std::size_t node = 0; node < models.surface->n_body_nodes(); ++node)
-        result[node] = way[node] / dt;
+        result[node] = increment[node] / dt;
       return result;
     }
 

@@ -49,7 +49,7 @@ namespace undine
                 parts.timing,
                 loads_besides_pressure(),
                 state.contact)
-    , numbers(parts.models.fluid->grid(), parts.geometry.bodies().open_parts)
+    , numbers(parts.models.fluid->grid(), parts.geometry.bodies().topology)
     , surface(
         moved(make_surface_flux(
                 boundary_flux,
@@ -70,9 +70,9 @@ namespace undine
     , x(problem.vector())
   {
     pressures.start(state.fluid.velocity,
-                    fluid.flow.velocity(),
+                    fluid.tracer.velocity(),
                     end_time,
-                    parts.geometry.pushed(surface->node_velocities(), fluid.dt));
+                    parts.geometry.swept_volume_flux(surface->node_velocities(), fluid.dt));
     predicted = state.fluid.velocity;
   }
 
@@ -110,7 +110,7 @@ namespace undine
 
 
   /// Newton's method for u^{n+1} and p, and around it for how fast fluid enters through outflows:
-  /// once or twice, as long as that changes v^{n+1} (see hold_back_entering_flow()).
+  /// once or twice, as long as that changes v^{n+1} (see stabilise_backflow()).
   template <int dim>
   NewtonReport
   CoupledStep<dim>::solve_with_openings()
@@ -129,7 +129,7 @@ namespace undine
         all.linear_iterations = report.linear_iterations;
         all.residuals.insert(all.residuals.end(), report.residuals.begin(), report.residuals.end());
         pressures.accelerate(state.fluid.velocity, x.block(1));
-        if (pressures.update_entering_flow(state.fluid.velocity) <= tolerance)
+        if (pressures.update_backflow(state.fluid.velocity) <= tolerance)
           break;
       }
     return all;
@@ -164,7 +164,7 @@ namespace undine
   {
     x.block(0) = equations.kept_apart(velocity);
     x.block(1) = pressure;
-    pressures.closed_regions().ground(x.block(1));
+    pressures.closed_regions().fix_pressure_level(x.block(1));
     problem.start();
     return solve_newton(problem, x, newton);
   }
@@ -238,7 +238,7 @@ namespace undine
     result.pushed       = surface->nodal_forces(pressure);
     result.velocities   = surface->node_velocities();
     result.on_bodies    = result.pushed;
-    result.way          = parts.models.surface->with_bodies(
+    result.increment    = parts.models.surface->with_bodies(
       equations.increment(x.block(0)),
       typename SurfaceExchange<dim>::Vectors(result.by_fluid.size()));
     return result;

@@ -33,11 +33,12 @@ namespace undine
     typename Projection<dim>::Report projected;
     {
       const auto phase = timing.section("project");
-      projected        = projection.project(state.fluid,
-                                     fluid->flow.velocity(),
-                                     fluid->end,
-                                     fluid->dt,
-                                     geometry ? geometry->pushed(fluid->dt) : PushedVolume());
+      projected =
+        projection.project(state.fluid,
+                           fluid->tracer.velocity(),
+                           fluid->end,
+                           fluid->dt,
+                           geometry ? geometry->swept_volume_flux(fluid->dt) : SweptVolumeFlux());
     }
     if (ledger.is_on() && stage.is_last)
       balance(state, projected, fluid->dt);

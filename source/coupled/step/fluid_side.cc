@@ -20,17 +20,17 @@ namespace undine
 
 
   template <int dim>
-  typename Flow<dim>::Bodies
+  typename CharacteristicTracer<dim>::Bodies
   FluidSide<dim>::bodies() const
   {
-    return cut ? cut->bodies() : typename Flow<dim>::Bodies();
+    return cut ? cut->bodies() : typename CharacteristicTracer<dim>::Bodies();
   }
 
 
   /// Those that the fluid sticks to where there is friction.
   template <int dim>
-  typename Flow<dim>::Bodies
-  FluidSide<dim>::sticky_bodies(const State<dim> &state, const Stage &stage)
+  typename CharacteristicTracer<dim>::Bodies
+  FluidSide<dim>::no_slip_bodies(const State<dim> &state, const Stage &stage)
   {
     auto result = bodies();
     if (cut && models.has_friction())
@@ -86,8 +86,8 @@ namespace undine
   void
   FluidSide<dim>::share_parts(FluidState<dim> &state) const
   {
-    const auto &parts = bodies().open_parts;
-    if (state.pressure.open_parts() == parts || !cut->is_unmoved())
+    const auto &parts = bodies().topology;
+    if (state.pressure.topology() == parts || !cut->is_unmoved())
       return;
     for (auto *velocity : {&state.velocity, &state.acceleration, &state.change})
       for (auto &component : velocity->components)
@@ -108,11 +108,11 @@ namespace undine
   {
     place_surfaces(state, single_stage(dt));
     const double time = state.clock.time;
-    state.fluid       = model.initial_state(bodies().open_parts);
+    state.fluid       = model.initial_state(bodies().topology);
     for (const auto &effect : models.effects)
       effect->initialize(model, state.fluid);
     const auto projected = projection.make_divergence_free(
-      state.fluid, time, cut ? cut->pushed_at_start(dt) : PushedVolume());
+      state.fluid, time, cut ? cut->initial_swept_volume_flux(dt) : SweptVolumeFlux());
     report.linear_iterations += projected.iterations;
     if (cut)
       {
@@ -168,12 +168,12 @@ namespace undine
                                                   state.clock.time,
                                                   stage,
                                                   timing,
-                                                  sticky_bodies(state, stage));
+                                                  no_slip_bodies(state, stage));
     {
       const auto phase = timing.section("transport");
       run_phase(
         *fluid, Ledger<dim>::transport, [&](const auto &effect) { effect.transport(*fluid); });
-      fluid->settle();
+      fluid->remap();
       if (stage.is_last)
         ledger.add(Ledger<dim>::transport, state.fluid.velocity);
     }

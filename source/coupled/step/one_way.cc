@@ -111,12 +111,12 @@ namespace undine
                               const Stage                            &stage,
                               const typename SolidModel<dim>::Vector &forces)
   {
-    auto way   = state.solid.displacement;
-    half.solid = solid_side.advance(state, stage, forces);
-    way.sadd(-1, 1, state.solid.displacement);
+    auto increment = state.solid.displacement;
+    half.solid     = solid_side.advance(state, stage, forces);
+    increment.sadd(-1, 1, state.solid.displacement);
     solid_side.end(state, stage, half.solid);
-    half.exchange.way =
-      models.surface->with_bodies(way, Vectors(models.surface->surface().n_nodes()));
+    half.exchange.increment =
+      models.surface->with_bodies(increment, Vectors(models.surface->surface().n_nodes()));
   }
 
 
@@ -130,10 +130,10 @@ namespace undine
       const auto phase = timing.section("project");
       half.projected =
         projection.project(state.fluid,
-                           half.fluid->flow.velocity(),
+                           half.fluid->tracer.velocity(),
                            half.fluid->end,
                            half.fluid->dt,
-                           fluid_side.geometry()->pushed(velocities, half.fluid->dt));
+                           fluid_side.geometry()->swept_volume_flux(velocities, half.fluid->dt));
     }
   catch (const NoOutletError &error)
     {

@@ -16,7 +16,7 @@ namespace undine
         return;
       start.solid.displacement.add(length, now.velocity);
       start.solid.velocity.add(length, now.acceleration);
-      start.way.add(length, now.velocity);
+      start.increment.add(length, now.velocity);
     }
   } // namespace
 
@@ -52,7 +52,7 @@ namespace undine
     auto &contact       = state.contact;
     contact.place       = state.solid.displacement;
     contact.time        = state.clock.time + stage.begin;
-    contact.weight      = stage.way() / stage.length;
+    contact.weight      = stage.duration() / stage.length;
     contact.keeps_rates = true;
     if (stage.is_first)
       contact.old_energy.reset();
@@ -80,8 +80,8 @@ namespace undine
       go_on<dim>(start, stage.rate(), now);
     else
       start = state.next;
-    state.solid = start.solid;
-    state.way   = start.way;
+    state.solid     = start.solid;
+    state.increment = start.increment;
     if (ledger.is_on() && stage.is_last)
       ledger.add(solid_step.amounts(state.solid));
     if (stage.is_last)

@@ -16,35 +16,38 @@ namespace undine
 
   template <int dim>
   Field<dim>
-  completed(const Flow<dim> &flow, Field<dim> field, const BoundaryCondition<dim> &condition)
+  completed(const CharacteristicTracer<dim> &tracer,
+            Field<dim>                       field,
+            const BoundaryCondition<dim>    &condition)
   {
-    field.exchange(flow.width());
-    fill_boundary_points(field, flow.model().boundaries(), condition, flow.velocity(), flow.time());
+    field.exchange(tracer.width());
+    fill_boundary_points(
+      field, tracer.model().boundaries(), condition, tracer.velocity(), tracer.time());
     return field;
   }
 
 
   template <int dim>
   std::vector<Field<dim>>
-  completed(const Flow<dim>              &flow,
-            std::vector<Field<dim>>       fields,
-            const BoundaryCondition<dim> &condition)
+  completed(const CharacteristicTracer<dim> &tracer,
+            std::vector<Field<dim>>          fields,
+            const BoundaryCondition<dim>    &condition)
   {
     for (auto &field : fields)
-      field = completed(flow, std::move(field), condition);
+      field = completed(tracer, std::move(field), condition);
     return fields;
   }
 
 
   template <int dim>
-  NearBodies<dim>::NearBodies(const Flow<dim> &flow_, const Field<dim> &source)
-    : flow(flow_)
+  NearBodies<dim>::NearBodies(const CharacteristicTracer<dim> &tracer_, const Field<dim> &source)
+    : tracer(tracer_)
     , lattice(source.lattice())
     , axis(source.lattice().normal_axis())
   {
-    if (flow.bodies().obstruction != nullptr)
-      samples =
-        std::make_unique<const VisibleSamples<dim>>(source, flow.views(source), flow.vicinity());
+    if (tracer.bodies().obstruction != nullptr)
+      samples = std::make_unique<const VisibleSamples<dim>>(
+        source, tracer.stencils(source), tracer.vicinity());
   }
 
 
@@ -56,7 +59,7 @@ namespace undine
   {
     if (const auto seen = samples->along(index, place, foot))
       return *seen;
-    return axis < dim ? flow.bodies().obstruction->nearest_velocity(foot.point)[axis] : unknown;
+    return axis < dim ? tracer.bodies().obstruction->nearest_velocity(foot.point)[axis] : unknown;
   }
 
 
@@ -64,30 +67,30 @@ namespace undine
   void
   NearBodies<dim>::finish(Field<dim> &carried, const BoundaryCondition<dim> &condition) const
   {
-    if (!carried.open_parts())
+    if (!carried.topology())
       return;
     if (axis >= dim)
-      fill_unknown(carried, flow.model(), condition, flow.time() + flow.dt());
-    set_means(carried, flow.model().grid());
+      fill_unknown(carried, tracer.model(), condition, tracer.time() + tracer.dt());
+    set_means(carried, tracer.model().grid());
   }
 
 
   template <int dim>
   Field<dim>
-  kept_in_place(const Flow<dim>              &flow,
-                const Field<dim>             &field,
-                const BoundaryCondition<dim> &condition)
+  remapped(const CharacteristicTracer<dim> &tracer,
+           const Field<dim>                &field,
+           const BoundaryCondition<dim>    &condition)
   {
-    const auto            source = completed(flow, field, condition);
-    const NearBodies<dim> near(flow, source);
-    Field<dim>            kept(source.shared_lattice(), flow.bodies().open_parts);
+    const auto            source = completed(tracer, field, condition);
+    const NearBodies<dim> near(tracer, source);
+    Field<dim>            kept(source.shared_lattice(), tracer.bodies().topology);
     const auto           *divided = kept.divided();
     for_each_value(kept, [&](double &value, const auto &place, const GridIndex<dim> &index) {
       const bool is_part =
-        divided != nullptr && divided->kind(index) != LatticeParts<dim>::Kind::whole;
-      const auto here = flow.vicinity().place(place);
-      value = is_part || flow.vicinity().is_next_to_body(here) ? near.value_at(index, place, here)
-                                                               : source(index);
+        divided != nullptr && divided->kind(index) != SubLattice<dim>::Kind::whole;
+      const auto here = tracer.vicinity().place(place);
+      value = is_part || tracer.vicinity().is_next_to_body(here) ? near.value_at(index, place, here)
+                                                                 : source(index);
     });
     near.finish(kept, condition);
     return kept;
@@ -97,15 +100,15 @@ namespace undine
   template class NearBodies<2>;
   template class NearBodies<3>;
   template Field<2>
-  kept_in_place(const Flow<2> &, const Field<2> &, const BoundaryCondition<2> &);
+  remapped(const CharacteristicTracer<2> &, const Field<2> &, const BoundaryCondition<2> &);
   template Field<3>
-  kept_in_place(const Flow<3> &, const Field<3> &, const BoundaryCondition<3> &);
+  remapped(const CharacteristicTracer<3> &, const Field<3> &, const BoundaryCondition<3> &);
   template Field<2>
-  completed(const Flow<2> &, Field<2>, const BoundaryCondition<2> &);
+  completed(const CharacteristicTracer<2> &, Field<2>, const BoundaryCondition<2> &);
   template std::vector<Field<2>>
-  completed(const Flow<2> &, std::vector<Field<2>>, const BoundaryCondition<2> &);
+  completed(const CharacteristicTracer<2> &, std::vector<Field<2>>, const BoundaryCondition<2> &);
   template Field<3>
-  completed(const Flow<3> &, Field<3>, const BoundaryCondition<3> &);
+  completed(const CharacteristicTracer<3> &, Field<3>, const BoundaryCondition<3> &);
   template std::vector<Field<3>>
-  completed(const Flow<3> &, std::vector<Field<3>>, const BoundaryCondition<3> &);
+  completed(const CharacteristicTracer<3> &, std::vector<Field<3>>, const BoundaryCondition<3> &);
 } // namespace undine

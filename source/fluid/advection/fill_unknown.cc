@@ -18,7 +18,7 @@ namespace undine
     struct KnownNeighbours
     {
       explicit KnownNeighbours(const Field<dim> &scalar)
-        : values(scalar.shared_lattice(), scalar.open_parts())
+        : values(scalar.shared_lattice(), scalar.topology())
         , areas(values)
       {
       }
@@ -45,12 +45,12 @@ namespace undine
                           const MacGrid<dim>   &grid,
                           const GridIndex<dim> &cell)
     {
-      using Kind = typename LatticeParts<dim>::Kind;
+      using Kind = typename SubLattice<dim>::Kind;
       for (unsigned int axis = 0; axis < dim; ++axis)
         for (const int end : {0, 1})
           {
             const auto face = moved<dim>(cell, axis, end);
-            if (scalar.open_parts()->faces[axis].kind(face) == Kind::whole &&
+            if (scalar.topology()->faces[axis].kind(face) == Kind::whole &&
                 !grid.at_boundary(axis, face))
               known.join({cell, -1},
                          scalar(moved<dim>(cell, axis, 2 * end - 1)),
@@ -63,7 +63,7 @@ namespace undine
     void
     join_through_pieces(KnownNeighbours<dim> &known, const Field<dim> &scalar)
     {
-      const auto &open = *scalar.open_parts();
+      const auto &open = *scalar.topology();
       for (unsigned int axis = 0; axis < dim; ++axis)
         for (std::size_t k = 0; k < open.pieces[axis].size(); ++k)
           {
@@ -86,9 +86,9 @@ namespace undine
                     const BoundaryCondition<dim> &condition,
                     const double                  time)
     {
-      using Kind       = typename LatticeParts<dim>::Kind;
+      using Kind       = typename SubLattice<dim>::Kind;
       const auto &grid = model.grid();
-      const auto &open = *known.values.open_parts();
+      const auto &open = *known.values.topology();
       for (unsigned int axis = 0; axis < dim; ++axis)
         for (const unsigned int end : {0, 1})
           {

@@ -95,13 +95,13 @@ namespace undine
     const auto                         &grid = boundaries.grid();
     std::vector<dealii::Tensor<1, dim>> forces(boundaries.all().size());
     auto                                pressure = state.pressure;
-    const auto                         *open     = pressure.open_parts().get();
+    const auto                         *open     = pressure.topology().get();
     pressure.exchange(1);
     for_each_next_to_side(grid, *grid.cells(), [&](const Side side, const GridIndex<dim> &cell) {
       const unsigned int axis  = side.axis;
       const auto         next  = moved<dim>(cell, axis, -side.sign());
       const auto         whole = [&](const GridIndex<dim> &index) {
-        return !open || open->cells.kind(index) == LatticeParts<dim>::Kind::whole;
+        return !open || open->cells.kind(index) == SubLattice<dim>::Kind::whole;
       };
       auto &force = forces[boundaries.number(side, cell)][axis];
       if (!whole(cell))

@@ -5,11 +5,13 @@ namespace undine
 {
   template <int dim>
   double
-  signed_area(const MacGrid<dim> &grid, const OpenParts<dim> *open_parts, const SideFace<dim> &face)
+  signed_area(const MacGrid<dim>       &grid,
+              const FluidTopology<dim> *topology,
+              const SideFace<dim>      &face)
   {
     const unsigned int axis = face.side.axis;
     return face.side.sign() * (face.piece < 0 ? grid.face_area(axis, face.face)
-                                              : open_parts->faces[axis].all()[face.piece].measure);
+                                              : topology->faces[axis].all()[face.piece].measure);
   }
 
 
@@ -26,27 +28,27 @@ namespace undine
   double
   outward_flux(const MacGrid<dim> &grid, const Velocity<dim> &velocity, const SideFace<dim> &face)
   {
-    return signed_area(grid, velocity.open_parts(), face) * value_on(velocity, face);
+    return signed_area(grid, velocity.topology(), face) * value_on(velocity, face);
   }
 
 
   template <int dim>
   PressurePlace<dim>
-  place_inside(const OpenParts<dim> *open_parts, const SideFace<dim> &face)
+  place_inside(const FluidTopology<dim> *topology, const SideFace<dim> &face)
   {
     if (face.piece < 0)
       return {face.cell, -1};
-    return end_of_piece(*open_parts, face.side.axis, face.piece, 1 - face.side.end);
+    return end_of_piece(*topology, face.side.axis, face.piece, 1 - face.side.end);
   }
 
 
-#define INSTANTIATE(dim)                                                  \
-  template double signed_area(                                            \
-    const MacGrid<dim> &, const OpenParts<dim> *, const SideFace<dim> &); \
-  template double value_on(const Velocity<dim> &, const SideFace<dim> &); \
-  template double outward_flux(                                           \
-    const MacGrid<dim> &, const Velocity<dim> &, const SideFace<dim> &);  \
-  template PressurePlace<dim> place_inside(const OpenParts<dim> *, const SideFace<dim> &);
+#define INSTANTIATE(dim)                                                      \
+  template double signed_area(                                                \
+    const MacGrid<dim> &, const FluidTopology<dim> *, const SideFace<dim> &); \
+  template double value_on(const Velocity<dim> &, const SideFace<dim> &);     \
+  template double outward_flux(                                               \
+    const MacGrid<dim> &, const Velocity<dim> &, const SideFace<dim> &);      \
+  template PressurePlace<dim> place_inside(const FluidTopology<dim> *, const SideFace<dim> &);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -120,10 +120,10 @@ namespace undine
 
 
   template <int dim>
-  Field<dim>::Field(std::shared_ptr<const Lattice<dim>>   lattice,
-                    std::shared_ptr<const OpenParts<dim>> open_parts)
+  Field<dim>::Field(std::shared_ptr<const Lattice<dim>>       lattice,
+                    std::shared_ptr<const FluidTopology<dim>> topology)
     : points(std::move(lattice))
-    , open(std::move(open_parts))
+    , open(std::move(topology))
     , part_values(open ? open->of(*points).all().size() : 0)
   {
     store(points->owned());

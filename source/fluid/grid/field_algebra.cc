@@ -12,7 +12,7 @@ namespace undine
       return;
     const unsigned int axis = field.lattice().normal_axis();
     for_each(field.owned(), [&](const GridIndex<dim> &index) {
-      if (divided->kind(index) == LatticeParts<dim>::Kind::whole)
+      if (divided->kind(index) == SubLattice<dim>::Kind::whole)
         return;
       double moment = 0, measure = 0;
       for_each_part(*divided, index, [&](const int part) {
@@ -41,7 +41,7 @@ namespace undine
   {
     const auto *divided = volumes.divided();
     for_each(volumes.owned(), [&](const GridIndex<dim> &cell) {
-      if (!divided || divided->kind(cell) == LatticeParts<dim>::Kind::whole)
+      if (!divided || divided->kind(cell) == SubLattice<dim>::Kind::whole)
         volumes(cell) = grid.cell_volume(cell);
     });
     for (std::size_t c = 0; c < volumes.parts().size(); ++c)

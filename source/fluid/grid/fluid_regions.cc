@@ -55,7 +55,7 @@ namespace undine
     const auto   is_mine = [&](const Number number) {
       return number >= begin && number - begin < owned.n_elements();
     };
-    const auto *open = numbers.open_parts().get();
+    const auto *open = numbers.topology().get();
     for_each_connection(grid, open, [&](const auto &below, const auto &above) {
       const Number first = numbers.of(below), second = numbers.of(above);
       if (is_mine(first) && is_mine(second))
@@ -64,7 +64,7 @@ namespace undine
 
     // The label of a pressure: the lowest number of its set on its rank. Neighbours need to know.
     std::set<Number> sets;
-    Field<dim>       labels(grid.cells(), numbers.open_parts());
+    Field<dim>       labels(grid.cells(), numbers.topology());
     Number           next = 0;
     for_each_value(labels, [&](double &label, const auto &, const auto &) {
       const Number smallest = begin + mine.smallest(next++);

@@ -203,9 +203,9 @@ namespace undine
         const int    n      = cells_along()[axis];
         const double length = planes[n] - planes[0];
         // More than the whole domain is never needed unless it repeats.
-        const double way    = periodic(axis) ? distance[axis] : std::min(distance[axis], length);
-        const int    rounds = way / length;
-        const double rest   = way - rounds * length;
+        const double path   = periodic(axis) ? distance[axis] : std::min(distance[axis], length);
+        const int    rounds = path / length;
+        const double rest   = path - rounds * length;
         const auto   place  = [&](const int plane) {
           return planes[plane % n] + (plane / n) * length;
         };

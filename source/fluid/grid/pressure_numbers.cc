@@ -8,10 +8,10 @@
 namespace undine
 {
   template <int dim>
-  PressureNumbers<dim>::PressureNumbers(const MacGrid<dim>                   &grid,
-                                        std::shared_ptr<const OpenParts<dim>> open_parts)
+  PressureNumbers<dim>::PressureNumbers(const MacGrid<dim>                       &grid,
+                                        std::shared_ptr<const FluidTopology<dim>> topology)
     : lattice(grid.cells())
-    , open(std::move(open_parts))
+    , open(std::move(topology))
   {
     if (!open)
       {

@@ -101,14 +101,14 @@ namespace undine
 
   template <int dim>
   FluidState<dim>
-  FluidModel<dim>::initial_state(const std::shared_ptr<const OpenParts<dim>> &open_parts) const
+  FluidModel<dim>::initial_state(const std::shared_ptr<const FluidTopology<dim>> &topology) const
   {
     FluidState<dim> state;
-    state.pressure = Field<dim>(mac_grid.cells(), open_parts);
+    state.pressure = Field<dim>(mac_grid.cells(), topology);
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
         auto &component          = state.velocity[axis];
-        component                = Field<dim>(mac_grid.faces(axis), open_parts);
+        component                = Field<dim>(mac_grid.faces(axis), topology);
         state.acceleration[axis] = component;
         state.change[axis]       = component;
         if (!parameters.initial_velocity.is_zero())

@@ -36,13 +36,13 @@ namespace undine
     void
     for_each_mass(const FluidModel<dim> &model, const Velocity<dim> &velocity, const Action &action)
     {
-      const auto *open = velocity.open_parts();
+      const auto *open = velocity.topology();
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
           const auto &component = velocity[axis];
           const auto *divided   = component.divided();
           for_each(component.owned(), [&](const GridIndex<dim> &face) {
-            if (!divided || divided->kind(face) == LatticeParts<dim>::Kind::whole)
+            if (!divided || divided->kind(face) == SubLattice<dim>::Kind::whole)
               action(axis, model.density() * model.grid().dual_volume(axis, face), component(face));
           });
           for (std::size_t k = 0; k < component.parts().size(); ++k)
@@ -134,7 +134,7 @@ namespace undine
   double
   integral(const FluidModel<dim> &model, const Field<dim> &scalar)
   {
-    Field<dim> volumes(scalar.shared_lattice(), scalar.open_parts());
+    Field<dim> volumes(scalar.shared_lattice(), scalar.topology());
     set_volumes(volumes, model.grid());
     double sum = 0;
     for_each(scalar.owned(),

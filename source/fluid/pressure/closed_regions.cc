@@ -35,9 +35,9 @@ namespace undine
       for (const auto number : yielding)
         is_open[regions[owned.index_within_set(number)]] = 1;
       const Velocity<dim> still = model.initial_state().velocity;
-      for (const auto &opening : open_faces(model, still, numbers.open_parts().get(), 0.))
+      for (const auto &opening : open_faces(model, still, numbers.topology().get(), 0.))
         {
-          const auto inside = place_inside(numbers.open_parts().get(), opening);
+          const auto inside = place_inside(numbers.topology().get(), opening);
           is_open[regions[owned.index_within_set(numbers.of(inside))]] = 1;
         }
       dealii::Utilities::MPI::max(is_open, model.grid().communicator(), is_open);
@@ -54,7 +54,7 @@ namespace undine
     , numbers(numbers_)
   {
     const auto &grid = model.grid();
-    if (!numbers.open_parts() && model.boundaries().has_opening())
+    if (!numbers.topology() && model.boundaries().has_opening())
       return;
     const FluidRegions<dim> all(grid, numbers);
     const auto              is_open = openness(model, numbers, all, yielding);
@@ -71,7 +71,7 @@ namespace undine
       return;
     for (const unsigned int r : all.of_pressures())
       regions.push_back(closed_number[r]);
-    Field<dim> sizes(grid.cells(), numbers.open_parts());
+    Field<dim> sizes(grid.cells(), numbers.topology());
     set_volumes(sizes, grid);
     for_each_value(sizes,
                    [&](const double size, const auto &, const auto &) { volumes.push_back(size); });
@@ -120,7 +120,7 @@ namespace undine
 
   template <int dim>
   void
-  ClosedRegions<dim>::ground(Vector &pressure) const
+  ClosedRegions<dim>::fix_pressure_level(Vector &pressure) const
   {
     if (region_volumes.empty())
       return;
@@ -158,7 +158,7 @@ namespace undine
   Field<dim>
   ClosedRegions<dim>::regions_of_pressures() const
   {
-    Field<dim>  result(model.grid().cells(), numbers.open_parts());
+    Field<dim>  result(model.grid().cells(), numbers.topology());
     std::size_t k = 0;
     for_each_value(result,
                    [&](double &value, const auto &, const auto &) { value = regions[k++]; });
@@ -168,9 +168,9 @@ namespace undine
 
   template <int dim>
   std::string
-  ClosedRegions<dim>::describe(const int           region,
-                               const PushedVolume &pushed,
-                               const double        through_boundaries) const
+  ClosedRegions<dim>::describe(const int              region,
+                               const SweptVolumeFlux &pushed,
+                               const double           through_boundaries) const
   {
     const auto             which = regions_of_pressures();
     dealii::Tensor<1, dim> moment;
@@ -244,7 +244,7 @@ namespace undine
   std::vector<double>
   ClosedRegions<dim>::sums_on_components(const std::vector<double> &values) const
   {
-    Field<dim> field(model.grid().cells(), numbers.open_parts());
+    Field<dim> field(model.grid().cells(), numbers.topology());
     std::copy(values.begin(), values.end(), field.parts().begin());
     return sums_of(field, [](const double value) { return value; });
   }
@@ -258,7 +258,7 @@ namespace undine
   {
     Velocity<dim> held;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      held[axis] = Field<dim>(model.grid().faces(axis), numbers.open_parts());
+      held[axis] = Field<dim>(model.grid().faces(axis), numbers.topology());
     set_boundary_velocity(held, model.boundaries(), time);
     exchange(held);
     return divergence(model, held);
@@ -284,13 +284,13 @@ namespace undine
 
   template <int dim>
   std::vector<double>
-  ClosedRegions<dim>::balanced_fluxes(const Velocity<dim> &velocity,
-                                      const PushedVolume  &pushed,
-                                      const double         time) const
+  ClosedRegions<dim>::balanced_fluxes(const Velocity<dim>   &velocity,
+                                      const SweptVolumeFlux &pushed,
+                                      const double           time) const
   {
     if (region_volumes.empty())
       return pushed.fluxes;
-    if (!numbers.open_parts())
+    if (!numbers.topology())
       {
         const auto complaint = net_flux_complaint(model.boundaries(), velocity);
         if (!complaint.empty())

@@ -15,13 +15,13 @@ namespace undine
   divergence(const FluidModel<dim> &model, const Velocity<dim> &velocity)
   {
     const auto &grid = model.grid();
-    Field<dim>  result(grid.cells(), velocity[0].open_parts());
+    Field<dim>  result(grid.cells(), velocity[0].topology());
     for_each(result.owned(), [&](const GridIndex<dim> &cell) {
       for (unsigned int axis = 0; axis < dim; ++axis)
         result(cell) += grid.face_area(axis, cell) *
                         (velocity[axis](moved<dim>(cell, axis, 1)) - velocity[axis](cell));
     });
-    if (const auto *open = velocity.open_parts())
+    if (const auto *open = velocity.topology())
       for (unsigned int axis = 0; axis < dim; ++axis)
         for (std::size_t k = 0; k < open->pieces[axis].size(); ++k)
           for (const unsigned int end : {0, 1})

@@ -18,7 +18,7 @@ namespace undine
                    const std::vector<OpenFace<dim>> &openings)
   {
     const auto          &grid = model.grid();
-    const auto          *open = pressure.open_parts().get();
+    const auto          *open = pressure.topology().get();
     PressureBalance<dim> result;
     for_each_side_face(model.grid(), open, [&](const SideFace<dim> &face, const auto &) {
       if (model.boundaries().at(face.side, face.face).is_open())

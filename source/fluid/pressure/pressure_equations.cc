@@ -30,14 +30,14 @@ namespace undine
 
   template <int dim>
   void
-  PressureEquations<dim>::start(Velocity<dim>       &velocity,
-                                const Velocity<dim> &carrying,
-                                const double         time,
-                                const PushedVolume  &pushed)
+  PressureEquations<dim>::start(Velocity<dim>         &velocity,
+                                const Velocity<dim>   &carrying,
+                                const double           time,
+                                const SweptVolumeFlux &pushed)
   {
     set_boundary_velocity(velocity, model.boundaries(), time);
     regions.balanced_fluxes(velocity, pushed, time);
-    openings = undine::open_faces(model, carrying, all_numbers.open_parts().get(), time);
+    openings = undine::open_faces(model, carrying, all_numbers.topology().get(), time);
   }
 
 
@@ -45,8 +45,8 @@ namespace undine
   void
   PressureEquations<dim>::open(Velocity<dim> &velocity)
   {
-    hold_back_entering_flow(velocity, openings, model, dt);
-    const HeldBackMatrix held_back(L, model, all_numbers, openings);
+    stabilise_backflow(velocity, openings, model, dt);
+    const BackflowMatrix held_back(L, model, all_numbers, openings);
     hL.copy_from(L);
     for (const auto &[row, value] : held_back.subtracted())
       {
@@ -56,7 +56,7 @@ namespace undine
     hL.compress(dealii::VectorOperation::add);
     hL *= dt;
 
-    Field<dim> no_pressure(model.grid().cells(), all_numbers.open_parts());
+    Field<dim> no_pressure(model.grid().cells(), all_numbers.topology());
     no_pressure.exchange(1);
     add(velocity, dt, pressure_acceleration(model, no_pressure, openings));
     closed_openings = openings;
@@ -69,7 +69,7 @@ namespace undine
 
   template <int dim>
   double
-  PressureEquations<dim>::update_entering_flow(const Velocity<dim> &velocity)
+  PressureEquations<dim>::update_backflow(const Velocity<dim> &velocity)
   {
     const double change = update_entering_speeds(openings, velocity, model, dt);
     const double speed  = largest_components(model, velocity).norm();
@@ -81,7 +81,7 @@ namespace undine
   typename PressureEquations<dim>::Vector
   PressureEquations<dim>::from_components(const std::vector<double> &values) const
   {
-    Field<dim> of_cells(model.grid().cells(), all_numbers.open_parts());
+    Field<dim> of_cells(model.grid().cells(), all_numbers.topology());
     std::copy(values.begin(), values.end(), of_cells.parts().begin());
     Vector result(flux);
     copy_to_vector(result, of_cells);
@@ -93,7 +93,7 @@ namespace undine
   Field<dim>
   PressureEquations<dim>::field(const Vector &pressure) const
   {
-    Field<dim> result(model.grid().cells(), all_numbers.open_parts());
+    Field<dim> result(model.grid().cells(), all_numbers.topology());
     copy_from_vector(result, pressure);
     return result;
   }
@@ -115,7 +115,7 @@ namespace undine
   PressureEquations<dim>::divergence(const Velocity<dim>       &velocity,
                                      const std::vector<double> &body_fluxes) const
   {
-    Field<dim> pushed(model.grid().cells(), all_numbers.open_parts());
+    Field<dim> pushed(model.grid().cells(), all_numbers.topology());
     std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
     auto fluxes = undine::divergence(model, velocity);
     add(fluxes, 1., pushed);

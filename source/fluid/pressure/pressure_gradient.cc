@@ -11,19 +11,19 @@ namespace undine
   namespace
   {
     template <int dim>
-    using Kind = typename LatticeParts<dim>::Kind;
+    using Kind = typename SubLattice<dim>::Kind;
   } // namespace
 
 
   template <int dim>
   std::vector<OpenFace<dim>>
-  open_faces(const FluidModel<dim> &model,
-             const Velocity<dim>   &velocity,
-             const OpenParts<dim>  *open_parts,
-             const double           time)
+  open_faces(const FluidModel<dim>    &model,
+             const Velocity<dim>      &velocity,
+             const FluidTopology<dim> *topology,
+             const double              time)
   {
     std::vector<OpenFace<dim>> result;
-    for_each_side_face(model.grid(), open_parts, [&](const SideFace<dim> &at, const auto &place) {
+    for_each_side_face(model.grid(), topology, [&](const SideFace<dim> &at, const auto &place) {
       const auto &boundary = model.boundaries().at(at.side, at.face);
       if (!boundary.is_open())
         return;
@@ -44,7 +44,7 @@ namespace undine
                         const std::vector<OpenFace<dim>> &openings)
   {
     const auto   &grid = model.grid();
-    const auto   &open = pressure.open_parts();
+    const auto   &open = pressure.topology();
     Velocity<dim> acceleration;
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
@@ -103,12 +103,12 @@ namespace undine
   }
 
 
-#define INSTANTIATE(dim)                                                                   \
-  template std::vector<OpenFace<dim>> open_faces(                                          \
-    const FluidModel<dim> &, const Velocity<dim> &, const OpenParts<dim> *, const double); \
-  template Velocity<dim> pressure_acceleration(                                            \
-    const FluidModel<dim> &, const Field<dim> &, const std::vector<OpenFace<dim>> &);      \
-  template double pressure_coupling(                                                       \
+#define INSTANTIATE(dim)                                                                       \
+  template std::vector<OpenFace<dim>> open_faces(                                              \
+    const FluidModel<dim> &, const Velocity<dim> &, const FluidTopology<dim> *, const double); \
+  template Velocity<dim> pressure_acceleration(                                                \
+    const FluidModel<dim> &, const Field<dim> &, const std::vector<OpenFace<dim>> &);          \
+  template double pressure_coupling(                                                           \
     const FluidModel<dim> &, const unsigned int, const GridIndex<dim> &);
 
   INSTANTIATE(2)

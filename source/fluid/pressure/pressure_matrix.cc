@@ -42,9 +42,9 @@ namespace undine
                             const PressureNumbers<dim> &numbers,
                             Action                    &&action)
     {
-      using Kind          = typename LatticeParts<dim>::Kind;
+      using Kind          = typename SubLattice<dim>::Kind;
       const auto    &grid = model.grid();
-      const auto    *open = numbers.open_parts().get();
+      const auto    *open = numbers.topology().get();
       MatrixRow<dim> row;
       for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
         if (open && open->cells.kind(cell) != Kind::whole)
@@ -76,7 +76,7 @@ namespace undine
                              const PressureNumbers<dim> &numbers,
                              Action                    &&action)
     {
-      const auto    &open = *numbers.open_parts();
+      const auto    &open = *numbers.topology();
       const auto    &grid = model.grid();
       MatrixRow<dim> row;
       for (unsigned int axis = 0; axis < dim; ++axis)
@@ -93,7 +93,7 @@ namespace undine
               {
                 // Across periodic sides a rank may know a piece twice, but owns each end once.
                 const auto place = end_of_piece(open, axis, k, end);
-                if (piece.components[end] == OpenParts<dim>::outside ||
+                if (piece.components[end] == FluidTopology<dim>::outside ||
                     !grid.cells()->owned().contains(place.cell))
                   continue;
                 row.restart(numbers.of(place));
@@ -113,12 +113,12 @@ namespace undine
                    Action                    &&action)
     {
       for_each_entry_of_faces(model, numbers, action);
-      if (numbers.open_parts())
+      if (numbers.topology())
         {
           // Components without pieces have a row, too.
           MatrixRow<dim> row;
-          for (std::size_t c = 0; c < numbers.open_parts()->cells.all().size(); ++c)
-            if (numbers.open_parts()->cells.owns(c))
+          for (std::size_t c = 0; c < numbers.topology()->cells.all().size(); ++c)
+            if (numbers.topology()->cells.owns(c))
               {
                 row.restart(numbers.of_component(c));
                 action(row);

@@ -3,8 +3,8 @@
 #include <undine/fluid/boundary/boundary_condition.h>
 #include <undine/fluid/grid/field_algebra.h>
 #include <undine/fluid/model/fluid_quantities.h>
+#include <undine/fluid/pressure/backflow_stabilisation.h>
 #include <undine/fluid/pressure/divergence.h>
-#include <undine/fluid/pressure/entering_flow.h>
 #include <undine/fluid/pressure/pressure_gradient.h>
 #include <undine/fluid/pressure/pressure_matrix.h>
 #include <undine/fluid/pressure/projection.h>
@@ -55,12 +55,12 @@ namespace undine
 
   template <int dim>
   void
-  Projection<dim>::prepare(const std::shared_ptr<const OpenParts<dim>> &open_parts)
+  Projection<dim>::prepare(const std::shared_ptr<const FluidTopology<dim>> &topology)
   {
-    if (numbers && numbers->open_parts() == open_parts)
+    if (numbers && numbers->topology() == topology)
       return;
     numbers.reset(); // until all is there
-    auto new_numbers = std::make_unique<const PressureNumbers<dim>>(model.grid(), open_parts);
+    auto new_numbers = std::make_unique<const PressureNumbers<dim>>(model.grid(), topology);
     closed_regions   = std::make_unique<const ClosedRegions<dim>>(model, *new_numbers);
     multigrid.reset();
     matrix.reset();
@@ -82,7 +82,7 @@ namespace undine
   unsigned int
   Projection<dim>::solve(Vector               &impulse,
                          const Vector         &right_side,
-                         const HeldBackMatrix &held_back,
+                         const BackflowMatrix &held_back,
                          const double          tolerance) const
   {
     dealii::SolverControl    control(model.pressure_solver().maximum_iterations, tolerance);
@@ -113,14 +113,14 @@ namespace undine
                                      std::vector<OpenFace<dim>> &openings,
                                      const std::vector<double>  &body_fluxes)
   {
-    Field<dim> pushed(model.grid().cells(), velocity[0].open_parts());
+    Field<dim> pushed(model.grid().cells(), velocity[0].topology());
     std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
     const double         tolerance   = model.pressure_solver().divergence_tolerance;
     const double         body_speed  = largest_divergence(model, pushed);
     const double         first_speed = largest_components(model, velocity).norm() + body_speed;
     Field<dim>           increment   = impulse;
     Report               report;
-    const HeldBackMatrix held_back(*matrix, model, *numbers, openings);
+    const BackflowMatrix held_back(*matrix, model, *numbers, openings);
 
     for (unsigned int round = 0; round < 8; ++round)
       {
@@ -178,7 +178,7 @@ namespace undine
       {
         if (round > 0)
           velocity = before;
-        hold_back_entering_flow(velocity, openings, model, dt);
+        stabilise_backflow(velocity, openings, model, dt);
         auto impulses = openings;
         for (auto &open : impulses)
           open.pressure *= dt;
@@ -205,25 +205,21 @@ namespace undine
 
   template <int dim>
   typename Projection<dim>::Report
-  Projection<dim>::project(FluidState<dim>     &state,
-                           const Velocity<dim> &carrying,
-                           const double         time,
-                           const double         dt,
-                           const PushedVolume  &pushed)
+  Projection<dim>::project(FluidState<dim>       &state,
+                           const Velocity<dim>   &carrying,
+                           const double           time,
+                           const double           dt,
+                           const SweptVolumeFlux &pushed)
   {
-    const auto &open_parts = state.pressure.open_parts();
-    prepare(open_parts);
+    const auto &topology = state.pressure.topology();
+    prepare(topology);
     set_boundary_velocity(state.velocity, model.boundaries(), time);
     const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
-    Field<dim> impulse(model.grid().cells(), open_parts);
+    Field<dim> impulse(model.grid().cells(), topology);
     add(impulse, dt, state.pressure);
-    const auto report =
-      remove_divergence_with_openings(state.velocity,
-                                      impulse,
-                                      open_faces(model, carrying, open_parts.get(), time),
-                                      dt,
-                                      body_fluxes);
-    state.pressure = Field<dim>(model.grid().cells(), open_parts);
+    const auto report = remove_divergence_with_openings(
+      state.velocity, impulse, open_faces(model, carrying, topology.get(), time), dt, body_fluxes);
+    state.pressure = Field<dim>(model.grid().cells(), topology);
     add(state.pressure, 1 / dt, impulse);
     closed_regions->remove_means(state.pressure);
     set_means(state.pressure, model.grid());
@@ -233,20 +229,20 @@ namespace undine
 
   template <int dim>
   typename Projection<dim>::Report
-  Projection<dim>::make_divergence_free(FluidState<dim>    &state,
-                                        const double        time,
-                                        const PushedVolume &pushed)
+  Projection<dim>::make_divergence_free(FluidState<dim>       &state,
+                                        const double           time,
+                                        const SweptVolumeFlux &pushed)
   {
-    const auto open_parts = state.velocity[0].open_parts();
-    prepare(open_parts);
+    const auto topology = state.velocity[0].topology();
+    prepare(topology);
     set_boundary_velocity(state.velocity, model.boundaries(), time);
     const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
-    auto       openings    = open_faces(model, state.velocity, open_parts.get(), time);
+    auto       openings    = open_faces(model, state.velocity, topology.get(), time);
     for (auto &open : openings)
       open.pressure = 0;
-    Field<dim> impulse(model.grid().cells(), open_parts);
+    Field<dim> impulse(model.grid().cells(), topology);
     const auto report = remove_divergence(state.velocity, impulse, openings, body_fluxes);
-    state.pressure    = Field<dim>(model.grid().cells(), open_parts);
+    state.pressure    = Field<dim>(model.grid().cells(), topology);
     return report;
   }
 

@@ -51,11 +51,11 @@ namespace undine
 
 
   template <int dim>
-  BodyVicinity<dim>::BodyVicinity(const MacGrid<dim>                          &grid_,
-                                  const std::shared_ptr<const OpenParts<dim>> &before,
-                                  const std::shared_ptr<const OpenParts<dim>> &now,
-                                  const Obstruction<dim>                      *obstruction,
-                                  const GridIndex<dim>                        &width)
+  BodyVicinity<dim>::BodyVicinity(const MacGrid<dim>                              &grid_,
+                                  const std::shared_ptr<const FluidTopology<dim>> &before,
+                                  const std::shared_ptr<const FluidTopology<dim>> &now,
+                                  const Obstruction<dim>                          *obstruction,
+                                  const GridIndex<dim>                            &width)
   {
     if (!before && !now)
       return;
@@ -64,12 +64,12 @@ namespace undine
       planes[d] = &grid->faces(d)->row(d);
     surfaces        = obstruction;
     const auto kind = [](const auto &open, const GridIndex<dim> &cell) {
-      return open ? open->cells.kind(cell) : LatticeParts<dim>::Kind::whole;
+      return open ? open->cells.kind(cell) : SubLattice<dim>::Kind::whole;
     };
     Field<dim> marks(grid->cells());
     for_each(marks.owned(), [&](const GridIndex<dim> &cell) {
-      marks(cell) = kind(before, cell) != LatticeParts<dim>::Kind::whole ||
-                    kind(now, cell) != LatticeParts<dim>::Kind::whole;
+      marks(cell) = kind(before, cell) != SubLattice<dim>::Kind::whole ||
+                    kind(now, cell) != SubLattice<dim>::Kind::whole;
     });
     auto wider = width;
     for (int &n_layers : wider.values)
@@ -81,7 +81,7 @@ namespace undine
       layers[box.position(cell)] = marks(cell) > 0 ? 0 : margin + 1;
     });
     if (surfaces != nullptr)
-      mark_swept_cells();
+      mark_freshly_cleared_cells();
     measure_layers();
     touched = CellCounts<dim>(
       box, [&](const GridIndex<dim> &cell) { return layers[box.position(cell)] == 0; });
@@ -97,7 +97,7 @@ namespace undine
 
   template <int dim>
   void
-  BodyVicinity<dim>::mark_swept_cells()
+  BodyVicinity<dim>::mark_freshly_cleared_cells()
   {
     const auto mark = [&](GridIndex<dim> cell) {
       for (unsigned int d = 0; d < dim; ++d)
@@ -106,9 +106,9 @@ namespace undine
       if (box.contains(cell))
         layers[box.position(cell)] = 0;
     };
-    surfaces->for_each_swept(*grid->cells(), box, mark);
+    surfaces->for_each_freshly_cleared(*grid->cells(), box, mark);
     for (unsigned int axis = 0; axis < dim; ++axis)
-      surfaces->for_each_swept(*grid->faces(axis), box, [&](const GridIndex<dim> &face) {
+      surfaces->for_each_freshly_cleared(*grid->faces(axis), box, [&](const GridIndex<dim> &face) {
         mark(face);
         mark(moved(face, axis, -1));
       });

@@ -118,16 +118,16 @@ namespace undine
       {
         const auto  &row   = grid->faces(d)->row(d);
         const double lower = row.position(cell[d]), upper = row.position(cell[d] + 1);
-        const double rim = tolerance * (upper - lower), way = to[d] - from[d];
+        const double rim = tolerance * (upper - lower), path = to[d] - from[d];
         const double to_lower = lower - rim - from[d], to_upper = upper + rim - from[d];
-        if (way == 0)
+        if (path == 0)
           {
             if (to_lower > 0 || to_upper < 0)
               return false;
             continue;
           }
-        enter = std::max(enter, std::min(to_lower / way, to_upper / way));
-        leave = std::min(leave, std::max(to_lower / way, to_upper / way));
+        enter = std::max(enter, std::min(to_lower / path, to_upper / path));
+        leave = std::min(leave, std::max(to_lower / path, to_upper / path));
       }
     return enter <= leave;
   }

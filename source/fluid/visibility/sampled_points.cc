@@ -41,7 +41,7 @@ namespace undine
                                     const Obstruction<dim>  &obstruction,
                                     const BodyVicinity<dim> &vicinity)
     : lattice(like.shared_lattice())
-    , open(like.open_parts())
+    , open(like.topology())
     , stored(like.stored())
     , kinds(stored.size(), Kind::value)
   {
@@ -57,7 +57,7 @@ namespace undine
   void
   SampledPoints<dim>::find_kinds(const GridIndex<dim> &width, const Obstruction<dim> &obstruction)
   {
-    using Left = typename LatticeParts<dim>::Kind;
+    using Left = typename SubLattice<dim>::Kind;
     if (open)
       {
         const auto &divided = open->of(*lattice);
@@ -73,7 +73,7 @@ namespace undine
                                                                  : Kind::parts;
         });
       }
-    obstruction.for_each_swept(*lattice, stored, [&](const GridIndex<dim> &index) {
+    obstruction.for_each_freshly_cleared(*lattice, stored, [&](const GridIndex<dim> &index) {
       auto &kind = kinds[stored.position(index)];
       if (kind == Kind::value)
         kind = Kind::nothing;
@@ -126,7 +126,7 @@ namespace undine
           for (unsigned int d = 0; d < dim; ++d)
             place[d] = named[1 + d];
           const Sample sample{vicinity.place(place), next++, named[dim + 1]};
-          if (obstruction.swept(place))
+          if (obstruction.is_freshly_cleared(place))
             continue;
           const auto inserted = number.emplace(static_cast<std::size_t>(named[0]), lists.size());
           if (inserted.second)

@@ -19,13 +19,13 @@ namespace undine
 
 
   template <int dim>
-  VisibleSamples<dim>::VisibleSamples(const Field<dim>                      &field_,
-                                      const std::shared_ptr<CubeViews<dim>> &views_,
-                                      const BodyVicinity<dim>               &vicinity_)
+  VisibleSamples<dim>::VisibleSamples(const Field<dim>                               &field_,
+                                      const std::shared_ptr<VisibilityStencils<dim>> &views_,
+                                      const BodyVicinity<dim>                        &vicinity_)
     : field(field_)
     , vicinity(vicinity_)
-    , views(views_)
-    , points(views->points())
+    , stencils(views_)
+    , points(stencils->points())
     , values(points.values(field))
   {
   }
@@ -33,14 +33,14 @@ namespace undine
 
   template <int dim>
   std::optional<double>
-  VisibleSamples<dim>::value_of(const GridIndex<dim> &index, const Eye &eye) const
+  VisibleSamples<dim>::value_of(const GridIndex<dim> &index, const QueryPoint &query) const
   {
-    const bool only_nearest = eye.own != nullptr && points.inside(index) == *eye.own;
+    const bool only_nearest = query.own != nullptr && points.inside(index) == *query.own;
     double     sum = 0, total = 0, nearest = std::numeric_limits<double>::infinity();
     points.for_each_sample(index, [&](const auto &sample) {
-      if (vicinity.is_hidden(eye.place, sample.place))
+      if (vicinity.is_hidden(query.place, sample.place))
         return;
-      const double distance = only_nearest ? sample.place.point.distance(eye.place.point) : 0;
+      const double distance = only_nearest ? sample.place.point.distance(query.place.point) : 0;
       if (only_nearest && distance >= nearest)
         return;
       if (only_nearest)
@@ -67,16 +67,16 @@ namespace undine
                              const dealii::Point<dim> &place,
                              const Place              &foot) const
   {
-    const auto &lattice = field.lattice();
-    const auto  point   = lattice.point(index);
-    const Eye   eye{foot, place == point ? nullptr : &index};
+    const auto      &lattice = field.lattice();
+    const auto       point   = lattice.point(index);
+    const QueryPoint query{foot, place == point ? nullptr : &index};
     if (foot.point == place)
-      if (const auto own = value_of(index, eye))
+      if (const auto own = value_of(index, query))
         return own;
     // A trace of the way to the centroid says on which side of the point the fluid is.
     const dealii::Point<dim> start = point + (foot.point - place) + side_share * (place - point);
     if (!is_clear_for_cubics(start, foot))
-      return multilinear(start, eye);
+      return multilinear(start, query);
     const bool is_scalar = lattice.normal_axis() >= dim;
     return interpolate_cubic(field, start, is_scalar);
   }
@@ -84,9 +84,10 @@ namespace undine
 
   template <int dim>
   bool
-  VisibleSamples<dim>::is_clear_for_cubics(const dealii::Point<dim> &start, const Place &eye) const
+  VisibleSamples<dim>::is_clear_for_cubics(const dealii::Point<dim> &start,
+                                           const Place              &query) const
   {
-    if (vicinity.is_next_to_body(eye))
+    if (vicinity.is_next_to_body(query))
       return false;
     GridIndex<dim> lower, upper;
     for (unsigned int d = 0; d < dim; ++d)
@@ -98,14 +99,14 @@ namespace undine
     const auto below = points.located(lower), above = points.located(upper);
     bool       result = vicinity.is_clear(below.cell, above.cell);
     for (unsigned int d = 0; d < dim; ++d)
-      result = result && eye.point[d] >= below.point[d] && eye.point[d] <= above.point[d];
+      result = result && query.point[d] >= below.point[d] && query.point[d] <= above.point[d];
     return result;
   }
 
 
   template <int dim>
   std::optional<double>
-  VisibleSamples<dim>::multilinear(const dealii::Point<dim> &place, const Eye &eye) const
+  VisibleSamples<dim>::multilinear(const dealii::Point<dim> &place, const QueryPoint &query) const
   {
     GridIndex<dim>          lower;
     std::array<double, dim> weights;
@@ -115,7 +116,7 @@ namespace undine
         lower[d]           = bracket.lower;
         weights[d]         = bracket.weight;
       }
-    if (views->is_clear(lower, eye.place.point))
+    if (stencils->is_clear(lower, query.place.point))
       return interpolate(field, place);
     std::array<double, 1 << dim> weight{{1}}; // of corners
     unsigned int                 weighted = 1;
@@ -130,7 +131,7 @@ namespace undine
       }
     double     sum = 0, total = 0, plain_sum = 0, plain_total = 0;
     const auto add = [&](const unsigned int corners) {
-      const auto seen = seen_values(lower, eye, corners);
+      const auto seen = seen_values(lower, query, corners);
       for (unsigned int corner = 0; corner < (1u << dim); ++corner)
         {
           // No branches: nobody can tell beforehand what is seen. Values of others are zero.
@@ -152,14 +153,15 @@ namespace undine
 
 
   template <int dim>
-  typename CubeViews<dim>::View
+  typename VisibilityStencils<dim>::VisibilityStencil
   VisibleSamples<dim>::seen_values(const GridIndex<dim> &lower,
-                                   const Eye            &eye,
+                                   const QueryPoint     &query,
                                    const unsigned int    corners) const
   {
-    if (const auto view = views->view(values, lower, eye.place.point, corners, eye.own))
-      return *view;
-    typename CubeViews<dim>::View result{{}, 0};
+    if (const auto stencil =
+          stencils->stencil(values, lower, query.place.point, corners, query.own))
+      return *stencil;
+    typename VisibilityStencils<dim>::VisibilityStencil result{{}, 0};
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {
         if (!(corners >> corner & 1))
@@ -167,7 +169,7 @@ namespace undine
         auto index = lower;
         for (unsigned int d = 0; d < dim; ++d)
           index[d] += (corner >> d) & 1;
-        if (const auto value = value_of(index, eye))
+        if (const auto value = value_of(index, query))
           {
             result.values[corner] = *value;
             result.corners |= 1u << corner;

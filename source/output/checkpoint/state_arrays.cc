@@ -96,7 +96,7 @@ namespace undine
     /// those of the parts that a rank owns.
     template <int dim>
     CanonicalVector
-    canonical_parts(const Lattice<dim> &lattice, const LatticeParts<dim> &divided)
+    canonical_parts(const Lattice<dim> &lattice, const SubLattice<dim> &divided)
     {
       const IndexBox<dim> whole{{}, lattice.shape()};
       std::vector<Index>  mine, all; // of each part the position of its point
@@ -136,7 +136,7 @@ namespace undine
       }
 
     private:
-      std::map<const LatticeParts<dim> *, std::unique_ptr<CanonicalVector>> vectors;
+      std::map<const SubLattice<dim> *, std::unique_ptr<CanonicalVector>> vectors;
     };
 
 
@@ -272,9 +272,9 @@ namespace undine
     unpack_replicated(state.surface_positions, arrays[0]);
     if (arrays.size() > 1)
       unpack_replicated(state.other_forces, arrays[1]);
-    const auto open_parts = geometry_of(models, state)->cut_parts().open;
+    const auto topology = geometry_of(models, state)->cut_topology().open;
     for_each_field<dim>(state.fluid, [&](const std::string &, Field<dim> &field) {
-      field = Field<dim>(field.shared_lattice(), open_parts);
+      field = Field<dim>(field.shared_lattice(), topology);
     });
   }
 

@@ -109,7 +109,7 @@ namespace undine
       bool
       in_bodies(const GridIndex<dim> &corner) const
       {
-        using Kind          = typename LatticeParts<dim>::Kind;
+        using Kind          = typename SubLattice<dim>::Kind;
         const auto *divided = sampler.divided_cells();
         bool        result  = divided != nullptr;
         for (unsigned int v = 0; result && v <= last_vertex<dim>; ++v)
@@ -175,12 +175,12 @@ namespace undine
     /// True if the fluid fills all cells of the box.
     template <int dim>
     bool
-    is_whole(const IndexBox<dim> &cells, const LatticeParts<dim> *divided)
+    is_whole(const IndexBox<dim> &cells, const SubLattice<dim> *divided)
     {
       bool result = true;
       if (divided)
         for_each(cells, [&](const GridIndex<dim> &cell) {
-          result = result && divided->kind(cell) == LatticeParts<dim>::Kind::whole;
+          result = result && divided->kind(cell) == SubLattice<dim>::Kind::whole;
         });
       return result;
     }
@@ -190,9 +190,7 @@ namespace undine
     /// there are bodies.
     template <int dim, class Action>
     void
-    for_each_cube(const IndexBox<dim>     &cells,
-                  const LatticeParts<dim> *divided,
-                  const Action            &action)
+    for_each_cube(const IndexBox<dim> &cells, const SubLattice<dim> *divided, const Action &action)
     {
       IndexBox<dim> blocks; // of cells_of_patch cells a direction, the last ones perhaps cut
       for (unsigned int axis = 0; axis < dim; ++axis)
@@ -218,7 +216,7 @@ namespace undine
     template <int dim>
     std::vector<dealii::DataOutBase::Patch<dim>>
     divided_patches(const CornerValues<dim> &values,
-                    const LatticeParts<dim> &divided,
+                    const SubLattice<dim>   &divided,
                     const GridIndex<dim>    &cell,
                     const double             volume)
     {

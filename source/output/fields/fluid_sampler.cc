@@ -117,10 +117,10 @@ namespace undine
     : model(*models.fluid)
     , surfaces(surfaces_of(models, state))
   {
-    const auto &open_parts = state.fluid.pressure.open_parts();
+    const auto &topology = state.fluid.pressure.topology();
     if (surfaces)
       vicinity = BodyVicinity<dim>(
-        model.grid(), open_parts, open_parts, surfaces.get(), all_directions<dim>(layers));
+        model.grid(), topology, topology, surfaces.get(), all_directions<dim>(layers));
     auto velocity = state.fluid.velocity;
     for (auto &component : velocity.components)
       component.exchange(layers);
@@ -153,7 +153,7 @@ namespace undine
     if (surfaces)
       sampled.visible = std::make_unique<VisibleSamples<dim>>(
         sampled.field,
-        std::make_shared<CubeViews<dim>>(
+        std::make_shared<VisibilityStencils<dim>>(
           sampled.field, all_directions<dim>(layers), *surfaces, vicinity),
         vicinity);
   }
@@ -229,7 +229,7 @@ namespace undine
 
 
   template <int dim>
-  const LatticeParts<dim> *
+  const SubLattice<dim> *
   FluidSampler<dim>::divided_cells() const
   {
     return surfaces ? pressure_field.field.divided() : nullptr;

@@ -118,7 +118,7 @@ namespace undine
     const auto &cells      = geometry->cut_cells();
     const auto &surface    = models.surface->surface();
     const auto  velocities = surface_velocities(models, state);
-    const auto  pressures  = geometry->cut_parts().of_cut_cells(state.fluid.pressure.parts());
+    const auto  pressures  = geometry->cut_topology().of_cut_cells(state.fluid.pressure.parts());
     for (int cell = 0; cell < static_cast<int>(cells.cells.size()); ++cell)
       if (cells.block.owned().contains(cells.cells[cell].index))
         for (int f = cells.cells[cell].first_fragment; f < cells.end_fragment(cell); ++f)

@@ -31,9 +31,9 @@ namespace undine
     double
     internal_work(const SolidModel<dim>                  &model,
                   const typename SolidModel<dim>::Vector &displacement,
-                  const typename SolidModel<dim>::Vector &way)
+                  const typename SolidModel<dim>::Vector &displacement_increment)
     {
-      return internal_forces(model, displacement) * way;
+      return internal_forces(model, displacement) * displacement_increment;
     }
   } // namespace
 
@@ -42,8 +42,8 @@ namespace undine
   SolidBalance<dim>
   SolidEquations<dim>::balance(const Vector &velocity, const Vector &reactions) const
   {
-    const Vector end = displacement(velocity);
-    const Vector way = increment(velocity);
+    const Vector end                    = displacement(velocity);
+    const Vector displacement_increment = increment(velocity);
 
     SolidBalance<dim> result;
     Vector            damping = model.vector();
@@ -53,11 +53,11 @@ namespace undine
       for (const auto &[effect, force] :
            effect_loads(model, environment, time + stage.position * dt))
         result.loads_by_effect[effect] +=
-          stage.weight / coefficients.sum_of_weights() * (force * way);
+          stage.weight / coefficients.sum_of_weights() * (force * displacement_increment);
     Vector loads = dead;
     if (nodal_forces.size() > 0)
       {
-        result.nodal = nodal_forces * way;
+        result.nodal = nodal_forces * displacement_increment;
         loads.add(-1., nodal_forces);
       }
     if (has_pressure)
@@ -68,21 +68,21 @@ namespace undine
     // Those against given forces act un-averaged, as these do.
     const double weight   = coefficients.sum_of_weights();
     const Vector averaged = weighted(reactions);
-    result.supports       = reactions * way;
+    result.supports       = reactions * displacement_increment;
     result.supports_force = sum(model, reactions);
-    balance_inertia(result, velocity, way);
-    balance_elasticity(result, end, way);
-    balance_contact(result, end, way);
+    balance_inertia(result, velocity, displacement_increment);
+    balance_elasticity(result, end, displacement_increment);
+    balance_contact(result, end, displacement_increment);
 
-    result.damping       = damping * way / weight;
-    result.loads         = loads * way / weight;
+    result.damping       = damping * displacement_increment / weight;
+    result.loads         = loads * displacement_increment / weight;
     result.damping_force = -sum(model, damping) / weight;
     result.loads_force   = sum(model, loads) / weight;
     Vector rest          = reactions;
     rest.add(-1., averaged);
     rest.add(1 / weight - 1, loads);
     rest.add(1 - 1 / weight, damping);
-    result.inertia_loss += rest * way;
+    result.inertia_loss += rest * displacement_increment;
     result.inertia_gap += dt * sum(model, rest);
     return result;
   }
@@ -92,7 +92,7 @@ namespace undine
   void
   SolidEquations<dim>::balance_inertia(SolidBalance<dim> &result,
                                        const Vector      &velocity,
-                                       const Vector      &way) const
+                                       const Vector      &displacement_increment) const
   {
     if (coefficients.mass == 0)
       return;
@@ -103,7 +103,7 @@ namespace undine
     mass.vmult(gain, change);
     result.kinetic = gain * mean;
     // force.way - gain.mean without the difference of nearly equal numbers.
-    Vector further = way, more = force;
+    Vector further = displacement_increment, more = force;
     further.add(-dt, mean);
     more.add(-1 / dt, gain);
     result.inertia_loss = force * further + dt * (more * mean);
@@ -116,25 +116,27 @@ namespace undine
   void
   SolidEquations<dim>::balance_elasticity(SolidBalance<dim> &result,
                                           const Vector      &end,
-                                          const Vector      &way) const
+                                          const Vector      &displacement_increment) const
   {
     result.elastic = elastic_energy(model, end) - elastic_energy(model, old_state.displacement);
     for (const auto &stage : coefficients.stages)
       result.elastic_loss +=
-        stage.weight * internal_work(model, stage_displacement(end, stage.position), way);
+        stage.weight *
+        internal_work(model, stage_displacement(end, stage.position), displacement_increment);
     try
       {
         // Finer only where the way is so long that the rule does not resolve it.
-        const double resolved =
-          std::max(1e-12 * elastic_energy(model, end), own_rounding * way.l2_norm());
-        double along_way = 0;
+        const double resolved  = std::max(1e-12 * elastic_energy(model, end),
+                                         own_rounding * displacement_increment.l2_norm());
+        double       along_way = 0;
         for (unsigned int parts = 1; parts <= 16; parts *= 4)
           {
             const dealii::QIterated<1> rule(dealii::QGauss<1>(6), parts);
             along_way = 0;
             for (unsigned int q = 0; q < rule.size(); ++q)
-              along_way += rule.weight(q) *
-                           internal_work(model, stage_displacement(end, rule.point(q)[0]), way);
+              along_way += rule.weight(q) * internal_work(model,
+                                                          stage_displacement(end, rule.point(q)[0]),
+                                                          displacement_increment);
             if (std::abs(along_way - result.elastic) <= resolved)
               break;
           }

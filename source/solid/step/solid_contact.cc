@@ -52,12 +52,12 @@ namespace undine
     if (contact->free_part({last_place(), last_time()}, {place, time + dt}) < 1)
       throw SolveError("supports or obstacles that move as prescribed run into a body within the "
                        "step. Try: a smaller step, or another motion.");
-    Vector       way  = guess;
+    Vector       displacement_increment = guess;
     const double part = contact->free_part({place, time + dt}, {displacement(guess), time + dt});
     if (part == 1)
       return guess;
-    way.add(-1., still);
-    still.add(part, way);
+    displacement_increment.add(-1., still);
+    still.add(part, displacement_increment);
     return still;
   }
 
@@ -95,7 +95,7 @@ namespace undine
   void
   SolidEquations<dim>::balance_contact(SolidBalance<dim> &result,
                                        const Vector      &end,
-                                       const Vector      &way) const
+                                       const Vector      &displacement_increment) const
   {
     if (!contact)
       return;
@@ -106,7 +106,7 @@ namespace undine
     const Vector pushes   = contact_forces(end);
     if (pushes.size() == 0)
       return;
-    result.contact = pushes * way;
+    result.contact = pushes * displacement_increment;
     for (const auto &of_body : sums_by_body(model, pushes))
       result.contact_force += of_body;
   }

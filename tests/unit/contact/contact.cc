@@ -20,9 +20,9 @@ namespace
     // Facets of one body face facets, ridges and corners of the other; nodes face the wall.
     const Scene<dim> scene(two_boxes<dim>(.06, aside, degree), .2, -.1);
     const Vector     place = scene.field(size, 0), change = scene.field(1, 1);
-    const auto       at = [&](const double way) {
+    const auto       at = [&](const double path) {
       Vector result = place;
-      result.add(way, change);
+      result.add(path, change);
       return result;
     };
     const double step   = 1e-6;
@@ -85,11 +85,11 @@ namespace
     const ContactSurfaces<dim> surfaces(scene.settings(.2, -10), scene.model, nullptr, nullptr);
     for (const double aside : {0., 1e-9, .01, .2, .25, .5})
       {
-        dealii::Tensor<1, dim> way;
-        way[0] = distance - 1;
+        dealii::Tensor<1, dim> path;
+        path[0] = distance - 1;
         for (unsigned int axis = 1; axis < dim; ++axis)
-          way[axis] = aside;
-        const auto   places = surfaces.places(scene.shift(way), 0);
+          path[axis] = aside;
+        const auto   places = surfaces.places(scene.shift(path), 0);
         unsigned int found  = 0;
         for (const auto &term : find_contact_terms(surfaces, places, .2))
           if (const auto node = term.nodes[0]; surfaces.surface_of_node(node) == 1)
@@ -117,11 +117,11 @@ namespace
   check_ways()
   {
     const Scene<dim>       scene(two_boxes<dim>(1, .3), .1, -.5);
-    dealii::Tensor<1, dim> way;
+    dealii::Tensor<1, dim> path;
     const Vector           start = scene.model.vector();
     const auto             part  = [&](const double length) {
-      way[0] = length;
-      return scene.contact.free_part({start, 0.}, {scene.shift(way), 0.});
+      path[0] = length;
+      return scene.contact.free_part({start, 0.}, {scene.shift(path), 0.});
     };
     CHECK(part(.7) == 1);
     CHECK(part(-.9) == 1);

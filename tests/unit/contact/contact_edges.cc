@@ -104,8 +104,8 @@ TEST_CASE("edges that cross push each other and do not pass", "[contact][mpi]")
         if (scene.model.axis(dof) == 2 && scene.model.rest_position(dof)[2] > std::sqrt(2.))
           fall(dof) = -length;
       fall.compress(dealii::VectorOperation::insert);
-      const double way = scene.contact.free_part({start, 0.}, {fall, 0.}) * length;
-      CHECK(way < .8 * gap * (1 + 1e-12));
-      CHECK(way > .79 * gap);
+      const double path = scene.contact.free_part({start, 0.}, {fall, 0.}) * length;
+      CHECK(path < .8 * gap * (1 + 1e-12));
+      CHECK(path > .79 * gap);
     }
 }

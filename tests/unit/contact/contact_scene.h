@@ -75,11 +75,11 @@ namespace undine_tests
 
     /// A way of the second body, the first one stands still.
     Vector
-    shift(const dealii::Tensor<1, dim> &way) const
+    shift(const dealii::Tensor<1, dim> &path) const
     {
       Vector result = model.vector();
       for (const auto dof : model.locally_owned())
-        result(dof) = model.rest_position(dof)[0] > 1 ? way[model.axis(dof)] : 0;
+        result(dof) = model.rest_position(dof)[0] > 1 ? path[model.axis(dof)] : 0;
       result.compress(dealii::VectorOperation::insert);
       return result;
     }

@@ -88,9 +88,9 @@ namespace
       .01);
     FluidSide<2> side(run.models, run.ledger, run.timing);
     run.state.fluid.velocity =
-      run.models.fluid->initial_state(run.state.fluid.pressure.open_parts()).velocity;
+      run.models.fluid->initial_state(run.state.fluid.pressure.topology()).velocity;
     run.state.fluid.pressure =
-      Field<2>(run.models.fluid->grid().cells(), run.state.fluid.pressure.open_parts());
+      Field<2>(run.models.fluid->grid().cells(), run.state.fluid.pressure.topology());
     side.predict(run.state, single_stage(.01));
     return run.state.fluid.velocity;
   }

@@ -61,7 +61,7 @@ namespace
 
 
   double
-  way(const double time)
+  path(const double time)
   {
     return .4 * std::pow(std::sin(2 * time), 2);
   }
@@ -70,7 +70,7 @@ namespace
 
 TEST_CASE("A piston pushes out what it sweeps", "[coupled][mpi]")
 {
-  const auto lost = [](const double begin, const double end) { return way(end) - way(begin); };
+  const auto lost = [](const double begin, const double end) { return path(end) - path(begin); };
   SECTION("2D")
   {
     check_swept<2>("box",

@@ -215,9 +215,9 @@ TEMPLATE_TEST_CASE_SIG(
       check_closures(run, awake);
     }
   CHECK(woke);
-  const double way = awake.column("centre of mass b x") - .25;
-  CHECK(way > 2 * slow * rest);
-  CHECK(std::abs(run.column("centre of mass b x") - .25 - way) < 2 * slow * rest);
+  const double path = awake.column("centre of mass b x") - .25;
+  CHECK(path > 2 * slow * rest);
+  CHECK(std::abs(run.column("centre of mass b x") - .25 - path) < 2 * slow * rest);
 }
 
 

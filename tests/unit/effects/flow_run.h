@@ -67,7 +67,7 @@ namespace undine_tests
       for (const auto &effect : effects)
         effect->diffuse(fluid);
       time += dt;
-      report = projection.project(state, fluid.flow.velocity(), time, dt);
+      report = projection.project(state, fluid.tracer.velocity(), time, dt);
       fluid.finish();
     }
 

@@ -29,7 +29,7 @@ namespace
   /// Whether the same is left of the grid, but for rounding.
   template <int dim>
   bool
-  same_parts(const OpenParts<dim> &a, const OpenParts<dim> &b)
+  same_parts(const FluidTopology<dim> &a, const FluidTopology<dim> &b)
   {
     const auto same_measures = [](const auto &x, const auto &y) {
       if (x.all().size() != y.all().size())

@@ -4,7 +4,7 @@
 
 #include <undine/cutting/cut_block.h>
 #include <undine/operators/boundary_flux.h>
-#include <undine/operators/cut_parts.h>
+#include <undine/operators/cut_topology.h>
 
 #include <cutting/kinds.h>
 
@@ -27,10 +27,10 @@ namespace undine_tests
     {
       CutWorkspace<dim> work;
       cut_block(cut, work, {surface, positions}, grid.cells()->blocks());
-      parts = make_open_parts(grid, cut);
+      parts = make_fluid_topology(grid, cut);
     }
 
-    const OpenParts<dim> &
+    const FluidTopology<dim> &
     open() const
     {
       return *parts.open;
@@ -72,7 +72,7 @@ namespace undine_tests
     Surface<dim>                    surface;
     std::vector<dealii::Point<dim>> positions;
     CutCells<dim>                   cut;
-    CutParts<dim>                   parts;
+    CutTopology<dim>                parts;
   };
 
 

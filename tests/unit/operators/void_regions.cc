@@ -38,9 +38,9 @@ namespace
       const SurfaceQueries<2> queries(
         model.grid(), {&surface.surface(), positions, positions, surface.velocities({}, time, 1)});
       cut_block(cut, work, {surface.surface(), positions}, model.grid().cells()->blocks());
-      const auto all = make_open_parts(model.grid(), cut);
+      const auto all = make_fluid_topology(model.grid(), cut);
       voids          = void_regions.find(cut, all, queries, voids);
-      parts          = make_open_parts(model.grid(), cut, voids);
+      parts          = make_fluid_topology(model.grid(), cut, voids);
     }
 
     double
@@ -49,7 +49,7 @@ namespace
       double      sum   = 0;
       const auto &cells = parts.open->cells;
       for_each(model.grid().cells()->owned(), [&](const GridIndex<2> &cell) {
-        if (cells.kind(cell) == LatticeParts<2>::Kind::whole)
+        if (cells.kind(cell) == SubLattice<2>::Kind::whole)
           sum += model.grid().cell_volume(cell);
         for (int k = cells.first(cell); k < cells.last(cell); ++k)
           sum += cells.all()[k].measure;
@@ -63,8 +63,8 @@ namespace
     VoidRegions<2>     void_regions;
     CutCells<2>        cut;
     CutWorkspace<2>    work;
-    VoidParts          voids;
-    CutParts<2>        parts;
+    VoidMask           voids;
+    CutTopology<2>     parts;
   };
 
 
@@ -124,7 +124,7 @@ namespace
         std::size_t         next  = 0;
         const auto         &cells = immersed.open().cells;
         for_each(field.owned(), [&](const GridIndex<dim> &cell) {
-          if (cells.kind(cell) == LatticeParts<dim>::Kind::whole)
+          if (cells.kind(cell) == SubLattice<dim>::Kind::whole)
             volumes[regions.of_pressures()[next++]] += immersed.grid.cell_volume(cell);
         });
         for (unsigned int k = 0; k < cells.all().size(); ++k)
@@ -179,7 +179,7 @@ TEST_CASE("Behind a plate there is nothing but pressure", "[interface][mpi]")
             const auto &faces = *plates.model.grid().faces(axis);
             for_each(faces.owned(), [&](const GridIndex<2> &face) {
               if (faces.point(face)[1] > lower + thickness + .125)
-                CHECK((open.faces[axis].kind(face) == LatticeParts<2>::Kind::closed ||
+                CHECK((open.faces[axis].kind(face) == SubLattice<2>::Kind::closed ||
                        open.faces[axis].first(face) == open.faces[axis].last(face)));
             });
           }

@@ -39,7 +39,7 @@ namespace
   is_whole(const BallAndSheet<dim> &scene, const GridIndex<dim> &cell)
   {
     const auto whole = [&](const Immersed<dim> &immersed) {
-      return immersed.open().cells.kind(cell) == LatticeParts<dim>::Kind::whole;
+      return immersed.open().cells.kind(cell) == SubLattice<dim>::Kind::whole;
     };
     return whole(scene.before) && whole(scene.after);
   }
@@ -82,7 +82,7 @@ namespace
   int
   lost_points(const BallAndSheet<dim>  &scene,
               const Lattice<dim>       &lattice,
-              const LatticeParts<dim>  &parts,
+              const SubLattice<dim>    &parts,
               const dealii::Point<dim> &place)
   {
     const auto     known = known_points(lattice);
@@ -95,8 +95,9 @@ namespace
       index += 2;
     for_each(IndexBox<dim>{lower, upper}, [&](const GridIndex<dim> &index) {
       const auto point = lattice.point(index);
-      lost += scene.queries.first_hit(place, point) <= 1 || scene.queries.swept(point) ||
-              (known.contains(index) && parts.kind(index) == LatticeParts<dim>::Kind::closed);
+      lost += scene.queries.first_hit(place, point) <= 1 ||
+              scene.queries.is_freshly_cleared(point) ||
+              (known.contains(index) && parts.kind(index) == SubLattice<dim>::Kind::closed);
     });
     return lost;
   }
@@ -144,14 +145,14 @@ namespace
   {
     const auto    box = lattice.with_ghosts(scene.rank(), scene.width);
     std::set<int> found;
-    scene.queries.for_each_swept(lattice, box, [&](const GridIndex<dim> &index) {
+    scene.queries.for_each_freshly_cleared(lattice, box, [&](const GridIndex<dim> &index) {
       REQUIRE(box.contains(index));
       found.insert(box.position(index));
     });
     unsigned int wrong = 0;
     for_each(box, [&](const GridIndex<dim> &index) {
       const bool listed = found.count(box.position(index)) > 0;
-      wrong += listed != scene.queries.swept(lattice.point(index));
+      wrong += listed != scene.queries.is_freshly_cleared(lattice.point(index));
     });
     CHECK(wrong == 0);
     CHECK(dealii::Utilities::MPI::sum(found.size(), MPI_COMM_WORLD) > 4);
@@ -171,7 +172,7 @@ namespace
         const dealii::Point<dim> upper  = lower + (all_equal<dim>(.6) - dealii::Point<dim>());
         const auto               images = scene.queries.facets_near(std::make_pair(lower, upper));
         const auto               slab   = scene.queries.patch(images).slab;
-        for (int way = 0; way < 20; ++way)
+        for (int path = 0; path < 20; ++path)
           {
             dealii::Point<dim> from, to;
             for (unsigned int d = 0; d < dim; ++d)

@@ -61,11 +61,11 @@ namespace
     for (int number = 0; number < 300; ++number)
       {
         FacetNodes<dim> before, after;
-        const auto      way = random_point<dim>(random, 1);
+        const auto      path = random_point<dim>(random, 1);
         for (unsigned int k = 0; k < dim; ++k)
           {
             before[k] = random_point<dim>(random, 1);
-            after[k]  = before[k] + way;
+            after[k]  = before[k] + path;
           }
         std::array<unsigned int, dim> order;
         for (unsigned int k = 0; k < dim; ++k)
@@ -80,7 +80,7 @@ namespace
         const double along = random.between(-.3, 1.3);
         const bool   inside =
           along > 0 && along < 1 && *std::min_element(share.begin(), share.end()) > 0;
-        dealii::Point<dim> place(along * way);
+        dealii::Point<dim> place(along * path);
         for (unsigned int k = 0; k < dim; ++k)
           place += share[k] * before[k];
         CHECK(passes_over<dim>(before, after, order, place, 1e-14) == inside);

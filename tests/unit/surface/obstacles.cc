@@ -71,7 +71,7 @@ namespace
   std::pair<double, std::array<double, 2 * dim>>
   what_is_left(const Immersed<dim> &immersed)
   {
-    using Kind         = typename LatticeParts<dim>::Kind;
+    using Kind         = typename SubLattice<dim>::Kind;
     const auto &grid   = immersed.grid;
     const auto &cells  = immersed.open().cells;
     double      volume = 0;

@@ -172,30 +172,30 @@ namespace
     const auto        bodies  = ball<dim>(3, 1);
     const auto        surface = bodies.surface();
     MovedSurface<dim> moved   = at_rest(surface, bodies.nodes);
-    const auto        way     = .3 * dealii::Point<dim>::unit_vector(dim - 1);
+    const auto        path    = .3 * dealii::Point<dim>::unit_vector(dim - 1);
     for (auto &x : moved.positions)
-      x += way;
+      x += path;
     const SurfaceQueries<dim> queries(grid, moved);
     Random                    random(5);
     int                       n_swept = 0;
     for (int number = 0; number < 3000; ++number)
       {
         const auto   place  = random_point<dim>(random, 1.5);
-        const double before = place.norm(), after = (place - way).norm();
+        const double before = place.norm(), after = (place - path).norm();
         // A chord of the facets lies within 2 % of the ball's radius.
         const bool inside_before = before < .95, inside_after = after < .95;
         const bool outside_before = before > 1, outside_after = after > 1;
         if ((inside_before && outside_after) || (inside_after && outside_before))
           {
             ++n_swept;
-            CHECK(queries.swept(place));
+            CHECK(queries.is_freshly_cleared(place));
           }
         else if (inside_before && inside_after)
-          CHECK_FALSE(queries.swept(place));
+          CHECK_FALSE(queries.is_freshly_cleared(place));
         // Beyond both, and beside the way between them.
         const double along = std::clamp(place[dim - 1], 0., .3);
         if ((place - along * dealii::Point<dim>::unit_vector(dim - 1)).norm() > 1)
-          CHECK_FALSE(queries.swept(place));
+          CHECK_FALSE(queries.is_freshly_cleared(place));
       }
     CHECK(n_swept > 50);
   }
@@ -219,9 +219,9 @@ namespace
           for (const double factor : {1., 1.1, 1.25, 1.4, 1.5})
             {
               const auto &a = bodies.nodes[facet[k]], &b = bodies.nodes[facet[(k + 1) % dim]];
-              CHECK(queries.swept(dealii::Point<dim>(factor * (a + share * (b - a)))));
+              CHECK(queries.is_freshly_cleared(dealii::Point<dim>(factor * (a + share * (b - a)))));
             }
-    CHECK_FALSE(queries.swept(dealii::Point<dim>()));
+    CHECK_FALSE(queries.is_freshly_cleared(dealii::Point<dim>()));
   }
 
 
@@ -243,7 +243,7 @@ namespace
     CHECK(queries.nearest_velocity(at(-2.9))[0] == Approx(3.5).epsilon(1e-2));
     CHECK(queries.nearest_velocity(at(-.6))[0] == Approx(2.5).epsilon(1e-2));
     CHECK(queries.nearest_velocity(at(20.9))[0] == Approx(3.5).epsilon(1e-2)); // 2.9 + 18
-    CHECK_FALSE(queries.swept(at(2)));
+    CHECK_FALSE(queries.is_freshly_cleared(at(2)));
   }
 
 
@@ -324,7 +324,7 @@ TEST_CASE("Without bodies nothing is in the way", "[interface]")
   const Surface<3>        surface(0, {}, {}, {});
   const SurfaceQueries<3> queries(grid, at_rest<3>(surface, {}));
   CHECK(queries.first_hit({0, 0, 0}, {1, 1, 1}) > 1);
-  CHECK_FALSE(queries.swept({0, 0, 0}));
+  CHECK_FALSE(queries.is_freshly_cleared({0, 0, 0}));
   CHECK(queries.nearest_velocity({0, 0, 0}).norm() == 0);
 }
 
@@ -360,7 +360,7 @@ TEST_CASE("Microseconds per query at 20,000 facets", "[.][speed]")
   std::printf("first_hit %.2f us (%d hits)\n", 1e6 * seconds(start) / n, counts[0]);
   start = Clock::now();
   for (int k = 0; k < n; ++k)
-    counts[1] += queries.swept(places[k]);
+    counts[1] += queries.is_freshly_cleared(places[k]);
   std::printf("swept %.2f us (%d)\n", 1e6 * seconds(start) / n, counts[1]);
   start      = Clock::now();
   double sum = 0;

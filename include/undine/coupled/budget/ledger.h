@@ -27,7 +27,7 @@ namespace undine
     Vectors on_bodies;  ///< J p that the bodies felt [N]
     Vectors at_rest;    ///< what the fluid did to bodies besides: weight, void regions [N]
     Vectors friction;   ///< what friction did to surfaces [N]; empty without
-    Vectors way;        ///< d^{n+1} - d^n of bodies [m]
+    Vectors increment;  ///< d^{n+1} - d^n of bodies [m]
   };
 
 

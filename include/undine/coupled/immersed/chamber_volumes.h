@@ -45,9 +45,9 @@ namespace undine
     }
 
     /// (C3) for surfaces that have come along `way` [m] since t^n, given `fluxes` B u of all
-    /// components [OpenParts::cells]. Collective.
+    /// components [FluidTopology::cells]. Collective.
     std::vector<double>
-    missing_fluxes(const std::vector<double> &fluxes, const Vectors &way) const;
+    missing_fluxes(const std::vector<double> &fluxes, const Vectors &increment) const;
 
   private:
     /// S from t^n to where the grid is cut. Cuts it where the surfaces were at t^n, too.
@@ -56,7 +56,7 @@ namespace undine
 
     /// Swept out of each chamber along straight ways from a place [m^dim].
     std::vector<double>
-    swept(const Positions &from, const Vectors &way) const;
+    swept(const Positions &from, const Vectors &increment) const;
 
     const Surface<dim>       &surface;
     const FluidGeometry<dim> &geometry;

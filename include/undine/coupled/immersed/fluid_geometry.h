@@ -8,9 +8,9 @@
 #include <undine/coupled/state/state.h>
 #include <undine/cutting/cut_block.h>
 #include <undine/cutting/cut_report.h>
-#include <undine/fluid/advection/flow.h>
+#include <undine/fluid/advection/characteristic_tracer.h>
 #include <undine/operators/boundary_flux.h>
-#include <undine/operators/cut_parts.h>
+#include <undine/operators/cut_topology.h>
 #include <undine/operators/void_regions.h>
 #include <undine/surface/immersed_surface.h>
 #include <undine/surface/surface_queries.h>
@@ -38,7 +38,7 @@ namespace undine
     void
     place(const Positions &before, const Positions &now, const Velocities &velocities);
 
-    typename Flow<dim>::Bodies
+    typename CharacteristicTracer<dim>::Bodies
     bodies() const;
 
     /// Are the surfaces where they were when the fields of the fluid were computed?
@@ -70,8 +70,8 @@ namespace undine
     }
 
     /// What they leave to the fluid.
-    const CutParts<dim> &
-    cut_parts() const
+    const CutTopology<dim> &
+    cut_topology() const
     {
       return parts;
     }
@@ -85,16 +85,16 @@ namespace undine
 
     /// What the surfaces push out of each component of the fluid in a step of dt [s]; moving with
     /// the velocities given, or as place() was told. @{
-    PushedVolume
-    pushed(const Velocities &velocities, double dt) const;
-    PushedVolume
-    pushed(double dt) const;
+    SweptVolumeFlux
+    swept_volume_flux(const Velocities &velocities, double dt) const;
+    SweptVolumeFlux
+    swept_volume_flux(double dt) const;
     /// @}
 
     /// The same at the start of a run, when nothing has pushed yet: bodies that close a chamber are
     /// taken to yield at once to what flows in.
-    PushedVolume
-    pushed_at_start(double dt) const;
+    SweptVolumeFlux
+    initial_swept_volume_flux(double dt) const;
 
     /// In all nodes the forces of the fluid's reduced pressure, J p = B^T p [N]. Collective.
     Velocities
@@ -126,7 +126,7 @@ namespace undine
 
   private:
     void
-    cut(const VoidParts &last_voids);
+    cut(const VoidMask &last_voids);
     void
     cut_beyond_planes();
     Velocities
@@ -137,13 +137,13 @@ namespace undine
     const ImmersedSurface<dim>                &surface;
     const FluidModel<dim>                     &model;
     const VoidRegions<dim>                    *void_regions; ///< nullptr: none
-    VoidParts                                  voids;        ///< for `positions`
+    VoidMask                                   voids;        ///< for `positions`
     Positions                                  positions;    ///< for which `cells` holds
     Positions                                  was_at;       ///< as place() was told
     Velocities                                 velocities;
     CutCells<dim>                              cells;
     CutWorkspace<dim>                          work;
-    CutParts<dim>                              parts;
+    CutTopology<dim>                           parts;
     CutReport                                  last_report;
     std::unique_ptr<const BoundaryFlux<dim>>   flux_operator;
     std::unique_ptr<const SurfaceQueries<dim>> queries;

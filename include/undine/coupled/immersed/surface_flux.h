@@ -98,7 +98,7 @@ namespace undine
     /// Of all nodes, if the stage keeps rates. @{
     typename FluidGeometry<dim>::Positions before; ///< where they were at t^n [m]
     typename FluidGeometry<dim>::Velocities
-      way; ///< of bodies to the start, of others to the end [m]
+      increment; ///< of bodies to the start, of others to the end [m]
     /// @}
   };
 

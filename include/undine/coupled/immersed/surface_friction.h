@@ -30,7 +30,7 @@ namespace undine
     explicit SurfaceFriction(const Models<dim> &models);
 
     /// Where the surfaces are now. Collective.
-    std::shared_ptr<const StickingWalls<dim>>
+    std::shared_ptr<const NoSlipSurfaces<dim>>
     walls(const FluidGeometry<dim> &geometry);
 
     /// Of all nodes u^0 + h G / m [m/s]; prescribed ones as `geometry` says. A stage of length `dt`
@@ -50,12 +50,12 @@ namespace undine
     }
 
   private:
-    const Models<dim>                        &models;
-    const Vectors                             masses;
-    std::shared_ptr<const OpenParts<dim>>     cut_by;
-    std::shared_ptr<const StickingWalls<dim>> known_walls; ///< of the grid that is cut so
-    Vectors                                   started;     ///< u^0 [m/s]
-    Vectors                                   last_forces;
+    const Models<dim>                         &models;
+    const Vectors                              masses;
+    std::shared_ptr<const FluidTopology<dim>>  cut_by;
+    std::shared_ptr<const NoSlipSurfaces<dim>> known_walls; ///< of the grid that is cut so
+    Vectors                                    started;     ///< u^0 [m/s]
+    Vectors                                    last_forces;
   };
 } // namespace undine
 

@@ -50,7 +50,7 @@ namespace undine
     has_friction() const
     {
       return std::any_of(effects.begin(), effects.end(), [](const auto &effect) {
-        return effect->sticks_to_surfaces();
+        return effect->needs_no_slip_surfaces();
       });
     }
 

@@ -31,13 +31,13 @@ namespace undine
     struct StageStart
     {
       SolidState                            solid;
-      dealii::TrilinosWrappers::MPI::Vector way; ///< of the bodies since t^n [m]
+      dealii::TrilinosWrappers::MPI::Vector increment; ///< of the bodies since t^n [m]
     };
 
     /// Only within a step. @{
     StageStart                            next;       ///< of the stage that follows
     FluidStageStart<dim>                  next_fluid; ///< the same for the fluid
-    dealii::TrilinosWrappers::MPI::Vector way;        ///< of the bodies, t^n to this start [m]
+    dealii::TrilinosWrappers::MPI::Vector increment;  ///< of the bodies, t^n to this start [m]
     ContactStart                          contact;    ///< of the bodies in this stage
     /// @}
 

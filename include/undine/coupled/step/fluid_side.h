@@ -70,10 +70,10 @@ namespace undine
     place_surfaces(const State<dim> &state, const Stage &stage);
     void
     share_parts(FluidState<dim> &state) const;
-    typename Flow<dim>::Bodies
+    typename CharacteristicTracer<dim>::Bodies
     bodies() const;
-    typename Flow<dim>::Bodies
-    sticky_bodies(const State<dim> &state, const Stage &stage);
+    typename CharacteristicTracer<dim>::Bodies
+    no_slip_bodies(const State<dim> &state, const Stage &stage);
     void
     add_columns(Report &report, const FluidState<dim> &state, double divergence, double time) const;
 

@@ -2,8 +2,8 @@
 #ifndef undine_fluid_advection_advection_h
 #define undine_fluid_advection_advection_h
 
-#include <undine/fluid/advection/flow.h>
-#include <undine/fluid/advection/quiet_places.h>
+#include <undine/fluid/advection/characteristic_tracer.h>
+#include <undine/fluid/advection/uniform_regions.h>
 
 #include <string>
 #include <utility>
@@ -30,31 +30,33 @@ namespace undine
     /// the same points and parts, with the same ghost layers so far, and have the same boundary
     /// condition: every path is followed once. Collective.
     virtual std::vector<Field<dim>>
-    advect(const Flow<dim>              &flow,
-           std::vector<Field<dim>>       fields,
-           const BoundaryCondition<dim> &condition) const = 0;
+    advect(const CharacteristicTracer<dim> &tracer,
+           std::vector<Field<dim>>          fields,
+           const BoundaryCondition<dim>    &condition) const = 0;
 
     /// The same of one field.
     Field<dim>
-    advect(const Flow<dim>              &flow,
-           const Field<dim>             &field,
-           const BoundaryCondition<dim> &condition) const
+    advect(const CharacteristicTracer<dim> &tracer,
+           const Field<dim>                &field,
+           const BoundaryCondition<dim>    &condition) const
     {
-      return std::move(advect(flow, std::vector<Field<dim>>(1, field), condition).front());
+      return std::move(advect(tracer, std::vector<Field<dim>>(1, field), condition).front());
     }
   };
 
   /// `fields` with the ghost layers and boundary points that the flow asks for.
   template <int dim>
   std::vector<Field<dim>>
-  completed(const Flow<dim>              &flow,
-            std::vector<Field<dim>>       fields,
-            const BoundaryCondition<dim> &condition);
+  completed(const CharacteristicTracer<dim> &tracer,
+            std::vector<Field<dim>>          fields,
+            const BoundaryCondition<dim>    &condition);
 
   /// The same of one field.
   template <int dim>
   Field<dim>
-  completed(const Flow<dim> &flow, Field<dim> field, const BoundaryCondition<dim> &condition);
+  completed(const CharacteristicTracer<dim> &tracer,
+            Field<dim>                       field,
+            const BoundaryCondition<dim>    &condition);
 
   /// What is seen from the feet of paths that come near a body.
   template <int dim>
@@ -64,7 +66,7 @@ namespace undine
     using Place = typename BodyVicinity<dim>::Place;
 
     /// `source` is what completed() returned. The references must outlive it. Collective.
-    NearBodies(const Flow<dim> &flow, const Field<dim> &source);
+    NearBodies(const CharacteristicTracer<dim> &tracer, const Field<dim> &source);
 
     /// The value that the path from `foot` brings to the point `index` or a part of it, which is at
     /// `place`; NaN if nothing could be seen there, of scalars only.
@@ -77,7 +79,7 @@ namespace undine
     finish(Field<dim> &carried, const BoundaryCondition<dim> &condition) const;
 
   private:
-    const Flow<dim>                           &flow;
+    const CharacteristicTracer<dim>           &tracer;
     const Lattice<dim>                        &lattice;
     unsigned int                               axis; ///< of a velocity; no_axis: scalar
     std::unique_ptr<const VisibleSamples<dim>> samples;
@@ -86,9 +88,9 @@ namespace undine
   /// The same field on what bodies leave of the grid now. Collective.
   template <int dim>
   Field<dim>
-  kept_in_place(const Flow<dim>              &flow,
-                const Field<dim>             &field,
-                const BoundaryCondition<dim> &condition);
+  remapped(const CharacteristicTracer<dim> &tracer,
+           const Field<dim>                &field,
+           const BoundaryCondition<dim>    &condition);
 
   /// Fields at t + h on what bodies leave of the grid now: `far(trace, index, k)` is that of field
   /// k at the end of a path that keeps away from bodies; near them all methods are alike, see
@@ -97,15 +99,15 @@ namespace undine
   /// Collective.
   template <int dim, class Far>
   std::vector<Field<dim>>
-  carry(const Flow<dim>               &flow,
-        const std::vector<Field<dim>> &sources,
-        const BoundaryCondition<dim>  &condition,
-        const GridIndex<dim>          &reach,
-        Far                          &&far)
+  carry(const CharacteristicTracer<dim> &tracer,
+        const std::vector<Field<dim>>   &sources,
+        const BoundaryCondition<dim>    &condition,
+        const GridIndex<dim>            &reach,
+        Far                            &&far)
   {
     for (const auto &source : sources)
       AssertThrow(source.shared_lattice() == sources.front().shared_lattice() &&
-                    source.open_parts() == sources.front().open_parts() &&
+                    source.topology() == sources.front().topology() &&
                     source.stored() == sources.front().stored(),
                   dealii::ExcMessage("fields that are carried together must be alike"));
     const auto                  &lattice = sources.front().lattice();
@@ -114,15 +116,15 @@ namespace undine
     near.reserve(sources.size());
     for (const auto &source : sources)
       {
-        near.emplace_back(flow, source);
-        carried.emplace_back(source.shared_lattice(), flow.bodies().open_parts);
+        near.emplace_back(tracer, source);
+        carried.emplace_back(source.shared_lattice(), tracer.bodies().topology);
       }
     const auto *divided   = carried.front().divided();
     const auto  carry_one = [&](const GridIndex<dim> &index) {
-      if (divided && divided->kind(index) != LatticeParts<dim>::Kind::whole)
+      if (divided && divided->kind(index) != SubLattice<dim>::Kind::whole)
         return;
       const auto place = lattice.point(index);
-      const auto trace = flow.trace(place, -flow.dt());
+      const auto trace = tracer.trace(place, -tracer.dt());
       for (std::size_t k = 0; k < sources.size(); ++k)
         carried[k](index) =
           trace.near_body ? near[k].value_at(index, place, trace.foot) : far(trace, index, k);
@@ -131,7 +133,7 @@ namespace undine
       for_each(lattice.owned(), carry_one);
     else
       {
-        const QuietPlaces<dim> places(sources, reach, condition.neglected_variation(), divided);
+        const UniformRegions<dim> places(sources, reach, condition.neglected_variation(), divided);
         places.for_each_run(true, [&](const GridIndex<dim> &first, const int n) {
           for (std::size_t k = 0; k < sources.size(); ++k)
             std::copy_n(sources[k].data(first), n, &carried[k](first));
@@ -142,7 +144,7 @@ namespace undine
         });
       }
     for_each_owned_part(divided, [&](const unsigned int part, const auto &of_part) {
-      const auto trace = flow.trace(of_part.place, -flow.dt());
+      const auto trace = tracer.trace(of_part.place, -tracer.dt());
       for (std::size_t k = 0; k < sources.size(); ++k)
         carried[k].parts()[part] = near[k].value_at(of_part.index, of_part.place, trace.foot);
     });

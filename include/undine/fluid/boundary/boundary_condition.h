@@ -37,7 +37,7 @@ namespace undine
     obeys_maximum_principle() const = 0;
 
     /// Differences between neighbours that need not be carried, as a share of the field's range
-    /// (QuietPlaces); 0: all are.
+    /// (UniformRegions); 0: all are.
     virtual double
     neglected_variation() const
     {

@@ -21,13 +21,13 @@ namespace undine
     int            piece; ///< of a divided face: which one; else -1
   };
 
-  /// action(SideFace, place) for all of them. `open_parts`: what bodies leave of the grid; nullptr:
+  /// action(SideFace, place) for all of them. `topology`: what bodies leave of the grid; nullptr:
   /// everything.
   template <int dim, class Action>
   void
-  for_each_side_face(const MacGrid<dim>   &grid,
-                     const OpenParts<dim> *open_parts,
-                     const Action         &action)
+  for_each_side_face(const MacGrid<dim>       &grid,
+                     const FluidTopology<dim> *topology,
+                     const Action             &action)
   {
     for (unsigned int axis = 0; axis < dim; ++axis)
       for (unsigned int end = 0; end < 2 && !grid.periodic(axis); ++end)
@@ -39,8 +39,8 @@ namespace undine
           layer.upper[axis]   = std::min(layer.upper[axis], plane + 1);
           for_each(layer, [&](const GridIndex<dim> &face) {
             const auto  cell    = end == 0 ? face : moved<dim>(face, axis, -1);
-            const auto *divided = open_parts ? &open_parts->faces[axis] : nullptr;
-            if (!divided || divided->kind(face) == LatticeParts<dim>::Kind::whole)
+            const auto *divided = topology ? &topology->faces[axis] : nullptr;
+            if (!divided || divided->kind(face) == SubLattice<dim>::Kind::whole)
               action(SideFace<dim>{{axis, end}, face, cell, -1}, lattice.point(face));
             else
               for_each_part(*divided, face, [&](const int piece) {
@@ -53,9 +53,9 @@ namespace undine
   /// a n along the axis [m^(dim-1)].
   template <int dim>
   double
-  signed_area(const MacGrid<dim>   &grid,
-              const OpenParts<dim> *open_parts,
-              const SideFace<dim>  &face);
+  signed_area(const MacGrid<dim>       &grid,
+              const FluidTopology<dim> *topology,
+              const SideFace<dim>      &face);
 
   /// The velocity along the axis [m/s].
   template <int dim>
@@ -70,7 +70,7 @@ namespace undine
   /// Where the pressure next to a side is.
   template <int dim>
   PressurePlace<dim>
-  place_inside(const OpenParts<dim> *open_parts, const SideFace<dim> &face);
+  place_inside(const FluidTopology<dim> *topology, const SideFace<dim> &face);
 } // namespace undine
 
 #endif

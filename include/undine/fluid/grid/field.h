@@ -2,9 +2,9 @@
 #ifndef undine_fluid_grid_field_h
 #define undine_fluid_grid_field_h
 
+#include <undine/fluid/grid/fluid_topology.h>
 #include <undine/fluid/grid/index_box.h>
 #include <undine/fluid/grid/lattice.h>
-#include <undine/fluid/grid/open_parts.h>
 
 #include <memory>
 #include <vector>
@@ -14,7 +14,7 @@ namespace undine
   /// One number at every point of a lattice, distributed over the ranks: each stores the points it
   /// owns and, after exchange(), any number of layers around them. Where bodies divide a point
   /// there is also a number for each of its parts, and that of the point is their mean (see
-  /// LatticeParts). A value: copies are deep.
+  /// SubLattice). A value: copies are deep.
   template <int dim>
   class Field
   {
@@ -24,9 +24,9 @@ namespace undine
     /// Empty.
     Field() = default;
 
-    /// Zero at every point. `open_parts`: what bodies leave of the grid; nullptr: everything.
-    explicit Field(std::shared_ptr<const Lattice<dim>>   lattice,
-                   std::shared_ptr<const OpenParts<dim>> open_parts = nullptr);
+    /// Zero at every point. `topology`: what bodies leave of the grid; nullptr: everything.
+    explicit Field(std::shared_ptr<const Lattice<dim>>       lattice,
+                   std::shared_ptr<const FluidTopology<dim>> topology = nullptr);
 
     const Lattice<dim> &
     lattice() const
@@ -40,22 +40,22 @@ namespace undine
       return points;
     }
 
-    const std::shared_ptr<const OpenParts<dim>> &
-    open_parts() const
+    const std::shared_ptr<const FluidTopology<dim>> &
+    topology() const
     {
       return open;
     }
 
-    /// Values stay as they are; `equal_parts` must be what open_parts() is, as another object.
+    /// Values stay as they are; `equal_parts` must be what topology() is, as another object.
     void
-    share(const std::shared_ptr<const OpenParts<dim>> &equal_parts)
+    share(const std::shared_ptr<const FluidTopology<dim>> &equal_parts)
     {
       AssertDimension(divided()->all().size(), equal_parts->of(*points).all().size());
       open = equal_parts;
     }
 
     /// What is left of this field's points; nullptr: everything.
-    const LatticeParts<dim> *
+    const SubLattice<dim> *
     divided() const
     {
       return open ? &open->of(*points) : nullptr;
@@ -157,19 +157,19 @@ namespace undine
     void
     store(const IndexBox<dim> &new_box);
 
-    std::shared_ptr<const Lattice<dim>>   points;
-    std::shared_ptr<const OpenParts<dim>> open;
-    IndexBox<dim>                         box;
-    std::array<std::ptrdiff_t, dim>       strides{};
-    std::vector<double>                   values;
-    std::vector<double>                   part_values;
+    std::shared_ptr<const Lattice<dim>>       points;
+    std::shared_ptr<const FluidTopology<dim>> open;
+    IndexBox<dim>                             box;
+    std::array<std::ptrdiff_t, dim>           strides{};
+    std::vector<double>                       values;
+    std::vector<double>                       part_values;
   };
 
 
   /// Call `action(k, part)` for every owned part k of divided points; nullptr: there are none.
   template <int dim, class Action>
   void
-  for_each_owned_part(const LatticeParts<dim> *divided, Action &&action)
+  for_each_owned_part(const SubLattice<dim> *divided, Action &&action)
   {
     for (unsigned int k = 0; divided != nullptr && k < divided->all().size(); ++k)
       if (divided->owns(k))
@@ -198,7 +198,7 @@ namespace undine
     constexpr int dim     = FieldType::dimension;
     const auto   *divided = field.divided();
     for_each(field.owned(), [&](const GridIndex<dim> &index) {
-      if (!divided || divided->kind(index) == LatticeParts<dim>::Kind::whole)
+      if (!divided || divided->kind(index) == SubLattice<dim>::Kind::whole)
         action(field(index), field.lattice().point(index), index);
     });
     for_each_part(field, action);

@@ -7,7 +7,7 @@
 
 namespace undine
 {
-  /// Give divided points the mean of their parts, see LatticeParts; closed ones get zero. @{
+  /// Give divided points the mean of their parts, see SubLattice; closed ones get zero. @{
   template <int dim>
   void
   set_means(Field<dim> &field, const MacGrid<dim> &grid);

@@ -48,7 +48,7 @@ namespace undine
   /// between cells, whole or piece, with one side or both on this rank.
   template <int dim, class Action>
   void
-  for_each_connection(const MacGrid<dim> &grid, const OpenParts<dim> *open, Action &&action)
+  for_each_connection(const MacGrid<dim> &grid, const FluidTopology<dim> *open, Action &&action)
   {
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
@@ -57,14 +57,14 @@ namespace undine
         faces.upper[axis] += 1;
         for_each(faces, [&](const GridIndex<dim> &face) {
           if (!grid.at_boundary(axis, face) &&
-              (!open || open->faces[axis].kind(face) == LatticeParts<dim>::Kind::whole))
+              (!open || open->faces[axis].kind(face) == SubLattice<dim>::Kind::whole))
             action(PressurePlace<dim>{moved<dim>(face, axis, -1), -1},
                    PressurePlace<dim>{face, -1});
         });
         for (std::size_t k = 0; open && k < open->pieces[axis].size(); ++k)
           {
             const auto &ends = open->pieces[axis][k].components;
-            if (ends[0] != OpenParts<dim>::outside && ends[1] != OpenParts<dim>::outside)
+            if (ends[0] != FluidTopology<dim>::outside && ends[1] != FluidTopology<dim>::outside)
               action(end_of_piece(*open, axis, k, 0), end_of_piece(*open, axis, k, 1));
           }
       }

@@ -29,10 +29,10 @@ namespace undine
     }
 
     /// What bodies leave of the grid; nullptr: everything.
-    const OpenParts<dim> *
-    open_parts() const
+    const FluidTopology<dim> *
+    topology() const
     {
-      return components[0].open_parts().get();
+      return components[0].topology().get();
     }
   };
 

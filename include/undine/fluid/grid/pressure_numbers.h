@@ -16,7 +16,7 @@ namespace undine
   struct PressurePlace
   {
     GridIndex<dim> cell;
-    int            component; ///< number in OpenParts::cells; -1: the cell is whole
+    int            component; ///< number in FluidTopology::cells; -1: the cell is whole
   };
 
   template <int dim>
@@ -30,10 +30,10 @@ namespace undine
   /// it is outside.
   template <int dim>
   PressurePlace<dim>
-  end_of_piece(const OpenParts<dim> &open,
-               const unsigned int    axis,
-               const int             piece,
-               const unsigned int    end)
+  end_of_piece(const FluidTopology<dim> &open,
+               const unsigned int        axis,
+               const int                 piece,
+               const unsigned int        end)
   {
     const auto &face      = open.faces[axis].all()[piece].index;
     const int   component = open.pieces[axis][piece].components[end];
@@ -50,7 +50,7 @@ namespace undine
     using Number = dealii::types::global_dof_index;
 
     /// Collective.
-    PressureNumbers(const MacGrid<dim> &grid, std::shared_ptr<const OpenParts<dim>> open_parts);
+    PressureNumbers(const MacGrid<dim> &grid, std::shared_ptr<const FluidTopology<dim>> topology);
 
     /// Of a pressure of this rank or next to one; images allowed. @{
     Number
@@ -73,8 +73,8 @@ namespace undine
     /// @}
 
     /// What bodies leave of the grid; nullptr: everything.
-    const std::shared_ptr<const OpenParts<dim>> &
-    open_parts() const
+    const std::shared_ptr<const FluidTopology<dim>> &
+    topology() const
     {
       return open;
     }
@@ -87,10 +87,10 @@ namespace undine
     }
 
   private:
-    std::shared_ptr<const Lattice<dim>>   lattice;
-    std::shared_ptr<const OpenParts<dim>> open;
-    Field<dim>                            numbers; ///< exact as numbers up to 2^53; unused if !open
-    dealii::IndexSet                      mine;
+    std::shared_ptr<const Lattice<dim>>       lattice;
+    std::shared_ptr<const FluidTopology<dim>> open;
+    Field<dim>       numbers; ///< exact as numbers up to 2^53; unused if !open
+    dealii::IndexSet mine;
   };
 
 

@@ -38,7 +38,7 @@ namespace undine
     /// The initial velocity of the scene (not yet divergence-free), no pressure, no scalars, on
     /// what bodies leave of the grid; nullptr: everything.
     FluidState<dim>
-    initial_state(const std::shared_ptr<const OpenParts<dim>> &open_parts = nullptr) const;
+    initial_state(const std::shared_ptr<const FluidTopology<dim>> &topology = nullptr) const;
 
   private:
     struct Parameters

@@ -5,7 +5,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/fluid/grid/pressure_numbers.h>
 #include <undine/fluid/model/fluid_model.h>
-#include <undine/fluid/pressure/pushed_volume.h>
+#include <undine/fluid/pressure/swept_volume_flux.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -50,14 +50,14 @@ namespace undine
     /// InputError if more enters or leaves a region: through held faces of `velocity`, or pushed by
     /// bodies. Collective.
     std::vector<double>
-    balanced_fluxes(const Velocity<dim> &velocity,
-                    const PushedVolume  &pushed,
-                    const double         time) const;
+    balanced_fluxes(const Velocity<dim>   &velocity,
+                    const SweptVolumeFlux &pushed,
+                    const double           time) const;
 
     /// Shift the pressures of each closed region so that its pinned one is zero. Corrections of
     /// balanced residuals leave that so: pinning then changes nothing. Collective.
     void
-    ground(Vector &pressure) const;
+    fix_pressure_level(Vector &pressure) const;
 
     /// Make the entries of each closed region sum to zero, by changes in proportion to volume.
     void
@@ -89,11 +89,11 @@ namespace undine
     std::vector<double>
     held_outflow(const double time) const;
 
-    /// Sums over each of them of values in OpenParts::cells. Collective.
+    /// Sums over each of them of values in FluidTopology::cells. Collective.
     std::vector<double>
     sums_on_components(const std::vector<double> &values) const;
 
-    /// The closed region of each of OpenParts::cells; negative: none.
+    /// The closed region of each of FluidTopology::cells; negative: none.
     std::vector<int>
     of_components() const;
 
@@ -121,7 +121,9 @@ namespace undine
     /// What flows out of a region through the surface of each body, and through boundaries, and
     /// where it lies. Collective.
     std::string
-    describe(const int region, const PushedVolume &pushed, const double through_boundaries) const;
+    describe(const int              region,
+             const SweptVolumeFlux &pushed,
+             const double           through_boundaries) const;
 
     const FluidModel<dim>      &model;
     const PressureNumbers<dim> &numbers;

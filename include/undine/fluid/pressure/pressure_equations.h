@@ -4,8 +4,8 @@
 
 #include <undine/fluid/grid/fluid_state.h>
 #include <undine/fluid/grid/pressure_numbers.h>
+#include <undine/fluid/pressure/backflow_stabilisation.h>
 #include <undine/fluid/pressure/closed_regions.h>
-#include <undine/fluid/pressure/entering_flow.h>
 #include <undine/fluid/pressure/pressure_gradient.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -36,10 +36,10 @@ namespace undine
     /// do not yield must keep the volume of closed regions.
     /// Collective. Throws InputError if a closed region has a net inflow.
     void
-    start(Velocity<dim>       &velocity,
-          const Velocity<dim> &carrying,
-          const double         time,
-          const PushedVolume  &pushed);
+    start(Velocity<dim>         &velocity,
+          const Velocity<dim>   &carrying,
+          const double           time,
+          const SweptVolumeFlux &pushed);
 
     /// Add to `velocity` = v*, as start() left it, what openings do to it, given how fast fluid
     /// enters there.
@@ -49,7 +49,7 @@ namespace undine
     /// Learn from v^{n+1} how fast fluid enters through outflows. Returns how much that would
     /// change v^{n+1} if the step were solved again from open() on [1]. Collective.
     double
-    update_entering_flow(const Velocity<dim> &velocity);
+    update_backflow(const Velocity<dim> &velocity);
 
     const PressureNumbers<dim> &
     numbers() const
@@ -77,7 +77,7 @@ namespace undine
       return regions;
     }
 
-    /// With the pressures that have acted, after update_entering_flow().
+    /// With the pressures that have acted, after update_backflow().
     const std::vector<OpenFace<dim>> &
     open_faces() const
     {

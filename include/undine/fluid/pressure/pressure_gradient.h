@@ -18,23 +18,23 @@ namespace undine
   template <int dim>
   struct OpenFace : SideFace<dim>
   {
-    double       pressure; ///< reduced pressure on the face [Pa]
-    BoundaryKind kind;     ///< outflow or pressure
-    double       entering; ///< how fast fluid enters through it, if at all [m/s]
-    double mobility = 1;   ///< share of an acceleration that is left, see hold_back_entering_flow()
+    double       pressure;     ///< reduced pressure on the face [Pa]
+    BoundaryKind kind;         ///< outflow or pressure
+    double       entering;     ///< how fast fluid enters through it, if at all [m/s]
+    double       mobility = 1; ///< share of an acceleration that is left, see stabilise_backflow()
   };
 
   /// The openings of this rank with their pressures at `time`. Where fluid enters through an
   /// outflow, p = -rho (v.n)^2 / 2, so that it brings in no energy (directional do-nothing
-  /// condition, Braack & Mucha 2014); how that acts in a step: hold_back_entering_flow().
-  /// `open_parts`: what bodies leave of the grid, which may have changed since `velocity`; nullptr:
+  /// condition, Braack & Mucha 2014); how that acts in a step: stabilise_backflow().
+  /// `topology`: what bodies leave of the grid, which may have changed since `velocity`; nullptr:
   /// everything.
   template <int dim>
   std::vector<OpenFace<dim>>
-  open_faces(const FluidModel<dim> &model,
-             const Velocity<dim>   &velocity,
-             const OpenParts<dim>  *open_parts,
-             const double           time);
+  open_faces(const FluidModel<dim>    &model,
+             const Velocity<dim>      &velocity,
+             const FluidTopology<dim> *topology,
+             const double              time);
 
   /// (rho V)^-1 D^T p on the owned faces, zero on held ones, [m/s^2]: the acceleration by the
   /// pressure, minus grad p / rho. One ghost layer of the pressure must be up to date.

@@ -5,11 +5,11 @@
 #include <undine/base/parallel/algebraic_multigrid.h>
 #include <undine/fluid/grid/pressure_numbers.h>
 #include <undine/fluid/model/fluid_model.h>
+#include <undine/fluid/pressure/backflow_stabilisation.h>
 #include <undine/fluid/pressure/closed_regions.h>
-#include <undine/fluid/pressure/entering_flow.h>
 #include <undine/fluid/pressure/pressure_balance.h>
 #include <undine/fluid/pressure/pressure_gradient.h>
-#include <undine/fluid/pressure/pushed_volume.h>
+#include <undine/fluid/pressure/swept_volume_flux.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -57,11 +57,11 @@ namespace undine
     /// friction adds h grad p^n / rho to it, which may point inwards in a steady outflow. `pushed`:
     /// by surfaces of bodies.
     Report
-    project(FluidState<dim>     &state,
-            const Velocity<dim> &carrying,
-            const double         time,
-            const double         dt,
-            const PushedVolume  &pushed = {});
+    project(FluidState<dim>       &state,
+            const Velocity<dim>   &carrying,
+            const double           time,
+            const double           dt,
+            const SweptVolumeFlux &pushed = {});
 
     /// The same with v* in the place of v^n.
     Report
@@ -70,23 +70,23 @@ namespace undine
     /// The divergence-free velocity nearest to the one given, for a start at `time`; the state's
     /// pressure becomes zero.
     Report
-    make_divergence_free(FluidState<dim>    &state,
-                         const double        time,
-                         const PushedVolume &pushed = {});
+    make_divergence_free(FluidState<dim>       &state,
+                         const double           time,
+                         const SweptVolumeFlux &pushed = {});
 
   private:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
     /// Matrix and multigrid hierarchy, unless they are there, for what bodies leave of the grid.
     void
-    prepare(const std::shared_ptr<const OpenParts<dim>> &open_parts);
+    prepare(const std::shared_ptr<const FluidTopology<dim>> &topology);
 
     /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm, L held back where fluid
     /// enters.
     unsigned int
     solve(Vector               &impulse,
           const Vector         &right_side,
-          const HeldBackMatrix &held_back,
+          const BackflowMatrix &held_back,
           const double          tolerance) const;
 
     /// Add impulses h p to the velocity until its divergence vanishes, beginning with those in
@@ -99,7 +99,7 @@ namespace undine
                       const std::vector<double>  &body_fluxes);
 
     /// The same at the end of a step dt, with openings that hold pressures. Fluid enters outflows
-    /// against its dynamic pressure, see hold_back_entering_flow().
+    /// against its dynamic pressure, see stabilise_backflow().
     Report
     remove_divergence_with_openings(Velocity<dim>             &velocity,
                                     Field<dim>                &impulse,

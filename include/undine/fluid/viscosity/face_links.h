@@ -2,10 +2,10 @@
 #ifndef undine_fluid_viscosity_face_links_h
 #define undine_fluid_viscosity_face_links_h
 
-#include <undine/fluid/boundary/sticking_walls.h>
+#include <undine/fluid/boundary/no_slip_surfaces.h>
 #include <undine/fluid/grid/field.h>
+#include <undine/fluid/grid/fluid_topology.h>
 #include <undine/fluid/grid/mac_grid.h>
-#include <undine/fluid/grid/open_parts.h>
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ namespace undine
   struct FacePlace
   {
     GridIndex<dim> face;
-    int            part; ///< number in OpenParts::faces; -1: the face is whole
+    int            part; ///< number in FluidTopology::faces; -1: the face is whole
   };
 
   template <int dim>
@@ -34,7 +34,7 @@ namespace undine
     /// `rims` of the pieces of this axis. The references must outlive it.
     FaceLinks(const MacGrid<dim>           &grid,
               const unsigned int            axis,
-              const OpenParts<dim>         &open,
+              const FluidTopology<dim>     &open,
               const std::vector<Rims<dim>> &rims)
       : grid(grid)
       , axis(axis)
@@ -48,7 +48,7 @@ namespace undine
     bool
     is_whole(const GridIndex<dim> &face) const
     {
-      return divided.kind(face) == LatticeParts<dim>::Kind::whole;
+      return divided.kind(face) == SubLattice<dim>::Kind::whole;
     }
 
     /// action(FacePlace) for what is open of a face.
@@ -125,7 +125,7 @@ namespace undine
     const MacGrid<dim>           &grid;
     const unsigned int            axis;
     const Lattice<dim>           &lattice;
-    const LatticeParts<dim>      &divided;
+    const SubLattice<dim>        &divided;
     const std::vector<Rims<dim>> &rims;
   };
 } // namespace undine

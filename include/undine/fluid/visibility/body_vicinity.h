@@ -37,11 +37,11 @@ namespace undine
     /// `before` and `now`: what bodies leave of the grid, nullptr: everything; their surfaces,
     /// which must outlive this, nullptr: none. Answers for cells of this rank and `width` layers
     /// around them. Collective.
-    BodyVicinity(const MacGrid<dim>                          &grid,
-                 const std::shared_ptr<const OpenParts<dim>> &before,
-                 const std::shared_ptr<const OpenParts<dim>> &now,
-                 const Obstruction<dim>                      *obstruction,
-                 const GridIndex<dim>                        &width);
+    BodyVicinity(const MacGrid<dim>                              &grid,
+                 const std::shared_ptr<const FluidTopology<dim>> &before,
+                 const std::shared_ptr<const FluidTopology<dim>> &now,
+                 const Obstruction<dim>                          *obstruction,
+                 const GridIndex<dim>                            &width);
 
     /// In no cell if there are no bodies.
     Place
@@ -80,7 +80,7 @@ namespace undine
 
   private:
     void
-    mark_swept_cells();
+    mark_freshly_cleared_cells();
 
     void
     measure_layers();

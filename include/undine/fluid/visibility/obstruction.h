@@ -107,14 +107,14 @@ namespace undine
     /// True if a surface has passed over `place` in the last motion: what was measured there before
     /// says nothing about the fluid that is there now.
     virtual bool
-    swept(const dealii::Point<dim> &place) const = 0;
+    is_freshly_cleared(const dealii::Point<dim> &place) const = 0;
 
     /// Call `action` for all points of a lattice, boundary points and images included, that are in
     /// `box` and were swept; for some more than once.
     virtual void
-    for_each_swept(const Lattice<dim>                                &lattice,
-                   const IndexBox<dim>                               &box,
-                   const std::function<void(const GridIndex<dim> &)> &action) const = 0;
+    for_each_freshly_cleared(const Lattice<dim>                                &lattice,
+                             const IndexBox<dim>                               &box,
+                             const std::function<void(const GridIndex<dim> &)> &action) const = 0;
 
     /// Velocity of the surface point nearest to `place` [m/s].
     virtual dealii::Tensor<1, dim>

@@ -62,7 +62,7 @@ namespace undine
     bool
     is_for(const Field<dim> &field) const
     {
-      return field.shared_lattice() == lattice && field.open_parts() == open &&
+      return field.shared_lattice() == lattice && field.topology() == open &&
              field.stored() == stored;
     }
 
@@ -132,12 +132,12 @@ namespace undine
     Sample
     image_of(Sample sample, const GridIndex<dim> &point, const GridIndex<dim> &own) const;
 
-    std::shared_ptr<const Lattice<dim>>   lattice;
-    std::shared_ptr<const OpenParts<dim>> open;
-    IndexBox<dim>                         stored;
-    std::vector<Kind>                     kinds;         ///< by position in `stored`
-    std::vector<unsigned int>             list_of_point; ///< likewise, in `lists`
-    std::vector<std::vector<Sample>>      lists;         ///< the first is empty
+    std::shared_ptr<const Lattice<dim>>       lattice;
+    std::shared_ptr<const FluidTopology<dim>> open;
+    IndexBox<dim>                             stored;
+    std::vector<Kind>                         kinds;         ///< by position in `stored`
+    std::vector<unsigned int>                 list_of_point; ///< likewise, in `lists`
+    std::vector<std::vector<Sample>>          lists;         ///< the first is empty
 
     std::map<unsigned int, std::vector<unsigned int>> parts_for_ranks; ///< their numbers here
   };

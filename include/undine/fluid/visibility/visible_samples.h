@@ -4,9 +4,9 @@
 
 #include <undine/fluid/grid/field.h>
 #include <undine/fluid/visibility/body_vicinity.h>
-#include <undine/fluid/visibility/cube_views.h>
 #include <undine/fluid/visibility/obstruction.h>
 #include <undine/fluid/visibility/sampled_points.h>
+#include <undine/fluid/visibility/visibility_stencils.h>
 
 #include <memory>
 #include <optional>
@@ -24,9 +24,9 @@ namespace undine
 
     /// Of a field for which views->points().is_for() holds. The references must outlive it.
     /// Collective.
-    VisibleSamples(const Field<dim>                      &field,
-                   const std::shared_ptr<CubeViews<dim>> &views,
-                   const BodyVicinity<dim>               &vicinity);
+    VisibleSamples(const Field<dim>                               &field,
+                   const std::shared_ptr<VisibilityStencils<dim>> &stencils,
+                   const BodyVicinity<dim>                        &vicinity);
 
     VisibleSamples(const VisibleSamples &) = delete;
 
@@ -47,10 +47,10 @@ namespace undine
     /// Can nothing hide the points that a cubic at `start` takes from an eye among them, and is the
     /// eye not next to a body?
     bool
-    is_clear_for_cubics(const dealii::Point<dim> &start, const Place &eye) const;
+    is_clear_for_cubics(const dealii::Point<dim> &start, const Place &query) const;
 
     /// Who looks.
-    struct Eye
+    struct QueryPoint
     {
       Place                 place;
       const GridIndex<dim> *own; ///< sees only the nearest part of this point; nullptr: no such
@@ -58,20 +58,22 @@ namespace undine
 
     /// Multilinear weights at `place` of what `eye` sees.
     std::optional<double>
-    multilinear(const dealii::Point<dim> &place, const Eye &eye) const;
+    multilinear(const dealii::Point<dim> &place, const QueryPoint &query) const;
 
     /// What `eye` sees of these corners of the cube above point `lower`.
-    typename CubeViews<dim>::View
-    seen_values(const GridIndex<dim> &lower, const Eye &eye, const unsigned int corners) const;
+    typename VisibilityStencils<dim>::VisibilityStencil
+    seen_values(const GridIndex<dim> &lower,
+                const QueryPoint     &query,
+                const unsigned int    corners) const;
 
     /// Mean, by measure, of what can be seen of one point of the lattice.
     std::optional<double>
-    value_of(const GridIndex<dim> &index, const Eye &eye) const;
+    value_of(const GridIndex<dim> &index, const QueryPoint &query) const;
 
-    const Field<dim>               &field;
-    const BodyVicinity<dim>        &vicinity;
-    std::shared_ptr<CubeViews<dim>> views; ///< remembered, for this field and others
-    const SampledPoints<dim>       &points;
+    const Field<dim>                        &field;
+    const BodyVicinity<dim>                 &vicinity;
+    std::shared_ptr<VisibilityStencils<dim>> stencils; ///< remembered, for this field and others
+    const SampledPoints<dim>                &points;
 
     const typename SampledPoints<dim>::Values values;
   };

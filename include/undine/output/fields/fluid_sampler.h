@@ -63,7 +63,7 @@ namespace undine
     vorticity_magnitude(const GridIndex<dim> &corner) const;
 
     /// What bodies leave of the cells; nullptr: everything.
-    const LatticeParts<dim> *
+    const SubLattice<dim> *
     divided_cells() const;
 
     /// True unless a surface lies between two places.

@@ -157,11 +157,17 @@ namespace undine
     void
     add_stage(Vector &forces, const StepCoefficients::Stage &stage, const Vector &displacement);
     void
-    balance_inertia(SolidBalance<dim> &result, const Vector &velocity, const Vector &way) const;
+    balance_inertia(SolidBalance<dim> &result,
+                    const Vector      &velocity,
+                    const Vector      &displacement_increment) const;
     void
-    balance_elasticity(SolidBalance<dim> &result, const Vector &end, const Vector &way) const;
+    balance_elasticity(SolidBalance<dim> &result,
+                       const Vector      &end,
+                       const Vector      &displacement_increment) const;
     void
-    balance_contact(SolidBalance<dim> &result, const Vector &end, const Vector &way) const;
+    balance_contact(SolidBalance<dim> &result,
+                    const Vector      &end,
+                    const Vector      &displacement_increment) const;
     Matrix
     full_jacobian(const Vector &end_displacement, const Vector &in_contact) const;
     Vector

@@ -25,16 +25,16 @@ namespace undine
     }
 
     std::vector<Field<dim>>
-    advect(const Flow<dim>              &flow,
-           std::vector<Field<dim>>       fields,
-           const BoundaryCondition<dim> &condition) const override
+    advect(const CharacteristicTracer<dim> &tracer,
+           std::vector<Field<dim>>          fields,
+           const BoundaryCondition<dim>    &condition) const override
     {
       const bool limited = condition.obeys_maximum_principle();
-      const auto sources = completed(flow, std::move(fields), condition);
-      return carry(flow,
+      const auto sources = completed(tracer, std::move(fields), condition);
+      return carry(tracer,
                    sources,
                    condition,
-                   flow.reach(1),
+                   tracer.reach(1),
                    [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
                      return interpolate_cubic(sources[k], trace.foot.point, limited);
                    });

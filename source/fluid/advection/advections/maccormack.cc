@@ -31,16 +31,16 @@ namespace undine
     }
 
     std::vector<Field<dim>>
-    advect(const Flow<dim>              &flow,
-           std::vector<Field<dim>>       fields,
-           const BoundaryCondition<dim> &condition) const override
+    advect(const CharacteristicTracer<dim> &tracer,
+           std::vector<Field<dim>>          fields,
+           const BoundaryCondition<dim>    &condition) const override
     {
-      const auto  sources = completed(flow, std::move(fields), condition);
+      const auto  sources = completed(tracer, std::move(fields), condition);
       Predictions predictions(sources.size());
-      auto        corrected = carry(flow,
+      auto        corrected = carry(tracer,
                              sources,
                              condition,
-                             flow.width(),
+                             tracer.width(),
                              [&](const auto &trace, const auto &index, const std::size_t k) {
                                const auto found =
                                  interpolate_with_bounds(sources[k], trace.foot.point);
@@ -52,15 +52,18 @@ namespace undine
       auto predicted = corrected;
       for (auto &field : predicted)
         {
-          field.exchange(flow.width());
-          fill_boundary_points(
-            field, flow.model().boundaries(), condition, flow.velocity(), flow.time() + flow.dt());
+          field.exchange(tracer.width());
+          fill_boundary_points(field,
+                               tracer.model().boundaries(),
+                               condition,
+                               tracer.velocity(),
+                               tracer.time() + tracer.dt());
         }
       const bool limited = condition.obeys_maximum_principle();
       for (std::size_t i = 0; i < predictions.front().size(); ++i)
         {
           const auto &index = predictions.front()[i].index;
-          const auto  trace = flow.trace(sources.front().lattice().point(index), flow.dt());
+          const auto  trace = tracer.trace(sources.front().lattice().point(index), tracer.dt());
           if (trace.left_domain || trace.near_body)
             continue;
           for (std::size_t k = 0; k < sources.size(); ++k)

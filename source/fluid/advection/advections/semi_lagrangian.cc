@@ -24,15 +24,15 @@ namespace undine
     }
 
     std::vector<Field<dim>>
-    advect(const Flow<dim>              &flow,
-           std::vector<Field<dim>>       fields,
-           const BoundaryCondition<dim> &condition) const override
+    advect(const CharacteristicTracer<dim> &tracer,
+           std::vector<Field<dim>>          fields,
+           const BoundaryCondition<dim>    &condition) const override
     {
-      const auto sources = completed(flow, std::move(fields), condition);
-      return carry(flow,
+      const auto sources = completed(tracer, std::move(fields), condition);
+      return carry(tracer,
                    sources,
                    condition,
-                   flow.reach(0),
+                   tracer.reach(0),
                    [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
                      return interpolate(sources[k], trace.foot.point);
                    });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_boundary_sticking_walls_h
-#define undine_fluid_boundary_sticking_walls_h
+#ifndef undine_fluid_boundary_no_slip_surfaces_h
+#define undine_fluid_boundary_no_slip_surfaces_h
 
 #include <undine/fluid/grid/index_box.h>
 
@@ -27,13 +27,13 @@ namespace undine
   /// What the friction of a fluid needs to know of the surfaces in it, beside what they leave of
   /// the grid.
   template <int dim>
-  struct StickingWalls
+  struct NoSlipSurfaces
   {
     /// Where a plane of faces meets the surface next to a piece.
     struct Contact
     {
       GridIndex<dim>                face;
-      int                           part;     ///< number in OpenParts::faces; -1: the face is whole
+      int                           part; ///< number in FluidTopology::faces; -1: the face is whole
       double                        length;   ///< of the intersection [m^(dim-2)], 1 in 2D
       double                        distance; ///< from the piece's centroid, in the plane [m]
       std::array<unsigned int, dim> nodes;    ///< of the surface
@@ -43,12 +43,12 @@ namespace undine
     /// An entry of B (BoundaryFlux): int_{Gamma_c} N_node n dGamma [m^(dim-1)].
     struct Patch
     {
-      int                    component; ///< number in OpenParts::cells
+      int                    component; ///< number in FluidTopology::cells
       unsigned int           node;
       dealii::Tensor<1, dim> area;
     };
 
-    std::array<std::vector<Rims<dim>>, dim> rims;     ///< [axis][part of OpenParts::faces]
+    std::array<std::vector<Rims<dim>>, dim> rims;     ///< [axis][part of FluidTopology::faces]
     std::array<std::vector<Contact>, dim>   contacts; ///< by axis, of this rank's faces
     std::vector<Patch>                      patches;  ///< of this rank's components, in their order
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_pressure_pushed_volume_h
-#define undine_fluid_pressure_pushed_volume_h
+#ifndef undine_fluid_pressure_swept_volume_flux_h
+#define undine_fluid_pressure_swept_volume_flux_h
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 namespace undine
 {
   /// What surfaces of bodies do to the volume of the fluid. Components are those of
-  /// OpenParts::cells.
-  struct PushedVolume
+  /// FluidTopology::cells.
+  struct SweptVolumeFlux
   {
     /// A part of the flux out of a component.
     struct Part

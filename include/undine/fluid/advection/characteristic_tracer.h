@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_advection_flow_h
-#define undine_fluid_advection_flow_h
+#ifndef undine_fluid_advection_characteristic_tracer_h
+#define undine_fluid_advection_characteristic_tracer_h
 
 #include <undine/fluid/boundary/boundary_condition.h>
-#include <undine/fluid/boundary/sticking_walls.h>
+#include <undine/fluid/boundary/no_slip_surfaces.h>
 #include <undine/fluid/model/fluid_model.h>
 #include <undine/fluid/visibility/visible_samples.h>
 
@@ -17,7 +17,7 @@ namespace undine
   /// The velocity at one time, frozen, as that which carries fields during a step: knows where the
   /// fluid that arrives at a place has come from.
   template <int dim>
-  class Flow
+  class CharacteristicTracer
   {
   public:
     using Place = typename BodyVicinity<dim>::Place;
@@ -36,22 +36,22 @@ namespace undine
       /// Their surfaces at the time of the step; nullptr: none.
       const Obstruction<dim> *obstruction = nullptr;
       /// What they leave of the grid now, and of the fields that are carried; nullptr: everything.
-      std::shared_ptr<const OpenParts<dim>> open_parts;
+      std::shared_ptr<const FluidTopology<dim>> topology;
       /// What the fluid sticks to, and how the nodes there move [m/s]; nullptr: nothing.
-      std::shared_ptr<const StickingWalls<dim>> walls           = nullptr;
-      std::vector<dealii::Tensor<1, dim>>       wall_velocities = {};
+      std::shared_ptr<const NoSlipSurfaces<dim>> walls           = nullptr;
+      std::vector<dealii::Tensor<1, dim>>        wall_velocities = {};
     };
 
     /// `velocity` at `time` [s], for steps of length dt [s]. It may belong to an earlier place of
     /// the bodies. Collective. Throws SolveError if the velocity is not finite.
-    Flow(const FluidModel<dim> &model,
-         const Velocity<dim>   &velocity,
-         const double           time,
-         const double           dt,
-         const Bodies          &bodies = {});
-    Flow(const Flow &) = delete;
-    Flow &
-    operator=(const Flow &) = delete;
+    CharacteristicTracer(const FluidModel<dim> &model,
+                         const Velocity<dim>   &velocity,
+                         const double           time,
+                         const double           dt,
+                         const Bodies          &bodies = {});
+    CharacteristicTracer(const CharacteristicTracer &) = delete;
+    CharacteristicTracer &
+    operator=(const CharacteristicTracer &) = delete;
 
     const FluidModel<dim> &
     model() const;
@@ -76,8 +76,8 @@ namespace undine
 
     /// Of fields like this one, which has what completed() gives it, between bodies; made once for
     /// all that are alike. Collective.
-    const std::shared_ptr<CubeViews<dim>> &
-    views(const Field<dim> &like) const;
+    const std::shared_ptr<VisibilityStencils<dim>> &
+    stencils(const Field<dim> &like) const;
 
     /// Ghost layers that a field needs to be known at every foot.
     const GridIndex<dim> &
@@ -108,21 +108,21 @@ namespace undine
 
     /// The end of a straight way from a place in the domain, kept in the domain.
     Walk
-    walk(const Place &place, const dealii::Tensor<1, dim> &way) const;
+    walk(const Place &place, const dealii::Tensor<1, dim> &path) const;
 
     /// The same where no bodies are, and if it left the domain.
     std::pair<dealii::Point<dim>, bool>
-    kept_in_domain(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &way) const;
+    kept_in_domain(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &path) const;
 
-    const FluidModel<dim>                                &fluid_model;
-    Bodies                                                among;
-    Velocity<dim>                                         frozen_velocity;
-    double                                                start_time;
-    double                                                step;
-    GridIndex<dim>                                        ghost_width;
-    BodyVicinity<dim>                                     body_vicinity;
-    mutable std::vector<std::shared_ptr<CubeViews<dim>>>  views_made;
-    std::array<std::unique_ptr<VisibleSamples<dim>>, dim> samples; ///< nullptr: no bodies
+    const FluidModel<dim>                                        &fluid_model;
+    Bodies                                                        among;
+    Velocity<dim>                                                 frozen_velocity;
+    double                                                        start_time;
+    double                                                        step;
+    GridIndex<dim>                                                ghost_width;
+    BodyVicinity<dim>                                             body_vicinity;
+    mutable std::vector<std::shared_ptr<VisibilityStencils<dim>>> stencils_made;
+    std::array<std::unique_ptr<VisibleSamples<dim>>, dim>         samples; ///< nullptr: no bodies
   };
 } // namespace undine
 

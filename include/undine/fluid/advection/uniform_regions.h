@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_advection_quiet_places_h
-#define undine_fluid_advection_quiet_places_h
+#ifndef undine_fluid_advection_uniform_regions_h
+#define undine_fluid_advection_uniform_regions_h
 
 #include <undine/fluid/grid/field.h>
 
@@ -14,17 +14,17 @@ namespace undine
   /// To be safe and fast, neighbours are compared: they differ by less than would add up to that
   /// share on the longest way between two of these values.
   template <int dim>
-  class QuietPlaces
+  class UniformRegions
   {
   public:
     /// `sources`: with the same points, parts and stored values, `reach` ghost layers at least;
     /// `share` of a field's range that differences may have, from 0 to 1. Points next to which
     /// bodies divide others, in the sources or `now`, are never quiet; nullptr: bodies leave
     /// everything. Collective.
-    QuietPlaces(const std::vector<Field<dim>> &sources,
-                const GridIndex<dim>          &reach,
-                const double                   share,
-                const LatticeParts<dim>       *now = nullptr);
+    UniformRegions(const std::vector<Field<dim>> &sources,
+                   const GridIndex<dim>          &reach,
+                   const double                   share,
+                   const SubLattice<dim>         *now = nullptr);
 
     /// Of an owned point.
     bool

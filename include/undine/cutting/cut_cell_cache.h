@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_cutting_kept_cells_h
-#define undine_cutting_kept_cells_h
+#ifndef undine_cutting_cut_cell_cache_h
+#define undine_cutting_cut_cell_cache_h
 
 #include <undine/cutting/cut_cells.h>
 #include <undine/cutting/split_surface.h>
@@ -22,7 +22,7 @@ namespace undine
   /// corners lie in bodies; while neither changes it is copied instead, to the bit. Nothing is kept
   /// while anything unusual is met on this rank.
   template <int dim>
-  class KeptCells
+  class CutCellCache
   {
   public:
     /// Which of the remembered cells are as they were when remember() was called, now that the

@@ -110,11 +110,11 @@ namespace
     }
 
     void
-    move(const unsigned int body, const double way, Random &random)
+    move(const unsigned int body, const double path, Random &random)
     {
       dealii::Tensor<1, dim> shift;
       for (unsigned int d = 0; d < dim; ++d)
-        shift[d] = random.between(-way, way);
+        shift[d] = random.between(-path, path);
       const auto end = body + 1 < n_bodies ? begins[body + 1] : all.nodes.size();
       for (auto node = begins[body]; node < end; ++node)
         all.nodes[node] += shift;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/cutting/cut_cell_cache.h>
 #include <undine/cutting/cut_workspace.h>
-#include <undine/cutting/kept_cells.h>
 
 #include <algorithm>
 
@@ -44,8 +44,8 @@ namespace undine
 
 
   template <int dim>
-  typename KeptCells<dim>::Windings
-  KeptCells<dim>::windings_around(const CutCells<dim> &cut, const GridIndex<dim> &cell)
+  typename CutCellCache<dim>::Windings
+  CutCellCache<dim>::windings_around(const CutCells<dim> &cut, const GridIndex<dim> &cell)
   {
     Windings result;
     for (unsigned int corner = 0; corner < n_corners; ++corner)
@@ -61,7 +61,7 @@ namespace undine
 
   template <int dim>
   bool
-  KeptCells<dim>::knows(const CutCells<dim> &cut, const PlacedSurface<dim> &placed)
+  CutCellCache<dim>::knows(const CutCells<dim> &cut, const PlacedSurface<dim> &placed)
   {
     // The block that is kept keeps its planes: no others can have their address.
     const bool known = block && &block->planes() == &cut.block.planes() &&
@@ -78,9 +78,9 @@ namespace undine
 
   template <int dim>
   void
-  KeptCells<dim>::compare(const CutCells<dim>      &cut,
-                          const SplitSurface<dim>  &split,
-                          const PlacedSurface<dim> &placed)
+  CutCellCache<dim>::compare(const CutCells<dim>      &cut,
+                             const SplitSurface<dim>  &split,
+                             const PlacedSurface<dim> &placed)
   {
     n_cells_kept = 0;
     if (!knows(cut, placed))
@@ -113,10 +113,10 @@ namespace undine
 
   template <int dim>
   void
-  KeptCells<dim>::find_faces(CutCells<dim>            &cut,
-                             CutWorkspace<dim>        &work,
-                             const PlacedSurface<dim> &placed,
-                             const std::int64_t        key) const
+  CutCellCache<dim>::find_faces(CutCells<dim>            &cut,
+                                CutWorkspace<dim>        &work,
+                                const PlacedSurface<dim> &placed,
+                                const std::int64_t        key) const
   {
     const auto  index = cut.block.node(key);
     const auto &cell  = cells[slots.find(key)];
@@ -138,11 +138,11 @@ namespace undine
 
   template <int dim>
   void
-  KeptCells<dim>::add_face(CutCells<dim>        &cut,
-                           CutWorkspace<dim>    &work,
-                           const Cell           &cell,
-                           const unsigned int    side,
-                           const GridIndex<dim> &face) const
+  CutCellCache<dim>::add_face(CutCells<dim>        &cut,
+                              CutWorkspace<dim>    &work,
+                              const Cell           &cell,
+                              const unsigned int    side,
+                              const GridIndex<dim> &face) const
   {
     const int number = cut.face_slots.add(cut.block.key(face, side / 2));
     if (number < static_cast<int>(cut.faces.size()))
@@ -162,7 +162,7 @@ namespace undine
 
   template <int dim>
   double
-  KeptCells<dim>::add_cell(CutCells<dim> &cut, const std::int64_t key) const
+  CutCellCache<dim>::add_cell(CutCells<dim> &cut, const std::int64_t key) const
   {
     const auto &cell   = cells[slots.find(key)];
     const int   number = cut.cells.size(), first = cut.components.size();
@@ -192,9 +192,9 @@ namespace undine
 
   template <int dim>
   void
-  KeptCells<dim>::remember(const CutCells<dim>      &cut,
-                           const CutWorkspace<dim>  &work,
-                           const PlacedSurface<dim> &placed)
+  CutCellCache<dim>::remember(const CutCells<dim>      &cut,
+                              const CutWorkspace<dim>  &work,
+                              const PlacedSurface<dim> &placed)
   {
     positions = placed.positions;
     slots.clear();
@@ -218,9 +218,9 @@ namespace undine
 
   template <int dim>
   void
-  KeptCells<dim>::remember_cell(const CutCells<dim>     &cut,
-                                const CutWorkspace<dim> &work,
-                                const int                number)
+  CutCellCache<dim>::remember_cell(const CutCells<dim>     &cut,
+                                   const CutWorkspace<dim> &work,
+                                   const int                number)
   {
     const auto &index = cut.cells[number].index;
     const int   first = cut.cells[number].first_component;
@@ -257,7 +257,7 @@ namespace undine
 
   template <int dim>
   std::size_t
-  KeptCells<dim>::memory_consumption() const
+  CutCellCache<dim>::memory_consumption() const
   {
     const auto bytes = [](const auto &...lists) {
       return ((lists.capacity() * sizeof(lists.front())) + ...);
@@ -266,6 +266,6 @@ namespace undine
   }
 
 
-  template class KeptCells<2>;
-  template class KeptCells<3>;
+  template class CutCellCache<2>;
+  template class CutCellCache<3>;
 } // namespace undine

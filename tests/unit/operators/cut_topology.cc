@@ -46,7 +46,7 @@ namespace
     int differences = 0, cells = 0, pieces = 0, periodic_pieces = 0;
 
   private:
-    using Kind = typename LatticeParts<dim>::Kind;
+    using Kind = typename SubLattice<dim>::Kind;
 
     /// Call action(index) for the owned points and one layer around them.
     template <class Action>
@@ -187,11 +187,11 @@ namespace
       differences += std::abs(faces.all()[first].measure - grid.face_area(axis, index)) > 1e-14;
     }
 
-    const Immersed<dim>   &immersed;
-    const OpenParts<dim>  &open;
-    const MacGrid<dim>    &grid;
-    const CutCells<dim>    whole;
-    const DualVolumes<dim> dual;
+    const Immersed<dim>      &immersed;
+    const FluidTopology<dim> &open;
+    const MacGrid<dim>       &grid;
+    const CutCells<dim>       whole;
+    const DualVolumes<dim>    dual;
   };
 
 
@@ -264,7 +264,7 @@ TEST_CASE("All faces of divided cells are divided", "[interface][mpi]")
                              bodies.nodes,
                              {{true, false, false}});
   const auto       &open = immersed.open();
-  using Kind             = LatticeParts<3>::Kind;
+  using Kind             = SubLattice<3>::Kind;
   int n                  = 0;
   for_each(immersed.grid.cells()->owned(), [&](const GridIndex<3> &cell) {
     if (open.cells.kind(cell) == Kind::divided)
@@ -297,7 +297,7 @@ TEST_CASE("Milliseconds for 20,000 triangles in a million cells", "[.][speed]")
       cut_block(cut, work, {surface, bodies.nodes}, grid.cells()->blocks());
       const double cutting = seconds(start);
       start                = Clock::now();
-      const auto   parts   = make_open_parts(grid, cut);
+      const auto   parts   = make_fluid_topology(grid, cut);
       const double opening = seconds(start);
       start                = Clock::now();
       const BoundaryFlux<3> flux(cut, surface);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_operators_cut_parts_h
-#define undine_operators_cut_parts_h
+#ifndef undine_operators_cut_topology_h
+#define undine_operators_cut_topology_h
 
 #include <undine/cutting/cut_cells.h>
+#include <undine/fluid/grid/fluid_topology.h>
 #include <undine/fluid/grid/mac_grid.h>
-#include <undine/fluid/grid/open_parts.h>
 
 #include <array>
 #include <memory>
@@ -14,7 +14,7 @@ namespace undine
 {
   /// What holds no fluid though it lies outside all bodies. For each component and cell the number
   /// of its void region, or one of the others.
-  struct VoidParts
+  struct VoidMask
   {
     static constexpr int fluid     = -1;
     static constexpr int not_whole = -2; ///< a cell that is cut or in a body
@@ -40,9 +40,9 @@ namespace undine
   /// What cut cells leave of the grid, in the fluid's terms, and how its components are numbered in
   /// either.
   template <int dim>
-  struct CutParts
+  struct CutTopology
   {
-    std::shared_ptr<const OpenParts<dim>> open;
+    std::shared_ptr<const FluidTopology<dim>> open;
 
     /// Number in CutCells::components of each component of open->cells; -1 for images of cells that
     /// this rank has not cut.
@@ -63,17 +63,17 @@ namespace undine
 
     /// The other way round.
     std::vector<double>
-    of_open_parts(const std::vector<double> &values) const;
+    of_fluid_topology(const std::vector<double> &values) const;
   };
 
   /// `cut` must come from a block of this rank's cells with a halo, see block_of_rank(). Bodies may
   /// come near to periodic sides but not reach them: the pieces there are whole faces. Where
   /// samples say otherwise, the face is closed. What is void counts as closed. Collective.
   template <int dim>
-  CutParts<dim>
-  make_open_parts(const MacGrid<dim>  &grid,
-                  const CutCells<dim> &cut,
-                  const VoidParts     &voids = VoidParts());
+  CutTopology<dim>
+  make_fluid_topology(const MacGrid<dim>  &grid,
+                      const CutCells<dim> &cut,
+                      const VoidMask      &voids = VoidMask());
 } // namespace undine
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_grid_open_parts_h
-#define undine_fluid_grid_open_parts_h
+#ifndef undine_fluid_grid_fluid_topology_h
+#define undine_fluid_grid_fluid_topology_h
 
-#include <undine/fluid/grid/lattice_parts.h>
+#include <undine/fluid/grid/sub_lattice.h>
 
 #include <array>
 #include <vector>
@@ -13,7 +13,7 @@ namespace undine
   /// velocity for each piece of a face. The same on every rank that knows a part. All faces of
   /// divided cells are divided, open ones into a single piece.
   template <int dim>
-  struct OpenParts
+  struct FluidTopology
   {
     /// What a piece joins if not two components. @{
     static constexpr int outside = -1; ///< beyond the domain, or beyond the cells this rank knows
@@ -27,14 +27,14 @@ namespace undine
     };
 
     /// What is left of a lattice of this grid.
-    const LatticeParts<dim> &
+    const SubLattice<dim> &
     of(const Lattice<dim> &lattice) const
     {
       return lattice.normal_axis() == Lattice<dim>::no_axis ? cells : faces[lattice.normal_axis()];
     }
 
-    LatticeParts<dim>                   cells;
-    std::array<LatticeParts<dim>, dim>  faces;
+    SubLattice<dim>                     cells;
+    std::array<SubLattice<dim>, dim>    faces;
     std::array<std::vector<Piece>, dim> pieces; ///< [axis][part of `faces[axis]`]
   };
 } // namespace undine

@@ -15,7 +15,7 @@ namespace undine
     {
       dealii::Point<dim>                  node;
       std::array<dealii::Point<dim>, dim> facet;
-      dealii::Tensor<1, dim>              way;       ///< of the node against the facet's middle
+      dealii::Tensor<1, dim>              path;      ///< of the node against the facet's middle
       double                              speed = 0; ///< bound for the change of the distance
 
       std::array<dealii::Tensor<1, dim>, dim> ways;
@@ -31,7 +31,7 @@ namespace undine
             simplex.nodes[k] = k;
             corners[k]       = facet[k] + part * ways[k];
           }
-        return nearest_in_simplex<dim>(simplex, corners, node + part * way).distance;
+        return nearest_in_simplex<dim>(simplex, corners, node + part * path).distance;
       }
     };
 
@@ -55,8 +55,8 @@ namespace undine
           spread          = std::max(spread, result.ways[k].norm());
         }
       result.node  = from[node];
-      result.way   = to[node] - from[node] - mean;
-      result.speed = result.way.norm() + spread;
+      result.path  = to[node] - from[node] - mean;
+      result.speed = result.path.norm() + spread;
       return result;
     }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_viscosity_friction_terms_h
-#define undine_fluid_viscosity_friction_terms_h
+#ifndef undine_fluid_viscosity_viscous_terms_h
+#define undine_fluid_viscosity_viscous_terms_h
 
 #include <undine/fluid/model/fluid_model.h>
 #include <undine/fluid/viscosity/face_links.h>
@@ -15,7 +15,7 @@ namespace undine
   /// One of the squares whose sum is the power of friction: weight (sum_k c_k v_k)^2 of velocities
   /// along one axis. The force on what moves with v_k is -weight (sum c v) c_k.
   template <int dim>
-  struct FrictionTerm
+  struct ViscousTerm
   {
     /// A place on the domain's boundary, where the velocity is given; its coefficient is -1.
     struct Wall
@@ -42,24 +42,24 @@ namespace undine
   /// one velocity at the centroid of each piece; W is the distance between the planes' middles, l
   /// the length of a rim or a contact, d the distance. All is exact for linear v in 2D.
   template <int dim>
-  class FrictionTerms
+  class ViscousTerms
   {
   public:
-    using Action = std::function<void(const FrictionTerm<dim> &)>;
+    using Action = std::function<void(const ViscousTerm<dim> &)>;
 
     /// `viscosity` mu [Pa s]. The references must outlive it.
-    FrictionTerms(const FluidModel<dim>    &model,
-                  const unsigned int        axis,
-                  const OpenParts<dim>     &open,
-                  const StickingWalls<dim> &walls,
-                  const double              viscosity);
+    ViscousTerms(const FluidModel<dim>     &model,
+                 const unsigned int         axis,
+                 const FluidTopology<dim>  &open,
+                 const NoSlipSurfaces<dim> &walls,
+                 const double               viscosity);
 
     /// Each term on one rank. Places are owned, or next to owned ones.
     void
     for_each(const Action &action) const;
 
   private:
-    using Term = FrictionTerm<dim>;
+    using Term = ViscousTerm<dim>;
 
     void
     cells(const Action &action) const;
@@ -75,13 +75,13 @@ namespace undine
     double
     area(const FacePlace<dim> &place) const;
 
-    const FluidModel<dim>    &model;
-    const MacGrid<dim>       &grid;
-    const unsigned int        axis;
-    const OpenParts<dim>     &open;
-    const StickingWalls<dim> &walls;
-    const double              viscosity;
-    const FaceLinks<dim>      links;
+    const FluidModel<dim>     &model;
+    const MacGrid<dim>        &grid;
+    const unsigned int         axis;
+    const FluidTopology<dim>  &open;
+    const NoSlipSurfaces<dim> &walls;
+    const double               viscosity;
+    const FaceLinks<dim>       links;
   };
 } // namespace undine
 

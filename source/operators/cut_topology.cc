@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/operators/cut_parts.h>
+#include <undine/operators/compact_numbering.h>
+#include <undine/operators/cut_topology.h>
 #include <undine/operators/dual_volumes.h>
 #include <undine/operators/exchanged_parts.h>
-#include <undine/operators/kept_numbers.h>
 
 #include <algorithm>
 #include <utility>
@@ -12,17 +12,17 @@ namespace undine
   namespace
   {
     template <int dim>
-    using Kind = typename LatticeParts<dim>::Kind;
+    using Kind = typename SubLattice<dim>::Kind;
 
     template <int dim>
-    using Part = typename LatticeParts<dim>::Part;
+    using Part = typename SubLattice<dim>::Part;
 
 
     /// One of the two halves of a face on a periodic side.
     struct Half
     {
       double volume    = 0;  ///< of the fluid on this side that moves with the face [m^dim]
-      int    component = -1; ///< of OpenParts::cells, or OpenParts::whole
+      int    component = -1; ///< of FluidTopology::cells, or FluidTopology::whole
       bool   open      = false;
     };
 
@@ -31,7 +31,7 @@ namespace undine
     class PartsOfCut
     {
     public:
-      PartsOfCut(const MacGrid<dim> &grid, const CutCells<dim> &cut, const VoidParts &voids)
+      PartsOfCut(const MacGrid<dim> &grid, const CutCells<dim> &cut, const VoidMask &voids)
         : grid(grid)
         , cut(cut)
         , voids(voids)
@@ -41,10 +41,10 @@ namespace undine
       {
       }
 
-      CutParts<dim>
+      CutTopology<dim>
       make()
       {
-        auto parts = std::make_shared<OpenParts<dim>>();
+        auto parts = std::make_shared<FluidTopology<dim>>();
         open       = parts.get();
         make_cells();
         number_components();
@@ -58,7 +58,7 @@ namespace undine
       }
 
     private:
-      using Open = OpenParts<dim>;
+      using Open = FluidTopology<dim>;
 
       void
       make_cells();
@@ -125,11 +125,11 @@ namespace undine
 
       const MacGrid<dim>    &grid;
       const CutCells<dim>   &cut;
-      const VoidParts       &voids;
+      const VoidMask        &voids;
       const DualVolumes<dim> dual;
-      const KeptNumbers      components, pieces; ///< those that are not void
+      const CompactNumbering components, pieces; ///< those that are not void
       Open                  *open = nullptr;
-      CutParts<dim>          result;
+      CutTopology<dim>       result;
       std::vector<double>    upper_halves; ///< of each component its Half::volume at the upper
                                            ///< periodic side; -1: does not touch it
     };
@@ -352,7 +352,7 @@ namespace undine
 
   template <int dim>
   std::vector<double>
-  CutParts<dim>::of_cut_cells(const std::vector<double> &values) const
+  CutTopology<dim>::of_cut_cells(const std::vector<double> &values) const
   {
     std::vector<double> result(open_components.size(), 0.);
     for (std::size_t c = 0; c < result.size(); ++c)
@@ -364,7 +364,7 @@ namespace undine
 
   template <int dim>
   std::vector<double>
-  CutParts<dim>::of_open_parts(const std::vector<double> &values) const
+  CutTopology<dim>::of_fluid_topology(const std::vector<double> &values) const
   {
     std::vector<double> result(cut_components.size(), 0.);
     for (std::size_t c = 0; c < result.size(); ++c)
@@ -375,17 +375,17 @@ namespace undine
 
 
   template <int dim>
-  CutParts<dim>
-  make_open_parts(const MacGrid<dim> &grid, const CutCells<dim> &cut, const VoidParts &voids)
+  CutTopology<dim>
+  make_fluid_topology(const MacGrid<dim> &grid, const CutCells<dim> &cut, const VoidMask &voids)
   {
     return PartsOfCut<dim>(grid, cut, voids).make();
   }
 
 
-  template struct CutParts<2>;
-  template struct CutParts<3>;
-  template CutParts<2>
-  make_open_parts(const MacGrid<2> &, const CutCells<2> &, const VoidParts &);
-  template CutParts<3>
-  make_open_parts(const MacGrid<3> &, const CutCells<3> &, const VoidParts &);
+  template struct CutTopology<2>;
+  template struct CutTopology<3>;
+  template CutTopology<2>
+  make_fluid_topology(const MacGrid<2> &, const CutCells<2> &, const VoidMask &);
+  template CutTopology<3>
+  make_fluid_topology(const MacGrid<3> &, const CutCells<3> &, const VoidMask &);
 } // namespace undine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/advection/flow.h>
+#include <undine/fluid/advection/characteristic_tracer.h>
 #include <undine/fluid/grid/interpolation.h>
 #include <undine/fluid/model/fluid_quantities.h>
 
@@ -81,11 +81,11 @@ namespace undine
 
 
   template <int dim>
-  Flow<dim>::Flow(const FluidModel<dim> &model,
-                  const Velocity<dim>   &velocity,
-                  const double           time,
-                  const double           dt,
-                  const Bodies          &bodies)
+  CharacteristicTracer<dim>::CharacteristicTracer(const FluidModel<dim> &model,
+                                                  const Velocity<dim>   &velocity,
+                                                  const double           time,
+                                                  const double           dt,
+                                                  const Bodies          &bodies)
     : fluid_model(model)
     , among(bodies)
     , frozen_velocity(velocity)
@@ -93,32 +93,32 @@ namespace undine
     , step(dt)
     , ghost_width(layers_within(model, longest_way(model, velocity, time, dt), dt))
     , body_vicinity(
-        model.grid(), velocity[0].open_parts(), bodies.open_parts, bodies.obstruction, ghost_width)
+        model.grid(), velocity[0].topology(), bodies.topology, bodies.obstruction, ghost_width)
   {
     complete(frozen_velocity, model, ghost_width, time);
     if (among.obstruction != nullptr)
       for (unsigned int axis = 0; axis < dim; ++axis)
         samples[axis] = std::make_unique<VisibleSamples<dim>>(
-          frozen_velocity[axis], views(frozen_velocity[axis]), body_vicinity);
+          frozen_velocity[axis], stencils(frozen_velocity[axis]), body_vicinity);
   }
 
 
   template <int dim>
-  const std::shared_ptr<CubeViews<dim>> &
-  Flow<dim>::views(const Field<dim> &like) const
+  const std::shared_ptr<VisibilityStencils<dim>> &
+  CharacteristicTracer<dim>::stencils(const Field<dim> &like) const
   {
-    for (const auto &made : views_made)
+    for (const auto &made : stencils_made)
       if (made->points().is_for(like))
         return made;
-    views_made.push_back(
-      std::make_shared<CubeViews<dim>>(like, ghost_width, *among.obstruction, body_vicinity));
-    return views_made.back();
+    stencils_made.push_back(std::make_shared<VisibilityStencils<dim>>(
+      like, ghost_width, *among.obstruction, body_vicinity));
+    return stencils_made.back();
   }
 
 
   template <int dim>
-  const typename Flow<dim>::Bodies &
-  Flow<dim>::bodies() const
+  const typename CharacteristicTracer<dim>::Bodies &
+  CharacteristicTracer<dim>::bodies() const
   {
     return among;
   }
@@ -126,7 +126,7 @@ namespace undine
 
   template <int dim>
   const BodyVicinity<dim> &
-  Flow<dim>::vicinity() const
+  CharacteristicTracer<dim>::vicinity() const
   {
     return body_vicinity;
   }
@@ -134,7 +134,7 @@ namespace undine
 
   template <int dim>
   const FluidModel<dim> &
-  Flow<dim>::model() const
+  CharacteristicTracer<dim>::model() const
   {
     return fluid_model;
   }
@@ -142,7 +142,7 @@ namespace undine
 
   template <int dim>
   double
-  Flow<dim>::time() const
+  CharacteristicTracer<dim>::time() const
   {
     return start_time;
   }
@@ -150,7 +150,7 @@ namespace undine
 
   template <int dim>
   double
-  Flow<dim>::dt() const
+  CharacteristicTracer<dim>::dt() const
   {
     return step;
   }
@@ -158,7 +158,7 @@ namespace undine
 
   template <int dim>
   const Velocity<dim> &
-  Flow<dim>::velocity() const
+  CharacteristicTracer<dim>::velocity() const
   {
     return frozen_velocity;
   }
@@ -166,7 +166,7 @@ namespace undine
 
   template <int dim>
   dealii::Tensor<1, dim>
-  Flow<dim>::velocity_at(const Place &place) const
+  CharacteristicTracer<dim>::velocity_at(const Place &place) const
   {
     if (!body_vicinity.is_next_to_body(place))
       return interpolate(frozen_velocity, place.point);
@@ -182,7 +182,7 @@ namespace undine
 
   template <int dim>
   const GridIndex<dim> &
-  Flow<dim>::width() const
+  CharacteristicTracer<dim>::width() const
   {
     return ghost_width;
   }
@@ -190,7 +190,7 @@ namespace undine
 
   template <int dim>
   GridIndex<dim>
-  Flow<dim>::reach(const int beyond) const
+  CharacteristicTracer<dim>::reach(const int beyond) const
   {
     // Of the planes that may be crossed one is for ways that begin anywhere. From point i a way
     // passes the k others up to i + k only if one as long, begun at a plane, meets k + 1 of them:
@@ -203,38 +203,38 @@ namespace undine
 
 
   template <int dim>
-  typename Flow<dim>::Trace
-  Flow<dim>::trace(const dealii::Point<dim> &point, const double dt) const
+  typename CharacteristicTracer<dim>::Trace
+  CharacteristicTracer<dim>::trace(const dealii::Point<dim> &point, const double dt) const
   {
     const auto place = body_vicinity.place(point);
-    auto       way   = walk(place, dt / 2 * velocity_at(place));
-    if (!way.left_domain)
-      way = walk(place, dt * velocity_at(way.end));
-    return {way.end, way.left_domain, body_vicinity.is_near(place, way.end)};
+    auto       path  = walk(place, dt / 2 * velocity_at(place));
+    if (!path.left_domain)
+      path = walk(place, dt * velocity_at(path.end));
+    return {path.end, path.left_domain, body_vicinity.is_near(place, path.end)};
   }
 
 
   template <int dim>
-  typename Flow<dim>::Walk
-  Flow<dim>::walk(const Place &place, const dealii::Tensor<1, dim> &way) const
+  typename CharacteristicTracer<dim>::Walk
+  CharacteristicTracer<dim>::walk(const Place &place, const dealii::Tensor<1, dim> &path) const
   {
     // A little is left between path and surface, so that the surface hides what lies beyond.
     constexpr double share = 0.98;
-    const auto       end   = body_vicinity.place(place.point + way);
+    const auto       end   = body_vicinity.place(place.point + path);
     if (const double hit = body_vicinity.first_hit(place, end); hit <= 1)
-      return {body_vicinity.place(place.point + share * hit * way), false};
-    const auto [kept, left_domain] = kept_in_domain(place.point, way);
+      return {body_vicinity.place(place.point + share * hit * path), false};
+    const auto [kept, left_domain] = kept_in_domain(place.point, path);
     return {kept == end.point ? end : body_vicinity.place(kept), left_domain};
   }
 
 
   template <int dim>
   std::pair<dealii::Point<dim>, bool>
-  Flow<dim>::kept_in_domain(const dealii::Point<dim>     &place,
-                            const dealii::Tensor<1, dim> &way) const
+  CharacteristicTracer<dim>::kept_in_domain(const dealii::Point<dim>     &place,
+                                            const dealii::Tensor<1, dim> &path) const
   {
     const auto        &grid = fluid_model.grid();
-    dealii::Point<dim> end  = place + way;
+    dealii::Point<dim> end  = place + path;
     // Each turn ends the way at the first boundary it meets, or bends it along that wall.
     for (unsigned int turn = 0; turn < dim; ++turn)
       {
@@ -245,7 +245,7 @@ namespace undine
             {
               const unsigned int upper = end[d] > grid.upper()[d] ? 1 : 0;
               const double       wall  = upper ? grid.upper()[d] : grid.lower()[d];
-              const double       here  = std::max(0., (wall - place[d]) / way[d]);
+              const double       here  = std::max(0., (wall - place[d]) / path[d]);
               if (here < when)
                 {
                   when = here;
@@ -254,7 +254,7 @@ namespace undine
             }
         if (when > 1)
           break;
-        const auto  hit      = place + when * way;
+        const auto  hit      = place + when * path;
         const auto &boundary = fluid_model.boundaries().at(side, hit);
         if (boundary.is_open() || boundary.kind == BoundaryKind::inflow)
           return {hit, true};
@@ -264,6 +264,6 @@ namespace undine
   }
 
 
-  template class Flow<2>;
-  template class Flow<3>;
+  template class CharacteristicTracer<2>;
+  template class CharacteristicTracer<3>;
 } // namespace undine

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_grid_lattice_parts_h
-#define undine_fluid_grid_lattice_parts_h
+#ifndef undine_fluid_grid_sub_lattice_h
+#define undine_fluid_grid_sub_lattice_h
 
 #include <undine/fluid/grid/lattice.h>
 
@@ -23,7 +23,7 @@ namespace undine
   /// Field::part) and its value on the lattice is a mean: of a cell over the volume of its fluid,
   /// of a face the flux through all pieces over the whole area.
   template <int dim>
-  class LatticeParts
+  class SubLattice
   {
   public:
     struct Part
@@ -42,14 +42,14 @@ namespace undine
     };
 
     /// Nothing is divided.
-    LatticeParts() = default;
+    SubLattice() = default;
 
     /// `kinds` of the owned points and one layer around them, as far as there are points, the first
     /// direction running fastest. `parts` in that order of their points; all ranks that know a
     /// divided point list its parts in the same order. Collective.
-    LatticeParts(std::shared_ptr<const Lattice<dim>> lattice,
-                 const std::vector<Kind>            &kinds,
-                 const std::vector<Part>            &parts);
+    SubLattice(std::shared_ptr<const Lattice<dim>> lattice,
+               const std::vector<Kind>            &kinds,
+               const std::vector<Part>            &parts);
 
     const std::vector<Part> &
     all() const
@@ -107,7 +107,7 @@ namespace undine
   /// Call `action(part)` for the parts of a divided point.
   template <int dim, class Action>
   void
-  for_each_part(const LatticeParts<dim> &divided, const GridIndex<dim> &index, Action &&action)
+  for_each_part(const SubLattice<dim> &divided, const GridIndex<dim> &index, Action &&action)
   {
     const int last = divided.last(index);
     for (int part = divided.first(index); part < last; ++part)

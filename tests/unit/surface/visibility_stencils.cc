@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/visibility/cube_views.h>
+#include <undine/fluid/visibility/visibility_stencils.h>
 
 #include <catch2/catch.hpp>
 #include <surface/ball_and_sheet.h>
@@ -39,17 +39,18 @@ namespace
   /// The mean over a point's samples, or the nearest one, that no facet hides from the eye.
   template <int dim>
   std::optional<double>
-  by_brute_force(const SampledPoints<dim>              &points,
-                 const typename CubeViews<dim>::Values &values,
-                 const SurfaceQueries<dim>             &queries,
-                 const GridIndex<dim>                  &index,
-                 const dealii::Point<dim>              &eye,
-                 const bool                             only_nearest)
+  by_brute_force(const SampledPoints<dim>                       &points,
+                 const typename VisibilityStencils<dim>::Values &values,
+                 const SurfaceQueries<dim>                      &queries,
+                 const GridIndex<dim>                           &index,
+                 const dealii::Point<dim>                       &query,
+                 const bool                                      only_nearest)
   {
     double sum = 0, total = 0, nearest = 1e10;
     points.for_each_sample(index, [&](const auto &sample) {
-      const double distance = sample.place.point.distance(eye);
-      if (queries.first_hit(eye, sample.place.point) <= 1 || (only_nearest && distance >= nearest))
+      const double distance = sample.place.point.distance(query);
+      if (queries.first_hit(query, sample.place.point) <= 1 ||
+          (only_nearest && distance >= nearest))
         return;
       if (only_nearest)
         sum = total = 0;
@@ -74,18 +75,19 @@ namespace
 
   /// What is seen of a cube that is clear.
   template <int dim>
-  typename CubeViews<dim>::View
+  typename VisibilityStencils<dim>::VisibilityStencil
   all_corners(const Field<dim> &field, const GridIndex<dim> &lower)
   {
-    typename CubeViews<dim>::View view{{}, (1u << CubeViews<dim>::n_corners) - 1};
-    for (unsigned int corner = 0; corner < CubeViews<dim>::n_corners; ++corner)
+    typename VisibilityStencils<dim>::VisibilityStencil stencil{
+      {}, (1u << VisibilityStencils<dim>::n_corners) - 1};
+    for (unsigned int corner = 0; corner < VisibilityStencils<dim>::n_corners; ++corner)
       {
         auto index = lower;
         for (unsigned int d = 0; d < dim; ++d)
           index[d] += (corner >> d) & 1;
-        view.values[corner] = field(index);
+        stencil.values[corner] = field(index);
       }
-    return view;
+    return stencil;
   }
 
 
@@ -93,7 +95,7 @@ namespace
   void
   compare(const BallAndSheet<dim> &scene,
           const Field<dim>        &field,
-          CubeViews<dim>          &cubes,
+          VisibilityStencils<dim> &cubes,
           Counts                  &counts)
   {
     const auto &lattice = field.lattice();
@@ -102,29 +104,30 @@ namespace
     Random      random(5 + scene.rank());
     for (int number = 0; number < 6000; ++number)
       {
-        const bool     at_speck = number % 10 == 0;
-        const auto     eye = at_speck ? scene.place_at_speck(random) : scene.known_place(random, 1);
+        const bool at_speck = number % 10 == 0;
+        const auto query = at_speck ? scene.place_at_speck(random) : scene.known_place(random, 1);
         GridIndex<dim> lower;
         for (unsigned int d = 0; d < dim; ++d)
-          lower[d] = lattice.row(d).locate(eye[d]).lower;
+          lower[d] = lattice.row(d).locate(query[d]).lower;
         if (!knows_cube(points, lower))
           continue;
         const auto own     = points.inside(lower);
         const bool has_own = number % 2 == 0;
         const auto corners =
-          number % 3 == 0 ? 1u + random.below(CubeViews<dim>::n_corners - 1) : -1u;
-        const bool is_clear = cubes.is_clear(lower, eye);
-        const auto found    = is_clear
-                                ? std::optional(all_corners(field, lower))
-                                : cubes.view(values, lower, eye, corners, has_own ? &own : nullptr);
+          number % 3 == 0 ? 1u + random.below(VisibilityStencils<dim>::n_corners - 1) : -1u;
+        const bool is_clear = cubes.is_clear(lower, query);
+        const auto found =
+          is_clear ? std::optional(all_corners(field, lower))
+                   : cubes.stencil(values, lower, query, corners, has_own ? &own : nullptr);
         counts.clear += is_clear;
-        for (unsigned int corner = 0; found && corner < CubeViews<dim>::n_corners; ++corner)
+        for (unsigned int corner = 0; found && corner < VisibilityStencils<dim>::n_corners;
+             ++corner)
           {
             auto index = lower;
             for (unsigned int d = 0; d < dim; ++d)
               index[d] += (corner >> d) & 1;
             const bool is_own = has_own && points.inside(index) == own;
-            const auto exact  = by_brute_force(points, values, scene.queries, index, eye, is_own);
+            const auto exact  = by_brute_force(points, values, scene.queries, index, query, is_own);
             const bool seen   = found->corners >> corner & 1;
             if (!(corners >> corner & 1))
               {
@@ -154,10 +157,10 @@ TEMPLATE_TEST_CASE_SIG("Views of cubes are those past all facets, one by one",
       Counts                  counts;
       for (unsigned int axis = 0; axis <= dim; ++axis)
         {
-          const auto     lattice = axis < dim ? scene.grid().faces(axis) : scene.grid().cells();
-          Random         random(1);
-          const auto     field = random_field(scene, lattice, random);
-          CubeViews<dim> cubes(field, scene.width, scene.queries, scene.vicinity);
+          const auto lattice = axis < dim ? scene.grid().faces(axis) : scene.grid().cells();
+          Random     random(1);
+          const auto field = random_field(scene, lattice, random);
+          VisibilityStencils<dim> cubes(field, scene.width, scene.queries, scene.vicinity);
           compare(scene, field, cubes, counts);
           // The same cubes serve other fields.
           compare(scene, random_field(scene, lattice, random), cubes, counts);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/pressure/entering_flow.h>
+#include <undine/fluid/pressure/backflow_stabilisation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -18,7 +18,7 @@ namespace undine
 
     template <int dim>
     Extent
-    extent(const MacGrid<dim> &grid, const OpenParts<dim> *open, const OpenFace<dim> &opening)
+    extent(const MacGrid<dim> &grid, const FluidTopology<dim> *open, const OpenFace<dim> &opening)
     {
       const unsigned int axis = opening.side.axis;
       if (opening.piece < 0)
@@ -41,16 +41,16 @@ namespace undine
 
   template <int dim>
   void
-  hold_back_entering_flow(Velocity<dim>              &velocity,
-                          std::vector<OpenFace<dim>> &openings,
-                          const FluidModel<dim>      &model,
-                          const double                dt)
+  stabilise_backflow(Velocity<dim>              &velocity,
+                     std::vector<OpenFace<dim>> &openings,
+                     const FluidModel<dim>      &model,
+                     const double                dt)
   {
     for (auto &opening : openings)
       if (opening.kind == BoundaryKind::outflow)
         {
           const double s    = opening.entering;
-          const auto   size = extent(model.grid(), velocity.open_parts(), opening);
+          const auto   size = extent(model.grid(), velocity.topology(), opening);
           opening.mobility  = 1 / (1 + dt * s * size.area / size.volume);
           opening.pressure  = model.density() / 2 * s * s;
           value_on(velocity, opening) *= opening.mobility;
@@ -70,7 +70,7 @@ namespace undine
     for (auto &opening : openings)
       if (opening.kind == BoundaryKind::outflow)
         {
-          const auto   size = extent(model.grid(), velocity.open_parts(), opening);
+          const auto   size = extent(model.grid(), velocity.topology(), opening);
           const double u    = -opening.side.sign() * value_on(velocity, opening);
           const double now  = std::max(0., u);
           const double miss = now - opening.entering;
@@ -84,13 +84,13 @@ namespace undine
 
 
   template <int dim>
-  HeldBackMatrix::HeldBackMatrix(const dealii::TrilinosWrappers::SparseMatrix &matrix_,
+  BackflowMatrix::BackflowMatrix(const dealii::TrilinosWrappers::SparseMatrix &matrix_,
                                  const FluidModel<dim>                        &model,
                                  const PressureNumbers<dim>                   &numbers,
                                  const std::vector<OpenFace<dim>>             &openings)
     : matrix(matrix_)
   {
-    const auto *open = numbers.open_parts().get();
+    const auto *open = numbers.topology().get();
     for (const auto &opening : openings)
       if (opening.mobility < 1)
         {
@@ -104,7 +104,7 @@ namespace undine
 
 
   void
-  HeldBackMatrix::vmult(Vector &product, const Vector &pressure) const
+  BackflowMatrix::vmult(Vector &product, const Vector &pressure) const
   {
     matrix.vmult(product, pressure);
     for (const auto &[row, value] : removed)
@@ -113,11 +113,11 @@ namespace undine
 
 
 #define INSTANTIATE(dim)                                                                         \
-  template void hold_back_entering_flow(                                                         \
+  template void stabilise_backflow(                                                              \
     Velocity<dim> &, std::vector<OpenFace<dim>> &, const FluidModel<dim> &, const double);       \
   template double update_entering_speeds(                                                        \
     std::vector<OpenFace<dim>> &, const Velocity<dim> &, const FluidModel<dim> &, const double); \
-  template HeldBackMatrix::HeldBackMatrix(const dealii::TrilinosWrappers::SparseMatrix &,        \
+  template BackflowMatrix::BackflowMatrix(const dealii::TrilinosWrappers::SparseMatrix &,        \
                                           const FluidModel<dim> &,                               \
                                           const PressureNumbers<dim> &,                          \
                                           const std::vector<OpenFace<dim>> &);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_pressure_entering_flow_h
-#define undine_fluid_pressure_entering_flow_h
+#ifndef undine_fluid_pressure_backflow_stabilisation_h
+#define undine_fluid_pressure_backflow_stabilisation_h
 
 #include <undine/fluid/grid/pressure_numbers.h>
 #include <undine/fluid/pressure/pressure_gradient.h>
@@ -34,10 +34,10 @@ namespace undine
   /// openings get their mobility m, and their rest rho s^2/2 as pressure.
   template <int dim>
   void
-  hold_back_entering_flow(Velocity<dim>              &velocity,
-                          std::vector<OpenFace<dim>> &openings,
-                          const FluidModel<dim>      &model,
-                          const double                dt);
+  stabilise_backflow(Velocity<dim>              &velocity,
+                     std::vector<OpenFace<dim>> &openings,
+                     const FluidModel<dim>      &model,
+                     const double                dt);
 
   /// s := max(0, u) with u of `velocity` = v^{n+1}; the openings get the pressure that has acted,
   /// with the s before. Returns how much that would change v^{n+1}, at
@@ -51,14 +51,14 @@ namespace undine
 
   /// L = D m (rho V)^-1 D^T, from that with all m = 1: subtracts (1 - m) a^2/(rho V) from the
   /// diagonal. Symmetric and positive definite if that is.
-  class HeldBackMatrix
+  class BackflowMatrix
   {
   public:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
     /// `matrix` must outlive it.
     template <int dim>
-    HeldBackMatrix(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+    BackflowMatrix(const dealii::TrilinosWrappers::SparseMatrix &matrix,
                    const FluidModel<dim>                        &model,
                    const PressureNumbers<dim>                   &numbers,
                    const std::vector<OpenFace<dim>>             &openings);

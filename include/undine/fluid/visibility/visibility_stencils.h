@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_visibility_cube_views_h
-#define undine_fluid_visibility_cube_views_h
+#ifndef undine_fluid_visibility_visibility_stencils_h
+#define undine_fluid_visibility_visibility_stencils_h
 
 #include <undine/fluid/visibility/facets_of_cells.h>
 #include <undine/fluid/visibility/sampled_points.h>
@@ -17,7 +17,7 @@ namespace undine
   /// an eye then looks at the facets between it and what is on their other side, and at none where
   /// a surface parts the cube like a wall.
   template <int dim>
-  class CubeViews
+  class VisibilityStencils
   {
   public:
     static constexpr unsigned int n_corners = 1 << dim;
@@ -26,10 +26,10 @@ namespace undine
 
     /// Of the cubes between stored points of fields like this one, see SampledPoints. Keeps
     /// references to the surfaces and the vicinity. Collective.
-    CubeViews(const Field<dim>        &like,
-              const GridIndex<dim>    &width,
-              const Obstruction<dim>  &obstruction,
-              const BodyVicinity<dim> &vicinity);
+    VisibilityStencils(const Field<dim>        &like,
+                       const GridIndex<dim>    &width,
+                       const Obstruction<dim>  &obstruction,
+                       const BodyVicinity<dim> &vicinity);
 
     /// What is looked at.
     const SampledPoints<dim> &
@@ -39,7 +39,7 @@ namespace undine
     }
 
     /// The corners that are seen: of each the mean, by measure, of its samples that are.
-    struct View
+    struct VisibilityStencil
     {
       std::array<double, n_corners> values;  ///< zero of the others
       unsigned int                  corners; ///< bit by bit
@@ -48,17 +48,17 @@ namespace undine
     /// Is `eye` in a cube, that above point `lower`, without facets and with corners that are
     /// whole? Remembers the cube.
     bool
-    is_clear(const GridIndex<dim> &lower, const dealii::Point<dim> &eye);
+    is_clear(const GridIndex<dim> &lower, const dealii::Point<dim> &query);
 
     /// What `eye` sees of the `values` at these `corners` of a cube that is not clear; of its own
     /// point, if it has one, only the nearest sample. Nothing if the eye is not in the cells of
     /// the cube, or so close to a surface that it takes a closer look.
-    std::optional<View>
-    view(const Values             &values,
-         const GridIndex<dim>     &lower,
-         const dealii::Point<dim> &eye,
-         const unsigned int        corners,
-         const GridIndex<dim>     *own);
+    std::optional<VisibilityStencil>
+    stencil(const Values             &values,
+            const GridIndex<dim>     &lower,
+            const dealii::Point<dim> &query,
+            const unsigned int        corners,
+            const GridIndex<dim>     *own);
 
   private:
     using Mask = std::uint64_t; ///< a bit for each sample of a cube
@@ -77,7 +77,7 @@ namespace undine
 
     /// Facets nearly in one plane, or a wall, and what of the cube's samples is on either side of
     /// the slab around them.
-    struct Screen
+    struct Occluder
     {
       Slab        slab;
       std::size_t facets, facets_end;
@@ -92,7 +92,7 @@ namespace undine
       std::size_t                         samples;      ///< where they begin
       std::array<Mask, n_corners>         of_corner{};  ///< which of them
       std::array<std::uint8_t, n_corners> first{};      ///< of a corner's, which follow each other
-      std::size_t                         screens, screens_end;
+      std::size_t                         occluders, occluders_end;
       bool                                is_wall  = false;
       bool                                is_clear = false; ///< no facets, all corners whole
     };
@@ -108,7 +108,7 @@ namespace undine
     bool
     has_nothing(const GridIndex<dim> &lower, const IndexBox<dim> &cells) const;
 
-    /// Samples and screens; false if it is not to be used.
+    /// Samples and occluders; false if it is not to be used.
     bool
     add_to(Cube &cube, const GridIndex<dim> &lower, const IndexBox<dim> &cells);
 
@@ -123,18 +123,18 @@ namespace undine
     void
     add_screens(Cube &cube, const IndexBox<dim> &cells);
 
-    /// Tell the screen which samples of the cube are on which side of it.
+    /// Tell the occluder which samples of the cube are on which side of it.
     void
-    part(const Cube &cube, Screen &screen) const;
+    part(const Cube &cube, Occluder &occluder) const;
 
     /// Those of the samples `wanted` that an eye sees; nothing if it takes a closer look.
     std::optional<Mask>
-    visible(const Cube &cube, const dealii::Point<dim> &eye, Mask wanted) const;
+    visible(const Cube &cube, const dealii::Point<dim> &query, Mask wanted) const;
 
-    /// Is one of a screen's facets between two places, not both on the same side of it?
+    /// Is one of an occluder's facets between two places, not both on the same side of it?
     bool
-    hides(const Screen             &screen,
-          const dealii::Point<dim> &eye,
+    hides(const Occluder           &occluder,
+          const dealii::Point<dim> &query,
           const dealii::Point<dim> &place) const;
 
     /// Call action(sample) for those of a corner that are among `seen`.
@@ -160,7 +160,7 @@ namespace undine
             const Cube               &cube,
             const unsigned int        corner,
             const Mask                seen,
-            const dealii::Point<dim> &eye) const;
+            const dealii::Point<dim> &query) const;
     /// @}
 
     static constexpr unsigned int unknown = -1;
@@ -172,7 +172,7 @@ namespace undine
     std::vector<unsigned int>  cube_above; ///< each point, in `cubes`, or unknown
     std::vector<Cube>          cubes;      ///< the first is none
     std::vector<Sample>        samples;
-    std::vector<Screen>        screens;
+    std::vector<Occluder>      occluders;
     std::vector<const Facet *> facets_of_screens;
   };
 } // namespace undine

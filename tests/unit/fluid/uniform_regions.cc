@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/advection/quiet_places.h>
+#include <undine/fluid/advection/uniform_regions.h>
 
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>
@@ -66,13 +66,13 @@ TEMPLATE_TEST_CASE_SIG(
         for (unsigned int d = 0; d < dim; ++d)
           reach[d] = most - (d == 1);
         field.exchange(reach);
-        const QuietPlaces<dim> quiet({field}, reach, share);
-        unsigned int           wrong = 0, found = 0;
-        int                    way = 0;
+        const UniformRegions<dim> quiet({field}, reach, share);
+        unsigned int              wrong = 0, found = 0;
+        int                       path = 0;
         for (unsigned int d = 0; d < dim; ++d)
-          way += 2 * reach[d];
+          path += 2 * reach[d];
         for_each(field.owned(), [&](const auto &index) {
-          wrong += quiet.contains(index) != is_quiet(field, index, reach, share / way);
+          wrong += quiet.contains(index) != is_quiet(field, index, reach, share / path);
           found += quiet.contains(index);
         });
         CHECK(wrong == 0);
@@ -106,9 +106,9 @@ TEST_CASE("places are quiet for several fields where they are quiet for each", "
   });
   for (auto &field : fields)
     field.exchange(reach);
-  const QuietPlaces<2> left({fields[0]}, reach, .1), right({fields[1]}, reach, .1);
-  const QuietPlaces<2> both(fields, reach, .1);
-  unsigned int         wrong = 0, by_one = 0;
+  const UniformRegions<2> left({fields[0]}, reach, .1), right({fields[1]}, reach, .1);
+  const UniformRegions<2> both(fields, reach, .1);
+  unsigned int            wrong = 0, by_one = 0;
   for_each(fields[0].owned(), [&](const auto &index) {
     wrong += both.contains(index) != (left.contains(index) && right.contains(index));
     by_one += left.contains(index) != right.contains(index);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/grid/lattice_parts.h>
+#include <undine/fluid/grid/sub_lattice.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -45,9 +45,9 @@ namespace undine
 
 
   template <int dim>
-  LatticeParts<dim>::LatticeParts(std::shared_ptr<const Lattice<dim>> lattice_,
-                                  const std::vector<Kind>            &kinds_,
-                                  const std::vector<Part>            &parts_)
+  SubLattice<dim>::SubLattice(std::shared_ptr<const Lattice<dim>> lattice_,
+                              const std::vector<Kind>            &kinds_,
+                              const std::vector<Part>            &parts_)
     : lattice(std::move(lattice_))
     , box(known_points(*lattice))
     , kinds(kinds_)
@@ -64,7 +64,7 @@ namespace undine
 
   template <int dim>
   void
-  LatticeParts<dim>::find_owners()
+  SubLattice<dim>::find_owners()
   {
     const IndexBox<dim>                       whole{{}, lattice->shape()};
     std::map<unsigned int, std::vector<Name>> requests;
@@ -96,7 +96,7 @@ namespace undine
 
   template <int dim>
   void
-  LatticeParts<dim>::exchange(std::vector<double> &values) const
+  SubLattice<dim>::exchange(std::vector<double> &values) const
   {
     std::map<unsigned int, std::vector<double>> outgoing, incoming;
     std::vector<MPI_Request>                    requests;
@@ -137,6 +137,6 @@ namespace undine
   known_points(const Lattice<2> &);
   template IndexBox<3>
   known_points(const Lattice<3> &);
-  template class LatticeParts<2>;
-  template class LatticeParts<3>;
+  template class SubLattice<2>;
+  template class SubLattice<3>;
 } // namespace undine

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_operators_kept_numbers_h
-#define undine_operators_kept_numbers_h
+#ifndef undine_operators_compact_numbering_h
+#define undine_operators_compact_numbering_h
 
 #include <deal.II/base/array_view.h>
 
@@ -9,11 +9,11 @@
 namespace undine
 {
   /// Those of the numbers 0, 1, ... that are kept.
-  class KeptNumbers
+  class CompactNumbering
   {
   public:
     template <class Predicate>
-    KeptNumbers(const int n, const Predicate &is_kept)
+    CompactNumbering(const int n, const Predicate &is_kept)
     {
       for (int number = 0; number < n; ++number)
         {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/advection/quiet_places.h>
+#include <undine/fluid/advection/uniform_regions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -139,10 +139,10 @@ namespace undine
 
 
   template <int dim>
-  QuietPlaces<dim>::QuietPlaces(const std::vector<Field<dim>> &sources,
-                                const GridIndex<dim>          &reach,
-                                const double                   share,
-                                const LatticeParts<dim>       *now)
+  UniformRegions<dim>::UniformRegions(const std::vector<Field<dim>> &sources,
+                                      const GridIndex<dim>          &reach,
+                                      const double                   share,
+                                      const SubLattice<dim>         *now)
     : owned(sources.front().owned())
     , is_quiet(owned.size(), 0)
   {
@@ -156,7 +156,7 @@ namespace undine
     for (const auto *divided : {like.divided(), now})
       if (divided)
         for_each(like.stored(), [&](const GridIndex<dim> &index) {
-          if (divided->kind(index) != LatticeParts<dim>::Kind::whole)
+          if (divided->kind(index) != SubLattice<dim>::Kind::whole)
             *unquiet.at(index) = 1;
         });
     unquiet.spread(reach);
@@ -170,6 +170,6 @@ namespace undine
   }
 
 
-  template class QuietPlaces<2>;
-  template class QuietPlaces<3>;
+  template class UniformRegions<2>;
+  template class UniformRegions<3>;
 } // namespace undine

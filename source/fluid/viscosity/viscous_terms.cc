@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/boundary/boundary_condition.h>
-#include <undine/fluid/viscosity/friction_terms.h>
+#include <undine/fluid/viscosity/viscous_terms.h>
 
 #include <cmath>
 
@@ -15,11 +15,11 @@ namespace undine
 
 
   template <int dim>
-  FrictionTerms<dim>::FrictionTerms(const FluidModel<dim>    &model,
-                                    const unsigned int        axis,
-                                    const OpenParts<dim>     &open,
-                                    const StickingWalls<dim> &walls,
-                                    const double              viscosity)
+  ViscousTerms<dim>::ViscousTerms(const FluidModel<dim>     &model,
+                                  const unsigned int         axis,
+                                  const FluidTopology<dim>  &open,
+                                  const NoSlipSurfaces<dim> &walls,
+                                  const double               viscosity)
     : model(model)
     , grid(model.grid())
     , axis(axis)
@@ -33,7 +33,7 @@ namespace undine
 
   template <int dim>
   void
-  FrictionTerms<dim>::for_each(const Action &action) const
+  ViscousTerms<dim>::for_each(const Action &action) const
   {
     cells(action);
     components(action);
@@ -45,7 +45,7 @@ namespace undine
 
   template <int dim>
   double
-  FrictionTerms<dim>::area(const FacePlace<dim> &place) const
+  ViscousTerms<dim>::area(const FacePlace<dim> &place) const
   {
     return place.part < 0 ? grid.face_area(axis, place.face)
                           : open.faces[axis].all()[place.part].measure;
@@ -54,11 +54,11 @@ namespace undine
 
   template <int dim>
   void
-  FrictionTerms<dim>::cells(const Action &action) const
+  ViscousTerms<dim>::cells(const Action &action) const
   {
     Term term;
     undine::for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-      if (open.cells.kind(cell) != LatticeParts<dim>::Kind::whole)
+      if (open.cells.kind(cell) != SubLattice<dim>::Kind::whole)
         return;
       term.faces.clear();
       term.weight = viscosity / grid.cell_volume(cell);
@@ -73,7 +73,7 @@ namespace undine
 
   template <int dim>
   void
-  FrictionTerms<dim>::components(const Action &action) const
+  ViscousTerms<dim>::components(const Action &action) const
   {
     const auto       &all = open.cells.all();
     std::vector<Term> terms(all.size());
@@ -103,7 +103,7 @@ namespace undine
 
   template <int dim>
   void
-  FrictionTerms<dim>::neighbours(const Action &action) const
+  ViscousTerms<dim>::neighbours(const Action &action) const
   {
     Term term;
     term.faces.resize(2);
@@ -128,7 +128,7 @@ namespace undine
 
   template <int dim>
   void
-  FrictionTerms<dim>::sides(const Action &action) const
+  ViscousTerms<dim>::sides(const Action &action) const
   {
     Term                         term;
     const auto                  &lattice = *grid.faces(axis);
@@ -171,7 +171,7 @@ namespace undine
 
   template <int dim>
   void
-  FrictionTerms<dim>::contacts(const Action &action) const
+  ViscousTerms<dim>::contacts(const Action &action) const
   {
     Term term;
     term.faces.resize(1);
@@ -188,8 +188,8 @@ namespace undine
   }
 
 
-  template struct FrictionTerm<2>;
-  template struct FrictionTerm<3>;
-  template class FrictionTerms<2>;
-  template class FrictionTerms<3>;
+  template struct ViscousTerm<2>;
+  template struct ViscousTerm<3>;
+  template class ViscousTerms<2>;
+  template class ViscousTerms<3>;
 } // namespace undine

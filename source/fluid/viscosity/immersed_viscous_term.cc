@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/grid/field_algebra.h>
-#include <undine/fluid/viscosity/immersed_friction.h>
+#include <undine/fluid/viscosity/immersed_viscous_term.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
@@ -11,21 +11,21 @@
 namespace undine
 {
   template <int dim>
-  ImmersedFriction<dim>::ImmersedFriction(const FluidModel<dim>                    &model,
-                                          const unsigned int                        axis,
-                                          std::shared_ptr<const OpenParts<dim>>     open_,
-                                          std::shared_ptr<const StickingWalls<dim>> walls_,
-                                          const double                              viscosity)
+  ImmersedViscousTerm<dim>::ImmersedViscousTerm(const FluidModel<dim>                     &model,
+                                                const unsigned int                         axis,
+                                                std::shared_ptr<const FluidTopology<dim>>  open_,
+                                                std::shared_ptr<const NoSlipSurfaces<dim>> walls_,
+                                                const double viscosity)
     : model(model)
     , axis(axis)
     , open(std::move(open_))
-    , sticking_walls(std::move(walls_))
-    , terms(model, axis, *open, *sticking_walls, viscosity)
+    , no_slip_surfaces(std::move(walls_))
+    , terms(model, axis, *open, *no_slip_surfaces, viscosity)
     , kinematic(viscosity / model.density())
   {
     number_unknowns();
     std::vector<std::pair<Number, double>> free;
-    terms.for_each([&](const FrictionTerm<dim> &term) {
+    terms.for_each([&](const ViscousTerm<dim> &term) {
       collect(free, term);
       if (free.size() < term.faces.size() || !term.nodes.empty() || term.wall.boundary)
         given_terms.push_back(term);
@@ -37,11 +37,11 @@ namespace undine
   template <int dim>
   template <class Action>
   void
-  ImmersedFriction<dim>::for_each_owned(const Action &action) const
+  ImmersedViscousTerm<dim>::for_each_owned(const Action &action) const
   {
     const auto &divided = open->faces[axis];
     for_each(model.grid().faces(axis)->owned(), [&](const GridIndex<dim> &face) {
-      if (divided.kind(face) == LatticeParts<dim>::Kind::whole)
+      if (divided.kind(face) == SubLattice<dim>::Kind::whole)
         action(FacePlace<dim>{face, -1});
     });
     for (std::size_t k = 0; k < divided.all().size(); ++k)
@@ -53,7 +53,7 @@ namespace undine
   /// Faces and pieces of rank 0 first; the nodes of bodies belong to the last rank.
   template <int dim>
   void
-  ImmersedFriction<dim>::number_unknowns()
+  ImmersedViscousTerm<dim>::number_unknowns()
   {
     namespace mpi           = dealii::Utilities::MPI;
     const auto communicator = model.grid().communicator();
@@ -63,7 +63,7 @@ namespace undine
     Number count = 0;
     for_each_value(numbers, [&](double &, const auto &, const auto &) { ++count; });
     first_node           = mpi::sum(count, communicator);
-    const Number n_nodes = is_last ? sticking_walls->masses.size() : 0;
+    const Number n_nodes = is_last ? no_slip_surfaces->masses.size() : 0;
     mine                 = mpi::create_ascending_partitioning(communicator,
                                               count + n_nodes)[mpi::this_mpi_process(communicator)];
     Number next          = count > 0 ? mine.nth_index_in_set(0) : 0;
@@ -75,7 +75,7 @@ namespace undine
   /// rho V_f [kg]
   template <int dim>
   double
-  ImmersedFriction<dim>::mass(const FacePlace<dim> &place) const
+  ImmersedViscousTerm<dim>::mass(const FacePlace<dim> &place) const
   {
     return model.density() * (place.part < 0 ? model.grid().dual_volume(axis, place.face)
                                              : open->pieces[axis][place.part].volume);
@@ -84,7 +84,7 @@ namespace undine
 
   template <int dim>
   bool
-  ImmersedFriction<dim>::is_held(const FacePlace<dim> &place) const
+  ImmersedViscousTerm<dim>::is_held(const FacePlace<dim> &place) const
   {
     if (!model.grid().at_boundary(axis, place.face))
       return false;
@@ -95,18 +95,18 @@ namespace undine
 
   template <int dim>
   bool
-  ImmersedFriction<dim>::is_free(const unsigned int node) const
+  ImmersedViscousTerm<dim>::is_free(const unsigned int node) const
   {
-    return node < sticking_walls->masses.size() &&
-           std::isfinite(sticking_walls->masses[node][axis]);
+    return node < no_slip_surfaces->masses.size() &&
+           std::isfinite(no_slip_surfaces->masses[node][axis]);
   }
 
 
   /// The unknowns of a term and their coefficients.
   template <int dim>
   void
-  ImmersedFriction<dim>::collect(std::vector<std::pair<Number, double>> &free,
-                                 const FrictionTerm<dim>                &term) const
+  ImmersedViscousTerm<dim>::collect(std::vector<std::pair<Number, double>> &free,
+                                    const ViscousTerm<dim>                 &term) const
   {
     free.clear();
     for (const auto &[place, coefficient] : term.faces)
@@ -120,7 +120,7 @@ namespace undine
 
   template <int dim>
   void
-  ImmersedFriction<dim>::assemble(const double dt)
+  ImmersedViscousTerm<dim>::assemble(const double dt)
   {
     const auto                             communicator = model.grid().communicator();
     std::vector<std::pair<Number, double>> free;
@@ -131,7 +131,7 @@ namespace undine
       mine, communicator, mine.is_empty() ? 0 : 2 * dim + 1);
     for (const auto row : mine)
       pattern.add(row, row);
-    terms.for_each([&](const FrictionTerm<dim> &term) {
+    terms.for_each([&](const ViscousTerm<dim> &term) {
       collect(free, term);
       columns.clear();
       for (const auto &unknown : free)
@@ -146,12 +146,12 @@ namespace undine
       const auto number = static_cast<Number>(value_at(numbers, place));
       matrix.add(number, number, mass(place));
     });
-    for (unsigned int node = 0; node < sticking_walls->masses.size(); ++node)
+    for (unsigned int node = 0; node < no_slip_surfaces->masses.size(); ++node)
       if (mine.is_element(first_node + node))
         matrix.add(first_node + node,
                    first_node + node,
-                   is_free(node) ? sticking_walls->masses[node][axis] : 1.);
-    terms.for_each([&](const FrictionTerm<dim> &term) {
+                   is_free(node) ? no_slip_surfaces->masses[node][axis] : 1.);
+    terms.for_each([&](const ViscousTerm<dim> &term) {
       collect(free, term);
       columns.clear();
       for (const auto &unknown : free)
@@ -179,9 +179,9 @@ namespace undine
   /// sum c v over what is not an unknown.
   template <int dim>
   double
-  ImmersedFriction<dim>::given_part(const FrictionTerm<dim> &term,
-                                    const Field<dim>        &field,
-                                    const double             time) const
+  ImmersedViscousTerm<dim>::given_part(const ViscousTerm<dim> &term,
+                                       const Field<dim>       &field,
+                                       const double            time) const
   {
     double sum = 0;
     for (const auto &[place, coefficient] : term.faces)
@@ -198,22 +198,22 @@ namespace undine
 
   template <int dim>
   void
-  ImmersedFriction<dim>::fill(Vector           &solution,
-                              Vector           &load,
-                              const Field<dim> &field,
-                              const double      time) const
+  ImmersedViscousTerm<dim>::fill(Vector           &solution,
+                                 Vector           &load,
+                                 const Field<dim> &field,
+                                 const double      time) const
   {
     for_each_owned([&](const FacePlace<dim> &place) {
       const auto number = static_cast<Number>(value_at(numbers, place));
       solution(number)  = value_at(field, place);
       load(number)      = mass(place) * value_at(field, place);
     });
-    for (unsigned int node = 0; node < sticking_walls->masses.size(); ++node)
+    for (unsigned int node = 0; node < no_slip_surfaces->masses.size(); ++node)
       if (const auto number = first_node + node; mine.is_element(number))
         {
           solution(number) = nodes[node];
           load(number) =
-            (is_free(node) ? sticking_walls->masses[node][axis] : 1.) * solution(number);
+            (is_free(node) ? no_slip_surfaces->masses[node][axis] : 1.) * solution(number);
         }
     solution.compress(dealii::VectorOperation::insert);
     load.compress(dealii::VectorOperation::insert);
@@ -232,9 +232,9 @@ namespace undine
   /// As bodies would move by friction alone.
   template <int dim>
   void
-  ImmersedFriction<dim>::take_over_free_nodes(const Vector &solution)
+  ImmersedViscousTerm<dim>::take_over_free_nodes(const Vector &solution)
   {
-    std::vector<double> values(sticking_walls->masses.size(), 0.);
+    std::vector<double> values(no_slip_surfaces->masses.size(), 0.);
     for (unsigned int node = 0; node < values.size(); ++node)
       if (mine.is_element(first_node + node))
         values[node] = solution(first_node + node);
@@ -245,10 +245,10 @@ namespace undine
 
   template <int dim>
   void
-  ImmersedFriction<dim>::measure_forces(const Field<dim> &field, const double time)
+  ImmersedViscousTerm<dim>::measure_forces(const Field<dim> &field, const double time)
   {
     const auto communicator = model.grid().communicator();
-    last_forces.on_nodes.assign(sticking_walls->n_nodes, 0.);
+    last_forces.on_nodes.assign(no_slip_surfaces->n_nodes, 0.);
     last_forces.on_boundaries.assign(model.boundaries().all().size(), 0.);
     for (const auto &term : given_terms)
       {
@@ -279,10 +279,10 @@ namespace undine
 
   template <int dim>
   unsigned int
-  ImmersedFriction<dim>::step(Field<dim>                                &field,
-                              const std::vector<dealii::Tensor<1, dim>> &node_velocities,
-                              const double                               time,
-                              const double                               dt)
+  ImmersedViscousTerm<dim>::step(Field<dim>                                &field,
+                                 const std::vector<dealii::Tensor<1, dim>> &node_velocities,
+                                 const double                               time,
+                                 const double                               dt)
   {
     nodes.clear();
     for (const auto &velocity : node_velocities)
@@ -310,13 +310,13 @@ namespace undine
 
   template <int dim>
   std::size_t
-  ImmersedFriction<dim>::memory_consumption() const
+  ImmersedViscousTerm<dim>::memory_consumption() const
   {
     return solver.memory_consumption() + numbers.memory_consumption() +
-           given_terms.capacity() * sizeof(FrictionTerm<dim>);
+           given_terms.capacity() * sizeof(ViscousTerm<dim>);
   }
 
 
-  template class ImmersedFriction<2>;
-  template class ImmersedFriction<3>;
+  template class ImmersedViscousTerm<2>;
+  template class ImmersedViscousTerm<3>;
 } // namespace undine

@@ -2,7 +2,7 @@
 #include <undine/cutting/plane_chord.h>
 #include <undine/fluid/boundary/boundary.h>
 #include <undine/fluid/viscosity/face_links.h>
-#include <undine/operators/make_sticking_walls.h>
+#include <undine/operators/make_no_slip_surfaces.h>
 #include <undine/surface/facet_geometry.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace undine
     public:
       WallFinder(const MacGrid<dim>       &grid,
                  const CutCells<dim>      &cut,
-                 const CutParts<dim>      &parts,
+                 const CutTopology<dim>   &parts,
                  const PlacedSurface<dim> &placed)
         : grid(grid)
         , cut(cut)
@@ -40,19 +40,19 @@ namespace undine
 
       /// Append the contacts of chords, then those of rims behind which nothing is open. @{
       void
-      add_chords(StickingWalls<dim> &walls, const unsigned int axis) const;
+      add_chords(NoSlipSurfaces<dim> &walls, const unsigned int axis) const;
       void
-      add_closed_rims(StickingWalls<dim> &walls, const unsigned int axis) const;
+      add_closed_rims(NoSlipSurfaces<dim> &walls, const unsigned int axis) const;
       /// @}
 
     private:
-      using Contact = typename StickingWalls<dim>::Contact;
+      using Contact = typename NoSlipSurfaces<dim>::Contact;
 
       void
-      add_chords_of_cell(StickingWalls<dim> &walls,
-                         const unsigned int  axis,
-                         const int           cell,
-                         const unsigned int  end) const;
+      add_chords_of_cell(NoSlipSurfaces<dim> &walls,
+                         const unsigned int   axis,
+                         const int            cell,
+                         const unsigned int   end) const;
       std::vector<dealii::Point<dim>>
       corners_on_plane(const int fragment, const unsigned int axis, const double plane) const;
       int
@@ -66,7 +66,7 @@ namespace undine
                              const unsigned int    axis,
                              const GridIndex<dim> &face) const;
       void
-      add_closed_rim(StickingWalls<dim>   &walls,
+      add_closed_rim(NoSlipSurfaces<dim>  &walls,
                      const FaceLinks<dim> &links,
                      const FacePlace<dim> &place,
                      const unsigned int    axis,
@@ -104,8 +104,8 @@ namespace undine
 
       const MacGrid<dim>       &grid;
       const CutCells<dim>      &cut;
-      const CutParts<dim>      &parts;
-      const OpenParts<dim>     &open;
+      const CutTopology<dim>   &parts;
+      const FluidTopology<dim> &open;
       const PlacedSurface<dim> &placed;
     };
 
@@ -176,11 +176,11 @@ namespace undine
       int         result  = -1;
       double      nearest = std::numeric_limits<double>::infinity();
       for_each_part(divided, face, [&](const int part) {
-        const auto way = chord.middle - divided.all()[part].place;
-        if (open.pieces[axis][part].components[end] != component || way * chord.normal <= 0 ||
-            way.norm() >= nearest)
+        const auto offset = chord.middle - divided.all()[part].place;
+        if (open.pieces[axis][part].components[end] != component || offset * chord.normal <= 0 ||
+            offset.norm() >= nearest)
           return;
-        nearest = way.norm();
+        nearest = offset.norm();
         result  = part;
       });
       return result;
@@ -218,10 +218,10 @@ namespace undine
     /// On the face of a cell at `end` of `axis`.
     template <int dim>
     void
-    WallFinder<dim>::add_chords_of_cell(StickingWalls<dim> &walls,
-                                        const unsigned int  axis,
-                                        const int           cell,
-                                        const unsigned int  end) const
+    WallFinder<dim>::add_chords_of_cell(NoSlipSurfaces<dim> &walls,
+                                        const unsigned int   axis,
+                                        const int            cell,
+                                        const unsigned int   end) const
     {
       const auto   face  = moved<dim>(cut.cells[cell].index, axis, end);
       const double plane = cut.block.planes().position(axis, face[axis]);
@@ -239,9 +239,9 @@ namespace undine
             piece_at(axis, face, 1 - end, parts.open_components[fragment.component], chord);
           if (part < 0 || length == 0)
             continue;
-          const auto way = chord.middle - open.faces[axis].all()[part].place;
+          const auto offset = chord.middle - open.faces[axis].all()[part].place;
           add(walls.contacts[axis],
-              {face, part, length, way * chord.normal / length, {}, {}},
+              {face, part, length, offset * chord.normal / length, {}, {}},
               axis,
               fragment.facet,
               chord.middle);
@@ -251,7 +251,7 @@ namespace undine
 
     template <int dim>
     void
-    WallFinder<dim>::add_chords(StickingWalls<dim> &walls, const unsigned int axis) const
+    WallFinder<dim>::add_chords(NoSlipSurfaces<dim> &walls, const unsigned int axis) const
     {
       const auto &owned = grid.faces(axis)->owned();
       for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
@@ -280,7 +280,7 @@ namespace undine
 
     template <int dim>
     void
-    WallFinder<dim>::add_closed_rims(StickingWalls<dim> &walls, const unsigned int axis) const
+    WallFinder<dim>::add_closed_rims(NoSlipSurfaces<dim> &walls, const unsigned int axis) const
     {
       const FaceLinks<dim> links(grid, axis, open, walls.rims[axis]);
       for_each(grid.faces(axis)->owned(), [&](const GridIndex<dim> &face) {
@@ -299,7 +299,7 @@ namespace undine
     /// What lies on a plane of the grid closes the faces behind it without a chord in them.
     template <int dim>
     void
-    WallFinder<dim>::add_closed_rim(StickingWalls<dim>   &walls,
+    WallFinder<dim>::add_closed_rim(NoSlipSurfaces<dim>  &walls,
                                     const FaceLinks<dim> &links,
                                     const FacePlace<dim> &place,
                                     const unsigned int    axis,
@@ -316,12 +316,15 @@ namespace undine
         return;
       auto         on_rim = links.centroid(place);
       const double at     = links.side(place, side.axis, side.end);
-      const double way    = side.sign() * (at - on_rim[side.axis]);
+      const double offset = side.sign() * (at - on_rim[side.axis]);
       on_rim[side.axis]   = at;
       const int facet     = nearest_facet(on_rim, place.face, axis, side);
       if (facet >= 0)
-        add(
-          walls.contacts[axis], {place.face, place.part, closed, way, {}, {}}, axis, facet, on_rim);
+        add(walls.contacts[axis],
+            {place.face, place.part, closed, offset, {}, {}},
+            axis,
+            facet,
+            on_rim);
     }
 
 
@@ -360,15 +363,15 @@ namespace undine
 
 
   template <int dim>
-  StickingWalls<dim>
-  make_sticking_walls(const MacGrid<dim>       &grid,
-                      const CutCells<dim>      &cut,
-                      const CutParts<dim>      &parts,
-                      const BoundaryFlux<dim>  &boundary_flux,
-                      const PlacedSurface<dim> &placed)
+  NoSlipSurfaces<dim>
+  make_no_slip_surfaces(const MacGrid<dim>       &grid,
+                        const CutCells<dim>      &cut,
+                        const CutTopology<dim>   &parts,
+                        const BoundaryFlux<dim>  &boundary_flux,
+                        const PlacedSurface<dim> &placed)
   {
     const WallFinder<dim> finder(grid, cut, parts, placed);
-    StickingWalls<dim>    walls;
+    NoSlipSurfaces<dim>   walls;
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
         walls.rims[axis] = finder.rims(axis);
@@ -383,16 +386,16 @@ namespace undine
   }
 
 
-  template StickingWalls<2>
-  make_sticking_walls(const MacGrid<2> &,
-                      const CutCells<2> &,
-                      const CutParts<2> &,
-                      const BoundaryFlux<2> &,
-                      const PlacedSurface<2> &);
-  template StickingWalls<3>
-  make_sticking_walls(const MacGrid<3> &,
-                      const CutCells<3> &,
-                      const CutParts<3> &,
-                      const BoundaryFlux<3> &,
-                      const PlacedSurface<3> &);
+  template NoSlipSurfaces<2>
+  make_no_slip_surfaces(const MacGrid<2> &,
+                        const CutCells<2> &,
+                        const CutTopology<2> &,
+                        const BoundaryFlux<2> &,
+                        const PlacedSurface<2> &);
+  template NoSlipSurfaces<3>
+  make_no_slip_surfaces(const MacGrid<3> &,
+                        const CutCells<3> &,
+                        const CutTopology<3> &,
+                        const BoundaryFlux<3> &,
+                        const PlacedSurface<3> &);
 } // namespace undine
