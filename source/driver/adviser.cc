@@ -114,7 +114,7 @@ namespace undine
     largest.time += report.dt;
     if (models.fluid)
       largest.speed = std::max(largest.speed, column(report.columns, "Fluid largest speed"));
-    if (const auto *damped = find(report.columns, "energy by damping")) // of the ledger
+    if (const auto *damped = find(report.columns, "energy by damping")) // of the budget
       largest.damped += std::abs(damped->value);
     if (models.solid)
       {

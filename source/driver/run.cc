@@ -148,6 +148,14 @@ namespace undine
     }
 
 
+    void
+    print_remarks(const Options &options, Log &log)
+    {
+      for (const auto &remark : options.file().remarks())
+        log.print("note: {}", remark);
+    }
+
+
     template <int dim>
     void
     start_outputs(const State<dim>         &state,
@@ -227,6 +235,7 @@ namespace undine
     {
       Log log(communicator);
       check_sections<dim>(options); // mistakes first
+      print_remarks(options, log);
       const auto  size   = SizeCheck::of<dim>(options, communicator);
       std::string checks = "no mistakes found";
       if (size.may_be_too_large())
@@ -260,6 +269,7 @@ namespace undine
       if (request.action != Request::Action::resume || scene.directory != request.directory)
         assert_replaceable(folder, request.overwrite, communicator);
       print_header(log, scene, options, communicator);
+      print_remarks(options, log);
       size.print(log, scene.directory);
       State<dim> state;
       set_up(state, scene, options, request, folder, log, timing, communicator);

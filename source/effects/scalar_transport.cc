@@ -51,17 +51,17 @@ namespace undine
           "field's range, nothing is carried: what holds no smoke costs nothing. 0: "
           "everything is carried.");
         options.add("Diffusivity", diffusivity, "m^2/s", Allowed::not_negative(), "Its own.");
-        options.add("Held boundaries",
+        options.add("Dirichlet boundaries",
                     held_boundaries,
                     "",
                     Allowed::anything(),
                     "Names of boundaries on which the value is held, such as heated walls.");
         options.add(
-          "Held value", held, "", Allowed::anything(), "On the boundaries where it is held.");
-        if (!options.is_reference() && options.given("Held value") && held_boundaries.empty())
-          throw options.error("Held value",
+          "Dirichlet value", held, "", Allowed::anything(), "On the boundaries where it is held.");
+        if (!options.is_reference() && options.given("Dirichlet value") && held_boundaries.empty())
+          throw options.error("Dirichlet value",
                               "is given, but no boundary to hold it",
-                              "Name boundaries of the fluid in 'Held boundaries'.");
+                              "Name boundaries of the fluid in 'Dirichlet boundaries'.");
       }
 
       bool
@@ -383,7 +383,7 @@ namespace undine
               return boundary.name == name;
             }))
           throw options.section(field.name)
-            .error("Held boundaries",
+            .error("Dirichlet boundaries",
                    "the fluid has no boundary named '" + name + "'",
                    "Allowed: " + known);
     }

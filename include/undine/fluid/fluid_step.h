@@ -87,7 +87,7 @@ namespace undine
     std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces
     /// @}
 
-    /// For the ledger: the work of the effect that has just acted, on this rank, by the effect's
+    /// For the budget: the work of the effect that has just acted, on this rank, by the effect's
     /// own formula [J]; empty: it has none.
     std::optional<double> work;
 

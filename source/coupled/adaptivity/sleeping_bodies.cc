@@ -66,11 +66,11 @@ namespace undine
 
   template <int dim>
   SleepingBodies<dim>::SleepingBodies(const Models<dim> &models,
-                                      Ledger<dim>       &ledger,
+                                      Budget<dim>       &budget,
                                       TimingTree        &timing,
                                       Make               make)
     : all(models)
-    , ledger(ledger)
+    , budget(budget)
     , timing(timing)
     , make(std::move(make))
     , environment(models.wishes_of_effects())
@@ -128,8 +128,8 @@ namespace undine
         part->of_awake->put_into(whole, state.solid);
         state.solid = whole;
       }
-    if (ledger.is_on())
-      ledger.add_rest(rest);
+    if (budget.is_on())
+      budget.add_rest(rest);
     add_columns(report, state);
   }
 
@@ -158,7 +158,7 @@ namespace undine
     if (sleep.any_asleep())
       make_part(state);
     const auto &models = part ? part->models : all;
-    ledger.follow(models.surface.get());
+    budget.follow(models.surface.get());
     if (models.solid || models.fluid)
       physics = make(models);
   }

@@ -24,15 +24,15 @@ namespace undine
   {
   public:
     SimultaneousPhysics(const Models<dim>      &models,
-                        Ledger<dim>            &ledger,
+                        Budget<dim>            &budget,
                         TimingTree             &timing,
                         const CouplingSettings &settings)
       : models(models)
-      , ledger(ledger)
+      , budget(budget)
       , timing(timing)
       , settings(settings)
-      , fluid_side(models, ledger, timing)
-      , solid_side(models, ledger, timing)
+      , fluid_side(models, budget, timing)
+      , solid_side(models, budget, timing)
       , solver(*models.solid, settings.solver)
       , motion_solver(*models.solid)
     {
@@ -83,12 +83,12 @@ namespace undine
     void
     balance(const CoupledStep<dim> &step, const SolidReport<dim> &solid, const double dt)
     {
-      if (!ledger.is_on())
+      if (!budget.is_on())
         return;
       const auto measured = timing.section("measure");
-      ledger.add(step.pressure_balance(), dt);
-      ledger.add(step.exchange(), dt);
-      ledger.add(step.solid_balance(solid), dt);
+      budget.add(step.pressure_balance(), dt);
+      budget.add(step.exchange(), dt);
+      budget.add(step.solid_balance(solid), dt);
     }
 
     void
@@ -99,7 +99,7 @@ namespace undine
     }
 
     const Models<dim>      &models;
-    Ledger<dim>            &ledger;
+    Budget<dim>            &budget;
     TimingTree             &timing;
     const CouplingSettings &settings;
     FluidSide<dim>          fluid_side;
@@ -137,9 +137,9 @@ namespace undine
 
   protected:
     std::unique_ptr<Physics<dim>>
-    couple(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing) const override
+    couple(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing) const override
     {
-      return std::make_unique<SimultaneousPhysics<dim>>(models, ledger, timing, settings);
+      return std::make_unique<SimultaneousPhysics<dim>>(models, budget, timing, settings);
     }
 
   private:

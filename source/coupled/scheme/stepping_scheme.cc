@@ -44,8 +44,8 @@ namespace undine
              "less than Step halved so often.");
     integrator = choose_time_integrator(options);
     options.section("Output").add(
-      "Ledger",
-      keeps_ledger,
+      "Budget",
+      keeps_budget,
       "",
       Allowed::anything(),
       "Write what energy and momentum of every step come from and go to, and what the sums lack.");
@@ -65,10 +65,10 @@ namespace undine
   SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
   {
     communicator = models.communicator();
-    ledger       = std::make_unique<Ledger<dim>>(models, keeps_ledger, has_stages());
+    budget       = std::make_unique<Budget<dim>>(models, keeps_budget, has_stages());
     if (models.solid && models.wishes_of_effects().sleep_settings)
       physics = std::make_unique<SleepingBodies<dim>>(
-        models, *ledger, timing, [this, &timing](const Models<dim> &awake) {
+        models, *budget, timing, [this, &timing](const Models<dim> &awake) {
           return make_physics(awake, timing);
         });
     else
@@ -81,7 +81,7 @@ namespace undine
         *integrator,
         typename StepError<dim>::Settings{tolerance, displacement, asked_step, shortest_step()});
     physics->initialize(state, choose_dt(state), report);
-    append(report.columns, ledger->columns());
+    append(report.columns, budget->columns());
     if (step_error)
       {
         step_error->start(state);
@@ -96,12 +96,12 @@ namespace undine
   SteppingScheme<dim>::make_physics(const Models<dim> &models, TimingTree &timing) const
   {
     if (!models.solid)
-      return std::make_unique<FluidAlone<dim>>(models, *ledger, timing);
+      return std::make_unique<FluidAlone<dim>>(models, *budget, timing);
     if (!models.fluid)
-      return std::make_unique<SolidAlone<dim>>(models, *ledger, timing);
+      return std::make_unique<SolidAlone<dim>>(models, *budget, timing);
     if (models.direction != Direction::two_way)
-      return std::make_unique<OneWay<dim>>(models, *ledger, timing);
-    return couple(models, *ledger, timing);
+      return std::make_unique<OneWay<dim>>(models, *budget, timing);
+    return couple(models, *budget, timing);
   }
 
 
@@ -152,13 +152,13 @@ namespace undine
   void
   SteppingScheme<dim>::advance(State<dim> &state, Report &report)
   {
-    ledger->start();
+    budget->start();
     for (const auto &stage : integrator->stages(report.dt, state.clock.step > 0))
       {
         throw_if_interrupted(communicator);
         physics->step(state, stage, report);
       }
-    append(report.columns, ledger->columns());
+    append(report.columns, budget->columns());
   }
 
 

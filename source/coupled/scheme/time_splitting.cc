@@ -18,15 +18,15 @@ namespace undine
   {
   public:
     SplitPhysics(const Models<dim> &models,
-                 Ledger<dim>       &ledger,
+                 Budget<dim>       &budget,
                  TimingTree        &timing,
                  const std::string &driven_by)
       : models(models)
-      , ledger(ledger)
+      , budget(budget)
       , timing(timing)
       , driven_by(driven_by)
-      , fluid_side(models, ledger, timing)
-      , solid_side(models, ledger, timing)
+      , fluid_side(models, budget, timing)
+      , solid_side(models, budget, timing)
       , projection(*models.fluid)
     {
     }
@@ -68,14 +68,14 @@ namespace undine
       exchange.increment   = models.surface->with_bodies(increment, still());
       exchange.velocities  = node_velocities(state, exchange.increment, fluid->dt);
       const auto projected = project(state, *fluid, exchange.velocities);
-      if (ledger.is_on() && stage.is_last)
+      if (budget.is_on() && stage.is_last)
         {
           const auto phase  = timing.section("measure");
           exchange.by_fluid = geometry.pressure_forces(state.fluid.pressure);
           exchange.pushed   = exchange.by_fluid;
-          ledger.add(projected.balance(*models.fluid, state.fluid), fluid->dt);
-          ledger.add(exchange, fluid->dt);
-          ledger.add(*solid.balance, fluid->dt);
+          budget.add(projected.balance(*models.fluid, state.fluid), fluid->dt);
+          budget.add(exchange, fluid->dt);
+          budget.add(*solid.balance, fluid->dt);
         }
       report.linear_iterations += projected.iterations;
       fluid_side.finish(*fluid, state, report, projected.divergence);
@@ -130,7 +130,7 @@ namespace undine
     }
 
     const Models<dim> &models;
-    Ledger<dim>       &ledger;
+    Budget<dim>       &budget;
     TimingTree        &timing;
     const std::string  driven_by; ///< velocity | displacement
     FluidSide<dim>     fluid_side;
@@ -160,9 +160,9 @@ namespace undine
 
   protected:
     std::unique_ptr<Physics<dim>>
-    couple(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing) const override
+    couple(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing) const override
     {
-      return std::make_unique<SplitPhysics<dim>>(models, ledger, timing, driven_by);
+      return std::make_unique<SplitPhysics<dim>>(models, budget, timing, driven_by);
     }
 
   private:

@@ -4,11 +4,11 @@
 namespace undine
 {
   template <int dim>
-  FluidAlone<dim>::FluidAlone(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing)
+  FluidAlone<dim>::FluidAlone(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
     : model(*models.fluid)
-    , ledger(ledger)
+    , budget(budget)
     , timing(timing)
-    , fluid_side(models, ledger, timing)
+    , fluid_side(models, budget, timing)
     , projection(*models.fluid)
   {
   }
@@ -40,7 +40,7 @@ namespace undine
                            fluid->dt,
                            geometry ? geometry->swept_volume_flux(fluid->dt) : SweptVolumeFlux());
     }
-    if (ledger.is_on() && stage.is_last)
+    if (budget.is_on() && stage.is_last)
       balance(state, projected, fluid->dt);
     report.linear_iterations += projected.iterations;
     fluid_side.finish(*fluid, state, report, projected.divergence);
@@ -62,14 +62,14 @@ namespace undine
                            const double                            dt)
   {
     const auto phase = timing.section("measure");
-    ledger.add(projected.balance(model, state.fluid), dt);
+    budget.add(projected.balance(model, state.fluid), dt);
     if (const auto *geometry = fluid_side.geometry())
       {
         SurfaceExchange<dim> exchange;
         exchange.by_fluid   = geometry->pressure_forces(state.fluid.pressure);
         exchange.pushed     = exchange.by_fluid;
         exchange.velocities = geometry->surface_velocities();
-        ledger.add(exchange, dt);
+        budget.add(exchange, dt);
       }
   }
 

@@ -6,10 +6,10 @@
 namespace undine
 {
   template <int dim>
-  FluidSide<dim>::FluidSide(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing)
+  FluidSide<dim>::FluidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
     : models(models)
     , model(*models.fluid)
-    , ledger(ledger)
+    , budget(budget)
     , timing(timing)
     , environment(models.environment())
     , surface_friction(models)
@@ -129,7 +129,7 @@ namespace undine
   template <class Action>
   void
   FluidSide<dim>::run_phase(FluidStep<dim>                   &fluid,
-                            const typename Ledger<dim>::Phase phase,
+                            const typename Budget<dim>::Phase phase,
                             const Action                     &act)
   {
     for (unsigned int e = 0; e < models.effects.size(); ++e)
@@ -137,7 +137,7 @@ namespace undine
         fluid.work.reset();
         act(*models.effects[e]);
         if (fluid.stage.is_last)
-          ledger.add(phase, e, fluid.state.velocity, fluid.work);
+          budget.add(phase, e, fluid.state.velocity, fluid.work);
       }
   }
 
@@ -158,7 +158,7 @@ namespace undine
   FluidSide<dim>::predict(State<dim> &state, const Stage &stage)
   {
     if (stage.is_first)
-      ledger.start(state.fluid.velocity);
+      budget.start(state.fluid.velocity);
     place_surfaces(state, stage);
     share_parts(state.fluid);
     auto fluid = std::make_unique<FluidStep<dim>>(model,
@@ -172,20 +172,20 @@ namespace undine
     {
       const auto phase = timing.section("transport");
       run_phase(
-        *fluid, Ledger<dim>::transport, [&](const auto &effect) { effect.transport(*fluid); });
+        *fluid, Budget<dim>::transport, [&](const auto &effect) { effect.transport(*fluid); });
       fluid->remap();
       if (stage.is_last)
-        ledger.add(Ledger<dim>::transport, state.fluid.velocity);
+        budget.add(Budget<dim>::transport, state.fluid.velocity);
     }
     {
       const auto phase = timing.section("accelerate");
       run_phase(
-        *fluid, Ledger<dim>::forces, [&](const auto &effect) { effect.accelerate(*fluid); });
+        *fluid, Budget<dim>::forces, [&](const auto &effect) { effect.accelerate(*fluid); });
     }
     {
       const auto phase = timing.section("diffuse");
       run_phase(
-        *fluid, Ledger<dim>::diffusion, [&](const auto &effect) { effect.diffuse(*fluid); });
+        *fluid, Budget<dim>::diffusion, [&](const auto &effect) { effect.diffuse(*fluid); });
     }
     return fluid;
   }

@@ -5,12 +5,12 @@
 namespace undine
 {
   template <int dim>
-  OneWay<dim>::OneWay(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing)
+  OneWay<dim>::OneWay(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
     : models(models)
-    , ledger(ledger)
+    , budget(budget)
     , timing(timing)
-    , fluid_side(models, ledger, timing)
-    , solid_side(models, ledger, timing)
+    , fluid_side(models, budget, timing)
+    , solid_side(models, budget, timing)
     , projection(*models.fluid)
     , at_start(start_of_bodies(*models.solid))
   {
@@ -38,7 +38,7 @@ namespace undine
   {
     Half half = models.direction == Direction::fluid_to_body ? fluid_then_body(state, stage)
                                                              : body_then_fluid(state, stage);
-    if (ledger.is_on() && stage.is_last)
+    if (budget.is_on() && stage.is_last)
       book(half, state);
     report.linear_iterations += half.projected.iterations;
     fluid_side.finish(*half.fluid, state, report, half.projected.divergence);
@@ -150,9 +150,9 @@ namespace undine
     const auto phase       = timing.section("measure");
     half.exchange.by_fluid = fluid_side.geometry()->pressure_forces(state.fluid.pressure);
     half.exchange.pushed   = half.exchange.by_fluid;
-    ledger.add(half.projected.balance(*models.fluid, state.fluid), half.fluid->dt);
-    ledger.add(half.exchange, half.fluid->dt);
-    ledger.add(*half.solid.balance, half.fluid->dt);
+    budget.add(half.projected.balance(*models.fluid, state.fluid), half.fluid->dt);
+    budget.add(half.exchange, half.fluid->dt);
+    budget.add(*half.solid.balance, half.fluid->dt);
   }
 
 

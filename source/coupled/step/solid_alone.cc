@@ -4,9 +4,9 @@
 namespace undine
 {
   template <int dim>
-  SolidAlone<dim>::SolidAlone(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing)
-    : ledger(ledger)
-    , solid_side(models, ledger, timing)
+  SolidAlone<dim>::SolidAlone(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
+    : budget(budget)
+    , solid_side(models, budget, timing)
   {
   }
 
@@ -28,7 +28,7 @@ namespace undine
     const auto solid = solid_side.advance(state, stage);
     solid_side.end(state, stage, solid);
     if (solid.balance && stage.is_last)
-      ledger.add(*solid.balance, stage.length);
+      budget.add(*solid.balance, stage.length);
     solid_side.finish(state, stage, solid, report);
   }
 

@@ -22,14 +22,14 @@ namespace undine
 
 
   template <int dim>
-  SolidSide<dim>::SolidSide(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing)
+  SolidSide<dim>::SolidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
     : model(*models.solid)
-    , ledger(ledger)
+    , budget(budget)
     , timing(timing)
     , surroundings(models.environment())
     , solid_step(model)
   {
-    if (ledger.is_on())
+    if (budget.is_on())
       solid_step.keep_balance();
   }
 
@@ -56,7 +56,7 @@ namespace undine
     contact.keeps_rates = true;
     if (stage.is_first)
       contact.old_energy.reset();
-    if (stage.is_first && ledger.is_on())
+    if (stage.is_first && budget.is_on())
       contact.old_energy = surroundings.contact->energy(contact.place, contact.time);
   }
 
@@ -68,8 +68,8 @@ namespace undine
     if (!stage.keeps_rates)
       return;
     start_contact(state, stage);
-    if (ledger.is_on() && stage.is_first)
-      ledger.start(solid_step.amounts(state.solid));
+    if (budget.is_on() && stage.is_first)
+      budget.start(solid_step.amounts(state.solid));
     using Start     = typename State<dim>::StageStart;
     const auto  now = state.solid;
     const Start still{now,
@@ -82,8 +82,8 @@ namespace undine
       start = state.next;
     state.solid     = start.solid;
     state.increment = start.increment;
-    if (ledger.is_on() && stage.is_last)
-      ledger.add(solid_step.amounts(state.solid));
+    if (budget.is_on() && stage.is_last)
+      budget.add(solid_step.amounts(state.solid));
     if (stage.is_last)
       return;
     state.next = still;

@@ -41,14 +41,14 @@ namespace
     const Options options(read_scene_text(swirl_among_bodies<dim>() + section("Obstacles", bodies) +
                                           section("Effects", viscosity(30))));
     const auto    models = make_models<dim>(options);
-    Ledger<dim>   ledger(models, true);
+    Budget<dim>   budget(models, true);
     TimingTree    timing;
-    FluidAlone<dim> scheme(models, ledger, timing);
+    FluidAlone<dim> scheme(models, budget, timing);
     State<dim>      state;
     Report          report;
     const double    dt = .01;
     scheme.initialize(state, dt, report);
-    FluidSide<dim> side(models, ledger, timing);
+    FluidSide<dim> side(models, budget, timing);
     const auto     fluid = side.predict(state, single_stage(dt));
     REQUIRE(fluid->friction);
     dealii::Tensor<1, dim> on_nodes, on_sides;
@@ -56,7 +56,7 @@ namespace
       on_nodes += force;
     for (const auto &force : fluid->friction->on_boundaries)
       on_sides += force;
-    const auto columns = ledger.columns();
+    const auto columns = budget.columns();
     for (unsigned int axis = 0; axis < dim; ++axis)
       for (const auto &column : columns)
         if (column.name == std::string("momentum by diffusion ") + "xyz"[axis])
@@ -86,7 +86,7 @@ namespace
                "20\nset Displacement = t; 0"),
       viscosity(value),
       .01);
-    FluidSide<2> side(run.models, run.ledger, run.timing);
+    FluidSide<2> side(run.models, run.budget, run.timing);
     run.state.fluid.velocity =
       run.models.fluid->initial_state(run.state.fluid.pressure.topology()).velocity;
     run.state.fluid.pressure =
@@ -101,7 +101,7 @@ namespace
   sheet_in_cavity(const std::string &integrator, const double density)
   {
     return section("Time", "set Step = .01\nset Integrator = " + integrator) +
-           section("Output", "set Ledger = true") + section("Domain", "set Cells = 24, 24") +
+           section("Output", "set Budget = true") + section("Domain", "set Cells = 24, 24") +
            section("Fluid",
                    "set Density = 1000\n" +
                      section("Boundaries",

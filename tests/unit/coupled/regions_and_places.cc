@@ -28,7 +28,7 @@ TEST_CASE("A region that no body yields to keeps its fluid beside coupled bodies
 {
   // Behind a wall a ball stirs fluid that has no outlet.
   CoupledRun<2> run(
-    steps_of(.05) + section("Output", "set Ledger = true") + tank("16, 8") +
+    steps_of(.05) + section("Output", "set Budget = true") + tank("16, 8") +
     section("Fluid",
             "set Density = 1000\n" + section("Boundaries", boundary("out", "left", "outflow"))) +
     section("Bodies",

@@ -60,7 +60,7 @@ namespace
       complaints.push_back("is on, but no phase bears its name: open one where it works, "
                            "'const auto timed = step.timing.section(this->name);'");
     if (!on_particles && !run.has("energy by " + name))
-      complaints.push_back("has no term 'energy by " + name + "' in the ledger");
+      complaints.push_back("has no term 'energy by " + name + "' in the budget");
     const std::string column = sample.column.empty() ? "energy by " + name : sample.column;
     if (!sample.energy)
       complaints.push_back("has a sample without a formula: give EffectSample::energy");

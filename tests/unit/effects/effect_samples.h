@@ -30,7 +30,7 @@ namespace undine_tests
   sample_steps(const double dt)
   {
     return section("Time", fmt::format("set End = 10\nset Step = {}\nset Integrator = theta", dt)) +
-           section("Output", "set Ledger = true\nset Parts = ");
+           section("Output", "set Budget = true\nset Parts = ");
   }
 
 

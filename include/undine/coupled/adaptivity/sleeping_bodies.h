@@ -2,7 +2,7 @@
 #ifndef undine_coupled_adaptivity_sleeping_bodies_h
 #define undine_coupled_adaptivity_sleeping_bodies_h
 
-#include <undine/coupled/budget/ledger.h>
+#include <undine/coupled/budget/budget.h>
 #include <undine/coupled/step/physics.h>
 #include <undine/solid/mesh/part_of_bodies.h>
 #include <undine/solid/step/solid_step.h>
@@ -22,7 +22,7 @@ namespace undine
   /// With V and T of SleepSettings, at the end of a step:
   ///
   ///  - a body falls asleep if no node has been faster than V for the time T; it keeps d, and what
-  ///    is left of its u is taken away when the next step begins (the ledger's term `sleep`);
+  ///    is left of its u is taken away when the next step begins (the budget's term `sleep`);
   ///  - it wakes if sum_i |F_i - F_i'| > m V / T over the nodes of its surface (S18), F being the
   ///    loads of fluid and contact and F' those with which it fell asleep; the step is then done
   ///    again with it awake, so that none is accepted in which something that sleeps should not.
@@ -37,7 +37,7 @@ namespace undine
 
     /// `models` are those of all bodies, of which there are some. The references must outlive it.
     /// Collective.
-    SleepingBodies(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing, Make make);
+    SleepingBodies(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing, Make make);
 
     void
     initialize(State<dim> &state, double dt, Report &report) override;
@@ -79,7 +79,7 @@ namespace undine
     add_columns(Report &report, const State<dim> &state) const;
 
     const Models<dim>                               &all;
-    Ledger<dim>                                     &ledger;
+    Budget<dim>                                     &budget;
     TimingTree                                      &timing;
     const Make                                       make;
     const SolidEnvironment<dim>                      environment; ///< of all bodies, but no contact

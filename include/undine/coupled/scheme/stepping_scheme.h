@@ -4,7 +4,7 @@
 
 #include <undine/base/core/errors.h>
 #include <undine/coupled/adaptivity/step_error.h>
-#include <undine/coupled/budget/ledger.h>
+#include <undine/coupled/budget/budget.h>
 #include <undine/coupled/scheme/scheme.h>
 #include <undine/coupled/step/physics.h>
 #include <undine/solid/time/time_integrator.h>
@@ -48,7 +48,7 @@ namespace undine
 
     /// Fluid and bodies together.
     virtual std::unique_ptr<Physics<dim>>
-    couple(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing) const = 0;
+    couple(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing) const = 0;
 
   private:
     void
@@ -73,8 +73,8 @@ namespace undine
     double                          tolerance    = 0;    // [1]
     double                          displacement = 0;    // [m]
     unsigned int                    maximum_cuts = 6;
-    bool                            keeps_ledger = false;
-    std::unique_ptr<Ledger<dim>>    ledger;
+    bool                            keeps_budget = false;
+    std::unique_ptr<Budget<dim>>    budget;
     std::unique_ptr<Physics<dim>>   physics;
 
     std::unique_ptr<const StepError<dim>> step_error; // nullptr: constant steps

@@ -2,7 +2,7 @@
 #ifndef undine_coupled_step_coupled_step_h
 #define undine_coupled_step_coupled_step_h
 
-#include <undine/coupled/budget/ledger.h>
+#include <undine/coupled/budget/budget.h>
 #include <undine/coupled/state/state.h>
 #include <undine/coupled/step/coupled_equations.h>
 #include <undine/fluid/fluid_step.h>
@@ -49,7 +49,7 @@ namespace undine
     double
     divergence() const;
 
-    /// What solve() did, for the ledger. Collective. @{
+    /// What solve() did, for the budget. Collective. @{
     PressureBalance<dim>
     pressure_balance() const;
     SurfaceExchange<dim>

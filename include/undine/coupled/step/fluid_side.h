@@ -3,7 +3,7 @@
 #define undine_coupled_step_fluid_side_h
 
 #include <undine/base/core/timing.h>
-#include <undine/coupled/budget/ledger.h>
+#include <undine/coupled/budget/budget.h>
 #include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/coupled/immersed/surface_friction.h>
 #include <undine/coupled/model/models.h>
@@ -22,7 +22,7 @@ namespace undine
   {
   public:
     /// The references must outlive it. Collective.
-    FluidSide(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing);
+    FluidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing);
 
     /// The fluid at the start; what stands in it is where `state` says. `dt` [s] is the length of
     /// the first step. Collective. Throws SolveError.
@@ -61,7 +61,7 @@ namespace undine
   private:
     template <class Action>
     void
-    run_phase(FluidStep<dim> &fluid, typename Ledger<dim>::Phase phase, const Action &act);
+    run_phase(FluidStep<dim> &fluid, typename Budget<dim>::Phase phase, const Action &act);
     void
     count_memory(const FluidState<dim> &state);
     typename FluidGeometry<dim>::Positions
@@ -79,7 +79,7 @@ namespace undine
 
     const Models<dim>                  &models;
     const FluidModel<dim>              &model;
-    Ledger<dim>                        &ledger;
+    Budget<dim>                        &budget;
     TimingTree                         &timing;
     const SolidEnvironment<dim>         environment;
     std::unique_ptr<FluidGeometry<dim>> cut;

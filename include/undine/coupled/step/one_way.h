@@ -21,7 +21,7 @@ namespace undine
   {
   public:
     /// The references must outlive it. Collective.
-    OneWay(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing);
+    OneWay(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing);
 
     void
     initialize(State<dim> &state, double dt, Report &report) override;
@@ -59,7 +59,7 @@ namespace undine
     book(Half &half, const State<dim> &state);
 
     const Models<dim> &models;
-    Ledger<dim>       &ledger;
+    Budget<dim>       &budget;
     TimingTree        &timing;
     FluidSide<dim>     fluid_side;
     SolidSide<dim>     solid_side;

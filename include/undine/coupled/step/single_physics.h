@@ -16,7 +16,7 @@ namespace undine
   {
   public:
     /// The references must outlive it. Collective.
-    SolidAlone(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing);
+    SolidAlone(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing);
 
     void
     initialize(State<dim> &state, double dt, Report &report) override;
@@ -25,7 +25,7 @@ namespace undine
     step(State<dim> &state, const Stage &stage, Report &report) override;
 
   private:
-    Ledger<dim>   &ledger;
+    Budget<dim>   &budget;
     SolidSide<dim> solid_side;
   };
 
@@ -35,7 +35,7 @@ namespace undine
   {
   public:
     /// The references must outlive it. Collective.
-    FluidAlone(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing);
+    FluidAlone(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing);
 
     void
     initialize(State<dim> &state, double dt, Report &report) override;
@@ -51,7 +51,7 @@ namespace undine
     balance(const State<dim> &state, const typename Projection<dim>::Report &projected, double dt);
 
     const FluidModel<dim> &model;
-    Ledger<dim>           &ledger;
+    Budget<dim>           &budget;
     TimingTree            &timing;
     FluidSide<dim>         fluid_side;
     Projection<dim>        projection;

@@ -3,7 +3,7 @@
 #define undine_coupled_step_solid_side_h
 
 #include <undine/base/core/stage.h>
-#include <undine/coupled/budget/ledger.h>
+#include <undine/coupled/budget/budget.h>
 #include <undine/coupled/state/report.h>
 #include <undine/coupled/state/state.h>
 #include <undine/solid/step/solid_step.h>
@@ -19,7 +19,7 @@ namespace undine
     using Vector = typename SolidModel<dim>::Vector;
 
     /// The references must outlive it. Collective.
-    SolidSide(const Models<dim> &models, Ledger<dim> &ledger, TimingTree &timing);
+    SolidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing);
 
     /// The bodies at the time of the state's clock. `dt` [s] is the length of the first step.
     /// Collective.
@@ -27,7 +27,7 @@ namespace undine
     initialize(State<dim> &state, double dt) const;
 
     /// The bodies of `state` become those from which the stage of the step from t^n starts, and
-    /// what its step needs of them for the stage that follows is put aside; the ledger, if it is
+    /// what its step needs of them for the stage that follows is put aside; the budget, if it is
     /// on, learns of it. Nothing if the stage keeps no rates. Collective.
     void
     start(State<dim> &state, const Stage &stage) const;
@@ -74,7 +74,7 @@ namespace undine
     start_contact(State<dim> &state, const Stage &stage) const;
 
     const SolidModel<dim>      &model;
-    Ledger<dim>                &ledger;
+    Budget<dim>                &budget;
     TimingTree                 &timing;
     const SolidEnvironment<dim> surroundings;
     SolidStep<dim>              solid_step;

@@ -7,7 +7,7 @@ using namespace undine_tests;
 
 namespace
 {
-  const std::string ledger = section("Output", "set Ledger = true");
+  const std::string budget = section("Output", "set Budget = true");
 
 
   /// Everything at once: a stream with a body and a moving obstacle in it, gravity, friction,
@@ -21,7 +21,7 @@ namespace
     const std::string right = plane_or_space<dim>("1; 0", "1; 0; 0");
     const std::string down  = plane_or_space<dim>("0, -2", "0, -2, 0");
     const std::string load  = plane_or_space<dim>("0; -20", "0; -20; 0");
-    return first_lines + steps_of(1. / 30) + ledger +
+    return first_lines + steps_of(1. / 30) + budget +
            section("Domain", plane_or_space<dim>("set Cells = 16, 16", "set Cells = 8, 8, 7")) +
            section("Fluid",
                    "set Density = 5\nset Initial velocity = " + right + "\n" +
@@ -149,9 +149,9 @@ TEST_CASE("Both sides of the surface get the same momentum, but not with time sp
 }
 
 
-TEST_CASE("Bodies and fluids alone have a ledger, too", "[coupled][mpi]")
+TEST_CASE("Bodies and fluids alone have a budget, too", "[coupled][mpi]")
 {
-  const auto    steps = steps_of(.02) + ledger;
+  const auto    steps = steps_of(.02) + budget;
   CoupledRun<2> bodies(
     steps +
     section("Bodies",

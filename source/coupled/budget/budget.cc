@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/relative.h>
-#include <undine/coupled/budget/ledger.h>
+#include <undine/coupled/budget/budget.h>
 #include <undine/fluid/model/fluid_quantities.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace undine
 {
   template <int dim>
-  const char *const Ledger<dim>::names[n_terms] = {"transport",
+  const char *const Budget<dim>::names[n_terms] = {"transport",
                                                    "forces",
                                                    "diffusion",
                                                    "boundary values",
@@ -31,7 +31,7 @@ namespace undine
 
 
   template <int dim>
-  Ledger<dim>::Ledger(const Models<dim> &models, const bool is_on, const bool has_stages)
+  Budget<dim>::Budget(const Models<dim> &models, const bool is_on, const bool has_stages)
     : models(models)
     , on(is_on)
     , has_stages(has_stages)
@@ -45,7 +45,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::follow(const ImmersedSurface<dim> *new_surface)
+  Budget<dim>::follow(const ImmersedSurface<dim> *new_surface)
   {
     surface = new_surface;
   }
@@ -53,7 +53,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::start()
+  Budget<dim>::start()
   {
     gain   = {};
     terms  = {};
@@ -63,8 +63,8 @@ namespace undine
 
 
   template <int dim>
-  typename Ledger<dim>::Amount
-  Ledger<dim>::amount(const Velocity<dim> &velocity) const
+  typename Budget<dim>::Amount
+  Budget<dim>::amount(const Velocity<dim> &velocity) const
   {
     return {kinetic_energy(*models.fluid, velocity), linear_momentum(*models.fluid, velocity)};
   }
@@ -72,7 +72,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::start(const Velocity<dim> &velocity)
+  Budget<dim>::start(const Velocity<dim> &velocity)
   {
     start();
     if (!on)
@@ -85,7 +85,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::start(const SolidAmounts<dim> &amounts)
+  Budget<dim>::start(const SolidAmounts<dim> &amounts)
   {
     bodies = {amounts.energy, amounts.momentum};
   }
@@ -93,7 +93,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::add(const SolidAmounts<dim> &amounts)
+  Budget<dim>::add(const SolidAmounts<dim> &amounts)
   {
     auto &term = terms[by_stages];
     term       = {amounts.energy - bodies.energy, amounts.momentum - bodies.momentum};
@@ -105,7 +105,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::add(const Phase phase, const Velocity<dim> &velocity)
+  Budget<dim>::add(const Phase phase, const Velocity<dim> &velocity)
   {
     if (!on)
       return;
@@ -118,7 +118,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::add(const Phase                  phase,
+  Budget<dim>::add(const Phase                  phase,
                    const unsigned int           effect,
                    const Velocity<dim>         &velocity,
                    const std::optional<double> &work)
@@ -137,7 +137,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::add(const PressureBalance<dim> &pressures, const double dt)
+  Budget<dim>::add(const PressureBalance<dim> &pressures, const double dt)
   {
     terms[by_boundary_values].energy   = pressures.energy_before - fluid.energy;
     terms[by_boundary_values].momentum = pressures.momentum_before - fluid.momentum;
@@ -152,7 +152,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::add(const SurfaceExchange<dim> &surfaces, const double dt)
+  Budget<dim>::add(const SurfaceExchange<dim> &surfaces, const double dt)
   {
     const auto n_nodes = surfaces.by_fluid.size();
     const auto n_body  = surface->n_body_nodes();
@@ -183,7 +183,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::add(const SolidBalance<dim> &solid, const double dt)
+  Budget<dim>::add(const SolidBalance<dim> &solid, const double dt)
   {
     gain.energy += solid.kinetic + solid.elastic + solid.contact_energy;
     gain.momentum += solid.momentum;
@@ -203,7 +203,7 @@ namespace undine
 
   template <int dim>
   void
-  Ledger<dim>::add_rest(const SolidAmounts<dim> &rest)
+  Budget<dim>::add_rest(const SolidAmounts<dim> &rest)
   {
     terms[by_sleep] = {-rest.energy, -rest.momentum};
     gain.energy -= rest.energy;
@@ -214,7 +214,7 @@ namespace undine
 
   template <int dim>
   bool
-  Ledger<dim>::concerns(const unsigned int term) const
+  Budget<dim>::concerns(const unsigned int term) const
   {
     if (term < by_obstacles)
       return models.fluid != nullptr;
@@ -229,8 +229,8 @@ namespace undine
 
 
   template <int dim>
-  typename Ledger<dim>::Amount
-  Ledger<dim>::missing() const
+  typename Budget<dim>::Amount
+  Budget<dim>::missing() const
   {
     Amount result = gain;
     for (const auto &term : terms)
@@ -245,7 +245,7 @@ namespace undine
   /// An effect that has a term of its own, as damping has, needs no other.
   template <int dim>
   void
-  Ledger<dim>::add_effects(Columns &columns) const
+  Budget<dim>::add_effects(Columns &columns) const
   {
     for (unsigned int e = 0; e < models.effects.size(); ++e)
       {
@@ -260,7 +260,7 @@ namespace undine
 
   template <int dim>
   Columns
-  Ledger<dim>::columns() const
+  Budget<dim>::columns() const
   {
     if (!on)
       return {};
@@ -290,6 +290,6 @@ namespace undine
   }
 
 
-  template class Ledger<2>;
-  template class Ledger<3>;
+  template class Budget<2>;
+  template class Budget<3>;
 } // namespace undine

@@ -32,9 +32,9 @@ namespace undine
 
 
   /// Where energy and momentum of a step come from and go to, each term from its own formula, and
-  /// what is missing in the sum. A ledger that is not switched on does nothing and costs nothing.
+  /// what is missing in the sum. A budget that is not switched on does nothing and costs nothing.
   template <int dim>
-  class Ledger
+  class Budget
   {
   public:
     /// What changes the fluid's velocity before pressures do.
@@ -47,7 +47,7 @@ namespace undine
     };
 
     /// `models` must outlive it. `has_stages`: steps have stages that keep rates.
-    Ledger(const Models<dim> &models, bool is_on, bool has_stages = false);
+    Budget(const Models<dim> &models, bool is_on, bool has_stages = false);
 
     bool
     is_on() const
