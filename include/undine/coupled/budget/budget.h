@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_coupled_budget_ledger_h
-#define undine_coupled_budget_ledger_h
+#ifndef undine_coupled_budget_budget_h
+#define undine_coupled_budget_budget_h
 
 #include <undine/base/core/column.h>
 #include <undine/coupled/model/models.h>
