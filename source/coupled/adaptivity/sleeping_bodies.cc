@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/interruption.h>
 #include <undine/coupled/adaptivity/sleeping_bodies.h>
 #include <undine/solid/assembly/mass_matrix.h>
 #include <undine/solid/step/solid_columns.h>
@@ -69,7 +70,8 @@ namespace undine
                                       Budget<dim>       &budget,
                                       TimingTree        &timing,
                                       Make               make)
-    : all(models)
+    : Physics<dim>(models.communicator())
+    , all(models)
     , budget(budget)
     , timing(timing)
     , make(std::move(make))
@@ -97,6 +99,39 @@ namespace undine
     state.sleep = {};
     choose(state);
     add_columns(report, state);
+  }
+
+
+  template <int dim>
+  void
+  SleepingBodies<dim>::advance(State<dim> &state, const Stages &stages, Report &report)
+  {
+    const auto saved = state;
+    const auto empty = report;
+    auto       sleep = saved.sleep;
+    for (;;)
+      {
+        state.sleep = sleep;
+        try
+          {
+            Physics<dim>::advance(state, stages, report);
+            if (!sleep.wake_with(state.sleep))
+              return;
+          }
+        catch (const Interruption &)
+          {
+            throw;
+          }
+        catch (const Error &)
+          {
+            if (!sleep.any_asleep())
+              throw;
+            sleep.wake_all();
+          }
+        state  = saved;
+        report = empty;
+        budget.start();
+      }
   }
 
 

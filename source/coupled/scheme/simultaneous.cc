@@ -27,7 +27,8 @@ namespace undine
                         Budget<dim>            &budget,
                         TimingTree             &timing,
                         const CouplingSettings &settings)
-      : models(models)
+      : Physics<dim>(models.communicator())
+      , models(models)
       , budget(budget)
       , timing(timing)
       , settings(settings)

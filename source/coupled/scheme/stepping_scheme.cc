@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/interruption.h>
-#include <undine/base/parallel/interruption.h>
 #include <undine/coupled/adaptivity/sleeping_bodies.h>
 #include <undine/coupled/scheme/stepping_scheme.h>
 #include <undine/coupled/step/one_way.h>
@@ -64,8 +62,7 @@ namespace undine
   Report
   SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
   {
-    communicator = models.communicator();
-    budget       = std::make_unique<Budget<dim>>(models, keeps_budget, has_stages());
+    budget = std::make_unique<Budget<dim>>(models, keeps_budget, has_stages());
     if (models.solid && models.wishes_of_effects().sleep_settings)
       physics = std::make_unique<SleepingBodies<dim>>(
         models, *budget, timing, [this, &timing](const Models<dim> &awake) {
@@ -126,7 +123,11 @@ namespace undine
       try
         {
           report.dt = asked / (1u << report.cuts);
-          attempt(state, saved, report);
+          budget->start();
+          physics->advance(state, integrator->stages(report.dt, state.clock.step > 0), report);
+          append(report.columns, budget->columns());
+          assert_finite(report.columns);
+          judge_error(state, saved, report);
           state.clock.longest_step = report.cuts > 0 ? report.dt : 2 * state.clock.longest_step;
           return report;
         }
@@ -147,60 +148,12 @@ namespace undine
   }
 
 
-  /// A step of report.dt [s].
+  /// Throws SolveError if the error in time of the step from `saved` to `state` is too large;
+  /// otherwise the choice of the next step learns of it. Nothing with constant steps.
   template <int dim>
   void
-  SteppingScheme<dim>::advance(State<dim> &state, Report &report)
+  SteppingScheme<dim>::judge_error(State<dim> &state, const State<dim> &saved, Report &report) const
   {
-    budget->start();
-    for (const auto &stage : integrator->stages(report.dt, state.clock.step > 0))
-      {
-        throw_if_interrupted(communicator);
-        physics->step(state, stage, report);
-      }
-    append(report.columns, budget->columns());
-  }
-
-
-  /// As advance(), until nobody wakes in the step: what does is awake from its begin. Where bodies
-  /// that sleep leave the step without a solution, as in a chamber that only they close, all wake.
-  template <int dim>
-  void
-  SteppingScheme<dim>::advance_or_wake(State<dim> &state, const State<dim> &saved, Report &report)
-  {
-    const Report empty = report;
-    auto         sleep = saved.sleep;
-    for (;;)
-      {
-        state.sleep = sleep;
-        try
-          {
-            advance(state, report);
-            if (!sleep.wake_with(state.sleep))
-              return;
-          }
-        catch (const Interruption &)
-          {
-            throw;
-          }
-        catch (const Error &)
-          {
-            if (!sleep.any_asleep())
-              throw;
-            sleep.wake_all();
-          }
-        state  = saved;
-        report = empty;
-      }
-  }
-
-
-  template <int dim>
-  void
-  SteppingScheme<dim>::attempt(State<dim> &state, const State<dim> &saved, Report &report)
-  {
-    advance_or_wake(state, saved, report);
-    assert_finite(report.columns);
     if (!step_error)
       return;
     const bool can_be_cut = report.dt / 2 >= shortest_step() * (1 - 1e-9);
@@ -216,7 +169,7 @@ namespace undine
 
   template <int dim>
   void
-  SteppingScheme<dim>::add_error(Report &report, const State<dim> &state)
+  SteppingScheme<dim>::add_error(Report &report, const State<dim> &state) const
   {
     report.error_in_time = step_error->error(state.history);
     append(report.columns,

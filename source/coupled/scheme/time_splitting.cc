@@ -21,7 +21,8 @@ namespace undine
                  Budget<dim>       &budget,
                  TimingTree        &timing,
                  const std::string &driven_by)
-      : models(models)
+      : Physics<dim>(models.communicator())
+      , models(models)
       , budget(budget)
       , timing(timing)
       , driven_by(driven_by)

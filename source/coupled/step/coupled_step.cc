@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/step/coupled_step.h>
 #include <undine/operators/flux_matrix.h>
+#include <undine/solid/step/initial_guesses.h>
 
 namespace undine
 {
@@ -95,6 +96,8 @@ namespace undine
   }
 
 
+  /// Newton's method for u^{n+1} and p, and around it for how fast fluid enters through outflows
+  /// (see stabilise_backflow()).
   template <int dim>
   SolidReport<dim>
   CoupledStep<dim>::solve()
@@ -102,59 +105,29 @@ namespace undine
     const auto       timed = parts.timing.section("couple");
     SolidReport<dim> report;
     parts.solver.start_step();
-    report.newton = solve_with_openings();
-    report.note   = parts.solver.note();
+    Vector last_pressure = x.block(1);
+    copy_to_vector(last_pressure, state.fluid.pressure);
+    find_entering_speeds([&](const unsigned int round) {
+      state.fluid.velocity = predicted;
+      pressures.open(state.fluid.velocity);
+      // A given number of corrections begins anew, so that there are exactly so many.
+      const bool goes_on = round > 0 && newton.fixed_iterations == 0;
+      report.newton.append(
+        goes_on ? solve_from(x.block(0), x.block(1))
+                : solve_from_guesses(
+                    equations,
+                    newton,
+                    [&] {
+                      parts.motion_solver.begin_stage();
+                      return resting_guess(equations, parts.motion_solver, parts.timing);
+                    },
+                    [&](const Vector &velocity) { return solve_from(velocity, last_pressure); }));
+      pressures.accelerate(state.fluid.velocity, x.block(1));
+      return pressures.update_backflow(state.fluid.velocity);
+    });
+    report.note = parts.solver.note();
     end(report);
     return report;
-  }
-
-
-  /// Newton's method for u^{n+1} and p, and around it for how fast fluid enters through outflows:
-  /// once or twice, as long as that changes v^{n+1} (see stabilise_backflow()).
-  template <int dim>
-  NewtonReport
-  CoupledStep<dim>::solve_with_openings()
-  {
-    constexpr unsigned int most_rounds = 20;
-    constexpr double       tolerance   = 1e-4;
-    NewtonReport           all;
-    for (unsigned int round = 0; round < most_rounds; ++round)
-      {
-        state.fluid.velocity = predicted;
-        pressures.open(state.fluid.velocity);
-        // A given number of corrections begins anew, so that there are exactly so many.
-        const bool first  = round == 0 || newton.fixed_iterations > 0;
-        const auto report = first ? solve_first() : solve_from(x.block(0), x.block(1));
-        all.iterations += report.iterations;
-        all.linear_iterations = report.linear_iterations;
-        all.residuals.insert(all.residuals.end(), report.residuals.begin(), report.residuals.end());
-        pressures.accelerate(state.fluid.velocity, x.block(1));
-        if (pressures.update_backflow(state.fluid.velocity) <= tolerance)
-          break;
-      }
-    return all;
-  }
-
-
-  /// From u^n and p^n; if that fails, from bodies that keep their place. In the other order without
-  /// inertia, as without a fluid.
-  template <int dim>
-  NewtonReport
-  CoupledStep<dim>::solve_first()
-  {
-    Vector pressure = x.block(1);
-    copy_to_vector(pressure, state.fluid.pressure);
-    const bool rest_first = equations.is_static() || newton.fixed_iterations > 0;
-    try
-      {
-        return solve_from(rest_first ? resting_guess() : equations.guess(), pressure);
-      }
-    catch (const SolveError &)
-      {
-        if (newton.fixed_iterations > 0)
-          throw;
-      }
-    return solve_from(rest_first ? equations.guess() : resting_guess(), pressure);
   }
 
 
@@ -167,24 +140,6 @@ namespace undine
     pressures.closed_regions().fix_pressure_level(x.block(1));
     problem.start();
     return solve_newton(problem, x, newton);
-  }
-
-
-  /// u that keeps d^n, but for what supports that have moved draw with them, as without a fluid.
-  template <int dim>
-  typename CoupledStep<dim>::Vector
-  CoupledStep<dim>::resting_guess() const
-  {
-    auto velocity = equations.guess_at_rest();
-    if (equations.has_motion())
-      {
-        const auto system = equations.motion_predictor();
-        parts.motion_solver.begin_stage();
-        velocity.add(1.,
-                     parts.motion_solver.solve(
-                       system.matrix, system.right_side, equations.displacement(velocity)));
-      }
-    return velocity;
   }
 
 

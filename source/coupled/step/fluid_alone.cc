@@ -5,7 +5,8 @@ namespace undine
 {
   template <int dim>
   FluidAlone<dim>::FluidAlone(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
-    : model(*models.fluid)
+    : Physics<dim>(models.communicator())
+    , model(*models.fluid)
     , budget(budget)
     , timing(timing)
     , fluid_side(models, budget, timing)

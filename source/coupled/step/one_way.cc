@@ -6,7 +6,8 @@ namespace undine
 {
   template <int dim>
   OneWay<dim>::OneWay(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
-    : models(models)
+    : Physics<dim>(models.communicator())
+    , models(models)
     , budget(budget)
     , timing(timing)
     , fluid_side(models, budget, timing)

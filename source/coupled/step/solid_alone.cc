@@ -5,7 +5,8 @@ namespace undine
 {
   template <int dim>
   SolidAlone<dim>::SolidAlone(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
-    : budget(budget)
+    : Physics<dim>(models.communicator())
+    , budget(budget)
     , solid_side(models, budget, timing)
   {
   }

@@ -168,27 +168,21 @@ namespace undine
                                                    const double               dt,
                                                    const std::vector<double> &body_fluxes)
   {
-    // Newton's method for the speeds at which fluid enters: from the last ones it is there in one
-    // or two rounds; those that are far too large are halved in each.
-    constexpr unsigned int most_rounds = 20;
-    constexpr double       tolerance   = 1e-4;
-    auto                   before      = velocity;
-    Report                 report;
-    for (unsigned int round = 0; round < most_rounds; ++round)
-      {
-        if (round > 0)
-          velocity = before;
-        stabilise_backflow(velocity, openings, model, dt);
-        auto impulses = openings;
-        for (auto &open : impulses)
-          open.pressure *= dt;
-        const unsigned int iterations = report.iterations;
-        report                        = remove_divergence(velocity, impulse, impulses, body_fluxes);
-        report.iterations += iterations;
-        const double change = update_entering_speeds(openings, velocity, model, dt);
-        if (change <= tolerance * largest_components(model, velocity).norm())
-          break;
-      }
+    auto   before = velocity;
+    Report report;
+    find_entering_speeds([&](const unsigned int round) {
+      if (round > 0)
+        velocity = before;
+      stabilise_backflow(velocity, openings, model, dt);
+      auto impulses = openings;
+      for (auto &open : impulses)
+        open.pressure *= dt;
+      const unsigned int iterations = report.iterations;
+      report                        = remove_divergence(velocity, impulse, impulses, body_fluxes);
+      report.iterations += iterations;
+      const double change = update_entering_speeds(openings, velocity, model, dt);
+      return relative(change, largest_components(model, velocity).norm());
+    });
     report.before   = std::move(before);
     report.openings = std::move(openings);
     return report;

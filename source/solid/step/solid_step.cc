@@ -9,6 +9,7 @@
 #include <undine/solid/assembly/prescribed_motion.h>
 #include <undine/solid/assembly/sums_by_body.h>
 #include <undine/solid/solvers/mass_solve.h>
+#include <undine/solid/step/initial_guesses.h>
 #include <undine/solid/step/solid_columns.h>
 #include <undine/solid/step/solid_equations.h>
 #include <undine/solid/step/solid_step.h>
@@ -60,15 +61,6 @@ namespace undine
         if (part < 1)
           change *= part;
         return change;
-      }
-
-      /// The change of u by which the bodies follow prescribed motions, from d^n.
-      Unknown
-      motion(const Unknown &velocity)
-      {
-        const auto system = equations.motion_predictor();
-        const auto timed  = timing.section("solve linear system");
-        return solver.solve(system.matrix, system.right_side, equations.displacement(velocity));
       }
 
       double
@@ -127,43 +119,6 @@ namespace undine
     }
 
 
-    /// u that keeps d^n, but for what fixed degrees of freedom that have moved draw with them.
-    template <int dim>
-    typename SolidModel<dim>::Vector
-    resting_guess(StepProblem<dim> &problem, const SolidEquations<dim> &equations)
-    {
-      auto velocity = equations.guess_at_rest();
-      if (equations.has_motion())
-        velocity.add(1., problem.motion(velocity));
-      return velocity;
-    }
-
-
-    /// Newton's method from u^n, and if that fails from d^n. In the other order without inertia: an
-    /// extrapolated equilibrium changes the volume of what is nearly incompressible.
-    template <int dim>
-    NewtonReport
-    solve_step(typename SolidModel<dim>::Vector &velocity,
-               StepProblem<dim>                 &problem,
-               const SolidEquations<dim>        &equations,
-               const NewtonOptions              &options)
-    {
-      const bool rest_first = equations.is_static() || options.fixed_iterations > 0;
-      try
-        {
-          velocity = equations.kept_apart(rest_first ? resting_guess(problem, equations)
-                                                     : equations.guess());
-          return solve_newton(problem, velocity, options);
-        }
-      catch (const SolveError &)
-        {
-          if (options.fixed_iterations > 0)
-            throw;
-        }
-      velocity =
-        equations.kept_apart(rest_first ? equations.guess() : resting_guess(problem, equations));
-      return solve_newton(problem, velocity, options);
-    }
   } // namespace
 
 
@@ -300,7 +255,15 @@ namespace undine
     auto             velocity = model.vector();
 
     SolidReport<dim> report;
-    report.newton             = solve_step(velocity, problem, equations, model.numerics().newton);
+    const auto      &newton = model.numerics().newton;
+    report.newton           = solve_from_guesses(
+      equations,
+      newton,
+      [&] { return resting_guess(equations, solver, timing); },
+      [&](const Vector &guess) {
+        velocity = equations.kept_apart(guess);
+        return solve_newton(problem, velocity, newton);
+      });
     report.reactions          = equations.reactions(velocity);
     report.note               = solver.note();
     report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);

@@ -42,6 +42,11 @@ namespace undine
     void
     initialize(State<dim> &state, double dt, Report &report) override;
 
+    /// Until nobody wakes in the step: what does is awake from its begin. Where bodies that sleep
+    /// leave the step without a solution, as in a chamber that only they close, all wake.
+    void
+    advance(State<dim> &state, const Stages &stages, Report &report) override;
+
     void
     step(State<dim> &state, const Stage &stage, Report &report) override;
 

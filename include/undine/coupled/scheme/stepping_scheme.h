@@ -52,9 +52,9 @@ namespace undine
 
   private:
     void
-    attempt(State<dim> &state, const State<dim> &saved, Report &report);
+    judge_error(State<dim> &state, const State<dim> &saved, Report &report) const;
     void
-    add_error(Report &report, const State<dim> &state);
+    add_error(Report &report, const State<dim> &state) const;
     double
     shortest_step() const;
     std::string
@@ -62,12 +62,7 @@ namespace undine
 
     std::unique_ptr<Physics<dim>>
     make_physics(const Models<dim> &models, TimingTree &timing) const;
-    void
-    advance(State<dim> &state, Report &report);
-    void
-    advance_or_wake(State<dim> &state, const State<dim> &saved, Report &report);
 
-    MPI_Comm                        communicator = MPI_COMM_NULL;
     std::unique_ptr<TimeIntegrator> integrator;
     double                          asked_step   = 0.01; // [s]
     double                          tolerance    = 0;    // [1]

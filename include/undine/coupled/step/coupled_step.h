@@ -60,13 +60,7 @@ namespace undine
 
   private:
     NewtonReport
-    solve_with_openings();
-    NewtonReport
-    solve_first();
-    NewtonReport
     solve_from(Vector velocity, Vector pressure);
-    Vector
-    resting_guess() const;
     void
     end(SolidReport<dim> &report);
     Vector

@@ -4,6 +4,7 @@
 
 #include <undine/base/core/newton.h>
 #include <undine/base/core/stage.h>
+#include <undine/base/parallel/interruption.h>
 #include <undine/coupled/state/report.h>
 #include <undine/coupled/state/state.h>
 
@@ -14,12 +15,30 @@ namespace undine
   class Physics
   {
   public:
+    explicit Physics(const MPI_Comm communicator)
+      : communicator(communicator)
+    {
+    }
+
     virtual ~Physics() = default;
 
     /// Bring an empty state to the time of its clock and add to the report. `dt` [s] is the length
     /// of the first step. Collective.
     virtual void
     initialize(State<dim> &state, double dt, Report &report) = 0;
+
+    /// A step from the time of the state's clock, which stays, in its stages one after the other;
+    /// add to the report, its columns at the end of the step. Collective. Throws SolveError and
+    /// Interruption; the state may then be half advanced.
+    virtual void
+    advance(State<dim> &state, const Stages &stages, Report &report)
+    {
+      for (const auto &stage : stages)
+        {
+          throw_if_interrupted(communicator);
+          step(state, stage, report);
+        }
+    }
 
     /// The stage of a step from the time of the state's clock, which stays; add to the report, its
     /// columns at the end of the step. Collective. Throws SolveError; the state may then be half
@@ -34,6 +53,9 @@ namespace undine
     {
       return {};
     }
+
+  private:
+    const MPI_Comm communicator;
   };
 
 

@@ -49,6 +49,21 @@ namespace undine
                          const FluidModel<dim>      &model,
                          const double                dt);
 
+  /// Newton's method for the speeds s: round(n), n = 0, 1, ..., solves a step with the last ones
+  /// and returns by how much better ones would change v^{n+1}, relative to the largest speed [1].
+  /// From the speeds of the step before it is there in one or two rounds; speeds that are far too
+  /// large are halved in each.
+  template <class Round>
+  void
+  find_entering_speeds(const Round &round)
+  {
+    constexpr unsigned int most_rounds = 20;
+    constexpr double       tolerance   = 1e-4;
+    for (unsigned int n = 0; n < most_rounds; ++n)
+      if (round(n) <= tolerance)
+        break;
+  }
+
   /// L = D m (rho V)^-1 D^T, from that with all m = 1: subtracts (1 - m) a^2/(rho V) from the
   /// diagonal. Symmetric and positive definite if that is.
   class BackflowMatrix
