@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/registry.h>
-#include <undine/solid/material/elastic_constants.h>
-#include <undine/solid/material/material.h>
+#include <undine/solid/material/isotropic_material.h>
 
 namespace undine
 {
@@ -11,17 +10,9 @@ namespace undine
   ///     P = lambda tr(eps) I + 2 mu eps
   ///
   /// It takes a rotation for a strain, and does not see inversion.
-  class LinearElastic : public Material
+  class LinearElastic : public IsotropicMaterial
   {
   public:
-    void
-    add_options(const Options &options) override
-    {
-      constants.add_options(options);
-      lambda = constants.lame_modulus();
-      mu     = constants.shear_modulus();
-    }
-
     double
     energy(const Gradient &F) const override
     {
@@ -67,12 +58,6 @@ namespace undine
       return false;
     }
 
-    double
-    p_wave_modulus() const override
-    {
-      return constants.p_wave_modulus();
-    }
-
   private:
     static Gradient
     strain(const Gradient &F)
@@ -86,10 +71,6 @@ namespace undine
         }
       return eps;
     }
-
-    ElasticConstants constants;
-    double           lambda = 0;
-    double           mu     = 0;
   };
 
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/registry.h>
-#include <undine/solid/material/elastic_constants.h>
-#include <undine/solid/material/material.h>
+#include <undine/solid/material/isotropic_material.h>
 #include <undine/solid/material/positive_jacobian.h>
 
 #include <cmath>
@@ -12,40 +11,32 @@ namespace undine
   /// G = mu and K the bulk modulus:
   ///
   ///     W = G/2 (J^(-2/3) I_1 - 3) + U(J),  U = K/2 (J - 1)^2
-  ///     P = g (F - I_1/3 B) + U'(J) J B,  g = G J^(-2/3)
+  ///     P = g (F - I_1/3 B) + U'(J) J B,  g = mu J^(-2/3)
   ///     A_ijkl = g (delta_ik delta_jl - 2/3 (F_ij B_kl + B_ij F_kl)
   ///                 + 2/9 I_1 B_ij B_kl + I_1/3 B_il B_kj) + the part of U
   ///
   /// [Holzapfel, Nonlinear Solid Mechanics, sections 6.4 and 6.5; Simo, Taylor, Pister,
   /// Comput. Meth. Appl. Mech. Eng. 51 (1985) 177-208, for the element that takes U at a mean J].
-  class NearlyIncompressibleRubber : public Material
+  class NearlyIncompressibleRubber : public IsotropicMaterial
   {
   public:
-    void
-    add_options(const Options &options) override
-    {
-      constants.add_options(options);
-      G = constants.shear_modulus();
-      K = constants.bulk_modulus();
-    }
-
     double
     energy(const Gradient &F) const override
     {
-      return 0.5 * G * (distortion_factor(positive_jacobian(F)) * F.norm_square() - 3);
+      return 0.5 * mu * (distortion_factor(positive_jacobian(F)) * F.norm_square() - 3);
     }
 
     Gradient
     stress(const Gradient &F) const override
     {
-      const double g = G * distortion_factor(positive_jacobian(F));
+      const double g = mu * distortion_factor(positive_jacobian(F));
       return g * (F - F.norm_square() / 3 * transpose(invert(F)));
     }
 
     Tangent
     tangent(const Gradient &F) const override
     {
-      const double   g  = G * distortion_factor(positive_jacobian(F));
+      const double   g  = mu * distortion_factor(positive_jacobian(F));
       const Gradient B  = transpose(invert(F));
       const double   I1 = F.norm_square();
 
@@ -73,25 +64,19 @@ namespace undine
     double
     volumetric_energy(const double J) const override
     {
-      return 0.5 * K * (J - 1) * (J - 1);
+      return 0.5 * bulk * (J - 1) * (J - 1);
     }
 
     double
     volumetric_stress(const double J) const override
     {
-      return K * (J - 1);
+      return bulk * (J - 1);
     }
 
     double
     volumetric_tangent(const double) const override
     {
-      return K;
-    }
-
-    double
-    p_wave_modulus() const override
-    {
-      return constants.p_wave_modulus();
+      return bulk;
     }
 
   private:
@@ -102,10 +87,6 @@ namespace undine
       const double root = std::cbrt(J);
       return 1 / (root * root);
     }
-
-    ElasticConstants constants;
-    double           G = 0;
-    double           K = 0;
   };
 
 

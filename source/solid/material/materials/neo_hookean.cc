@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/registry.h>
-#include <undine/solid/material/elastic_constants.h>
-#include <undine/solid/material/material.h>
+#include <undine/solid/material/isotropic_material.h>
 #include <undine/solid/material/positive_jacobian.h>
 
 #include <cmath>
@@ -18,17 +17,9 @@ namespace undine
   /// section 3.3]. The frequent alternative lambda/2 (ln J)^2 agrees to second order in J - 1, but
   /// is not convex in J beyond J = e, so the solid gets softer when blown up; this law is
   /// polyconvex for lambda >= 0, and its stress needs no logarithm.
-  class NeoHookean : public Material
+  class NeoHookean : public IsotropicMaterial
   {
   public:
-    void
-    add_options(const Options &options) override
-    {
-      constants.add_options(options);
-      lambda = constants.lame_modulus();
-      mu     = constants.shear_modulus();
-    }
-
     double
     energy(const Gradient &F) const override
     {
@@ -64,12 +55,6 @@ namespace undine
       return result;
     }
 
-    double
-    p_wave_modulus() const override
-    {
-      return constants.p_wave_modulus();
-    }
-
   private:
     /// q of the equations above [Pa].
     double
@@ -77,10 +62,6 @@ namespace undine
     {
       return 0.5 * lambda * (J * J - 1) - mu;
     }
-
-    ElasticConstants constants;
-    double           lambda = 0;
-    double           mu     = 0;
   };
 
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/registry.h>
-#include <undine/solid/material/elastic_constants.h>
-#include <undine/solid/material/material.h>
+#include <undine/solid/material/isotropic_material.h>
 
 namespace undine
 {
@@ -13,17 +12,9 @@ namespace undine
   ///     A_ijkl = delta_ik S_jl + lambda F_ij F_kl + mu (F_il F_kj + (F F^T)_ik delta_jl)
   ///
   /// Large rotations, small strains: in strong compression it gets softer, not stiffer.
-  class SaintVenantKirchhoff : public Material
+  class SaintVenantKirchhoff : public IsotropicMaterial
   {
   public:
-    void
-    add_options(const Options &options) override
-    {
-      constants.add_options(options);
-      lambda = constants.lame_modulus();
-      mu     = constants.shear_modulus();
-    }
-
     double
     energy(const Gradient &F) const override
     {
@@ -60,12 +51,6 @@ namespace undine
       return result;
     }
 
-    double
-    p_wave_modulus() const override
-    {
-      return constants.p_wave_modulus();
-    }
-
   private:
     static Gradient
     strain(const Gradient &F)
@@ -85,10 +70,6 @@ namespace undine
         S[i][i] += lambda * trace(E);
       return S;
     }
-
-    ElasticConstants constants;
-    double           lambda = 0;
-    double           mu     = 0;
   };
 
 
