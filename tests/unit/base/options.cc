@@ -336,3 +336,32 @@ TEST_CASE("texts that are no UTF-8 are shown and written to JSON as what can be 
   options.write_json(json);
   CHECK(is_utf8(json.str()));
 }
+
+
+TEST_CASE("keys of earlier versions still work, and it is said what they are called", "[options]")
+{
+  const auto options = read("subsection Output\n set Ledger = true\nend\n"
+                            "subsection Effects\n subsection scalar transport\n  subsection smoke\n"
+                            "   set Held value = 3\n  end\n end\nend\n");
+  bool       budget  = false;
+  double     held    = 0;
+  options.section("Output").add("Budget", budget, "", Allowed::anything(), "Terms.");
+  options.section("Effects")
+    .section("scalar transport")
+    .section("smoke")
+    .add("Dirichlet value", held, "", Allowed::anything(), "On boundaries.");
+  options.assert_all_used();
+  CHECK(budget);
+  CHECK(held == 3);
+  const auto &remarks = options.file().remarks();
+  REQUIRE(remarks.size() == 2);
+  CHECK(remarks[0].find("scene_under_test.prm:2") == 0);
+  CHECK(remarks[0].find("'Output/Ledger' is called 'Output/Budget'") != std::string::npos);
+  CHECK(remarks[1].find("smoke/Dirichlet value") != std::string::npos);
+  // Elsewhere the word may be a key of its own; and both names are one key.
+  CHECK(read("subsection Bodies\n set Ledger = true\nend\n").file().remarks().empty());
+  CHECK(
+    message([] {
+      read("subsection Output\n set Ledger = true\n set Budget = false\nend\n").assert_all_used();
+    }).find("set twice") != std::string::npos);
+}

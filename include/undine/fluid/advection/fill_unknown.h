@@ -3,6 +3,7 @@
 #define undine_fluid_advection_fill_unknown_h
 
 #include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/model/fluid_model.h>
 
 namespace undine
 {

@@ -3,6 +3,7 @@
 #define undine_fluid_viscosity_implicit_diffusion_h
 
 #include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/model/fluid_model.h>
 #include <undine/fluid/viscosity/diffusion_solver.h>
 
 #include <memory>
