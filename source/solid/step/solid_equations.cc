@@ -4,6 +4,7 @@
 #include <undine/solid/assembly/loads.h>
 #include <undine/solid/assembly/prescribed_motion.h>
 #include <undine/solid/assembly/sparse.h>
+#include <undine/solid/assembly/sums_by_body.h>
 #include <undine/solid/solvers/mass_solve.h>
 #include <undine/solid/step/solid_equations.h>
 
@@ -378,6 +379,101 @@ namespace undine
   SolidEquations<dim>::rounding() const
   {
     return own_rounding;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::reactions(const Vector &velocity)
+  {
+    const Vector forces = full_residual(velocity);
+    Vector       result = model.vector();
+    // Given nodal forces act un-averaged, and so do supports against them.
+    const double weight = coefficients.sum_of_weights();
+    for (const auto &fixed : model.fixed())
+      {
+        const double given = nodal_forces.size() > 0 ? nodal_forces(fixed.dof) : 0.;
+        result(fixed.dof)  = (forces(fixed.dof) + given) / weight - given;
+      }
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+
+  /// Of reactions() what the balance of the step holds at fixed degrees of freedom [N].
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::weighted(const Vector &reactions) const
+  {
+    Vector       result = model.vector();
+    const double weight = coefficients.sum_of_weights();
+    for (const auto &fixed : model.fixed())
+      {
+        const double given = nodal_forces.size() > 0 ? nodal_forces(fixed.dof) : 0.;
+        result(fixed.dof)  = weight * (reactions(fixed.dof) + given) - given;
+      }
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  SolidEquations<dim>::momentum_residuals(const Vector &velocity, const Vector &reactions) const
+  {
+    Vector defect = inertia(velocity);
+    if (environment.mass_damping > 0)
+      {
+        Vector drag = model.vector(), product = model.vector();
+        drag.add(coefficients.damping, velocity);
+        drag.add(coefficients.damping_old_velocity, old_state.velocity);
+        mass.vmult(product, drag);
+        defect.add(environment.mass_damping, product);
+      }
+    defect.add(-1., dead);
+    defect.add(-1., weighted(reactions));
+    if (has_pressure)
+      for (const auto &stage : coefficients.stages)
+        defect.add(-stage.weight,
+                   pressure_loads(model,
+                                  stage_displacement(displacement(velocity), stage.position),
+                                  time + stage.position * dt));
+    const Vector pushes = contact_forces(displacement(velocity));
+    if (pushes.size() > 0)
+      defect.add(-1., pushes);
+    // Where nothing acts, rounding is no lack of balance.
+    const double        tolerance = model.numerics().newton.relative_tolerance;
+    const double        size      = std::max(scale(), rounding() / tolerance);
+    std::vector<double> result;
+    for (const auto &force : sums_by_body(model, defect))
+      result.push_back(size > 0 ? force.norm() / size : 0);
+    return result;
+  }
+
+
+  template <int dim>
+  SolidState
+  SolidEquations<dim>::end_state(const Vector &velocity, const Vector &contact_velocity) const
+  {
+    SolidState state;
+    state.displacement = displacement(velocity);
+    state.velocity     = velocity;
+    state.acceleration = model.vector();
+    state.acceleration.add(
+      coefficients.acceleration, velocity, coefficients.acceleration_velocity, old_state.velocity);
+    if (contact_velocity.size() > 0)
+      state.acceleration.add(-coefficients.acceleration, contact_velocity);
+    const auto &integrator = *model.numerics().integrator;
+    if (integrator.uses_acceleration())
+      {
+        state.acceleration.add(coefficients.acceleration_acceleration, old_state.acceleration);
+        if (nodal_forces.size() > 0)
+          state.acceleration.add(-coefficients.acceleration * dt,
+                                 solve_mass(model, mass, nodal_forces, model.vector()));
+        prescribe_acceleration(
+          state.acceleration, model, time + (1 + integrator.acceleration_shift()) * dt, dt);
+      }
+    return state;
   }
 
 
