@@ -10,6 +10,9 @@ add_test(NAME sources/include_direction
 add_test(NAME sources/style
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_style.py
                  ${PROJECT_SOURCE_DIR})
+add_test(NAME sources/documents
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_documents.py
+                 ${PROJECT_SOURCE_DIR})
 add_test(NAME sources/layout COMMAND ${PROJECT_SOURCE_DIR}/contrib/indent --check)
 
 add_test(NAME malformed/scenes
