@@ -88,7 +88,7 @@ namespace undine
   {
     Trees(const std::vector<Leaf<dim>> &boxes, const std::vector<Leaf<dim>> &swept_boxes)
       : facets(dealii::pack_rtree(boxes))
-      , is_freshly_cleared(dealii::pack_rtree(swept_boxes))
+      , swept(dealii::pack_rtree(swept_boxes))
       , box(join(boxes))
       , swept_box(join(swept_boxes))
     {

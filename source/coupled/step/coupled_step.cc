@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/step/coupled_step.h>
+#include <undine/fluid/grid/field_algebra.h>
 #include <undine/operators/flux_matrix.h>
 #include <undine/solid/step/initial_guesses.h>
 

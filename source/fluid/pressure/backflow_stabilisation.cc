@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/grid/field_algebra.h>
 #include <undine/fluid/pressure/backflow_stabilisation.h>
 
 #include <deal.II/base/mpi.h>

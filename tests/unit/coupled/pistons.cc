@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/grid/field_algebra.h>
+
 #include <coupled/obstacle_run.h>
 
 using namespace undine_tests;
