@@ -25,23 +25,23 @@ namespace undine
     if (result.begin >= 0)
       return result;
     const auto &ends = surface.ridges()[ridge];
-    chain.assign({static_cast<int>(ends[0]), static_cast<int>(ends[1])});
+    links.assign({static_cast<int>(ends[0]), static_cast<int>(ends[1])});
     for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        finer_chain.clear();
-        for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+        finer_links.clear();
+        for (std::size_t i = 0; i + 1 < links.size(); ++i)
           {
-            finer_chain.push_back(chain[i]);
+            finer_links.push_back(links[i]);
             parts.clear();
-            chord_splitter.split_ridge(parts, chain[i], chain[i + 1], axis, ridge);
+            chord_splitter.split_ridge(parts, links[i], links[i + 1], axis, ridge);
             for (const auto &part : parts)
-              finer_chain.push_back(part.vertex);
+              finer_links.push_back(part.vertex);
           }
-        finer_chain.push_back(chain.back());
-        chain.swap(finer_chain);
+        finer_links.push_back(links.back());
+        links.swap(finer_links);
       }
     result.begin = chain_vertices.size();
-    chain_vertices.insert(chain_vertices.end(), chain.begin() + 1, chain.end() - 1);
+    chain_vertices.insert(chain_vertices.end(), links.begin() + 1, links.end() - 1);
     result.end        = chain_vertices.size();
     result.first_edge = split.n_edges;
     split.n_edges += result.end - result.begin + 1;
