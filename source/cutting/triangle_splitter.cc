@@ -25,23 +25,25 @@ namespace undine
     if (result.begin >= 0)
       return result;
     const auto &ends = surface.ridges()[ridge];
-    links.assign({static_cast<int>(ends[0]), static_cast<int>(ends[1])});
+    ridge_vertices.assign({static_cast<int>(ends[0]), static_cast<int>(ends[1])});
     for (unsigned int axis = 0; axis < 3; ++axis)
       {
-        finer_links.clear();
-        for (std::size_t i = 0; i + 1 < links.size(); ++i)
+        finer_vertices.clear();
+        for (std::size_t i = 0; i + 1 < ridge_vertices.size(); ++i)
           {
-            finer_links.push_back(links[i]);
+            finer_vertices.push_back(ridge_vertices[i]);
             parts.clear();
-            chord_splitter.split_ridge(parts, links[i], links[i + 1], axis, ridge);
+            chord_splitter.split_ridge(
+              parts, ridge_vertices[i], ridge_vertices[i + 1], axis, ridge);
             for (const auto &part : parts)
-              finer_links.push_back(part.vertex);
+              finer_vertices.push_back(part.vertex);
           }
-        finer_links.push_back(links.back());
-        links.swap(finer_links);
+        finer_vertices.push_back(ridge_vertices.back());
+        ridge_vertices.swap(finer_vertices);
       }
     result.begin = chain_vertices.size();
-    chain_vertices.insert(chain_vertices.end(), links.begin() + 1, links.end() - 1);
+    chain_vertices.insert(
+      chain_vertices.end(), ridge_vertices.begin() + 1, ridge_vertices.end() - 1);
     result.end        = chain_vertices.size();
     result.first_edge = split.n_edges;
     split.n_edges += result.end - result.begin + 1;

@@ -65,7 +65,10 @@ namespace undine
     pause_within           = first_pause;
     if (clock.step != start.step + 1 && !clock.ended() && seconds_since(last_line) < pause &&
         report.cuts == 0 && !log.has_notes(report))
-      return;
+      {
+        log.print_notes(report); // none, but it learns what has passed
+        return;
+      }
     last_line         = std::chrono::steady_clock::now();
     const double done = share_done(clock);
     log.print(

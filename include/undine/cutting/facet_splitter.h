@@ -91,7 +91,7 @@ namespace undine
     std::vector<Chain>                  chains; ///< of each ridge
     std::vector<int>                    chain_vertices;
     std::array<Polygon, 3>              polygons, lower_parts, upper_parts;
-    std::vector<int>                    links, finer_links;
+    std::vector<int>                    ridge_vertices, finer_vertices;
     std::vector<ChordSplitter<3>::Part> parts;
     std::vector<ChordSplitter<3>::Link> links;
   };

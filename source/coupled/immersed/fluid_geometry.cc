@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/errors.h>
 #include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/cutting/flush_facets.h>
 #include <undine/operators/body_forces.h>
@@ -12,26 +11,6 @@
 
 namespace undine
 {
-  namespace
-  {
-    /// Throws InputError if there is none. Collective.
-    template <int dim>
-    void
-    assert_fluid_is_left(const MacGrid<dim> &grid, const FluidTopology<dim> &open)
-    {
-      bool any = false;
-      for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-        any = any || open.cells.kind(cell) == SubLattice<dim>::Kind::whole;
-      });
-      for (std::size_t k = 0; !any && k < open.cells.all().size(); ++k)
-        any = open.cells.owns(k);
-      if (dealii::Utilities::MPI::max(any ? 1 : 0, grid.communicator()) == 0)
-        throw InputError("Bodies and obstacles fill the domain: there is no fluid left in it. Try: "
-                         "a larger domain, smaller ones, or a scene without a fluid.");
-    }
-  } // namespace
-
-
   template <int dim>
   FluidGeometry<dim>::FluidGeometry(const Models<dim> &models)
     : surface(*models.surface)
@@ -81,7 +60,6 @@ namespace undine
         close_sampled_pockets(voids, grid, cells, parts);
         parts = make_fluid_topology(grid, cells, voids);
       }
-    assert_fluid_is_left(grid, *parts.open);
   }
 
 
@@ -120,6 +98,21 @@ namespace undine
 
 
   template <int dim>
+  bool
+  FluidGeometry<dim>::has_fluid() const
+  {
+    const auto &cells_of_fluid = parts.open->cells;
+    bool        any            = false;
+    for_each(model.grid().cells()->owned(), [&](const GridIndex<dim> &cell) {
+      any = any || cells_of_fluid.kind(cell) == SubLattice<dim>::Kind::whole;
+    });
+    for (std::size_t k = 0; !any && k < cells_of_fluid.all().size(); ++k)
+      any = cells_of_fluid.owns(k);
+    return dealii::Utilities::MPI::max(any ? 1 : 0, model.grid().communicator()) == 1;
+  }
+
+
+  template <int dim>
   typename CharacteristicTracer<dim>::Bodies
   FluidGeometry<dim>::bodies() const
   {
@@ -141,7 +134,7 @@ namespace undine
     for (const auto &position : positions)
       include(position);
     auto result =
-      swept_volume_flux(*flux_operator, cells, parts, surface.surface(), given, accuracy);
+      undine::swept_volume_flux(*flux_operator, cells, parts, surface.surface(), given, accuracy);
     result.bodies = surface.section_names();
     result.scene  = surface.scene_name();
     return result;
@@ -152,7 +145,7 @@ namespace undine
   SweptVolumeFlux
   FluidGeometry<dim>::swept_volume_flux(const double dt) const
   {
-    return pushed(velocities, dt);
+    return swept_volume_flux(velocities, dt);
   }
 
 
@@ -160,7 +153,7 @@ namespace undine
   SweptVolumeFlux
   FluidGeometry<dim>::initial_swept_volume_flux(const double dt) const
   {
-    auto       result     = pushed(dt);
+    auto       result     = swept_volume_flux(dt);
     const auto areas      = wetted_areas(cells, surface.surface(), surface.n_body_nodes());
     result.yielding_areas = parts.of_fluid_topology(areas);
     return result;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/physics.h>
 #include <undine/fluid/model/fluid_quantities.h>
@@ -107,6 +108,9 @@ namespace undine
                              Report          &report)
   {
     place_surfaces(state, single_stage(dt));
+    if (cut && !cut->has_fluid())
+      throw InputError("Bodies and obstacles fill the domain: there is no fluid left in it. Try: a "
+                       "larger domain, smaller ones, or a scene without a fluid.");
     const double time = state.clock.time;
     state.fluid       = model.initial_state(bodies().topology);
     for (const auto &effect : models.effects)
@@ -160,6 +164,9 @@ namespace undine
     if (stage.is_first)
       budget.start(state.fluid.velocity);
     place_surfaces(state, stage);
+    if (cut && !cut->has_fluid())
+      throw SolveError("bodies and obstacles have filled the domain: there is no fluid left in it. "
+                       "Try: a smaller step, or obstacles that leave some.");
     share_parts(state.fluid);
     auto fluid = std::make_unique<FluidStep<dim>>(model,
                                                   state.fluid,

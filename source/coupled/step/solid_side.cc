@@ -114,7 +114,9 @@ namespace undine
     state.contact.place.clear();
     if (stage.is_last)
       {
-        state.next = {};
+        state.next      = {};
+        state.increment = {};
+        state.contact   = {};
         return;
       }
     go_on<dim>(state.next, stage.next_new.length, state.solid);

@@ -41,6 +41,10 @@ namespace undine
     typename CharacteristicTracer<dim>::Bodies
     bodies() const;
 
+    /// Do bodies and obstacles leave any fluid in the domain? Collective.
+    bool
+    has_fluid() const;
+
     /// Are the surfaces where they were when the fields of the fluid were computed?
     bool
     is_unmoved() const
