@@ -114,9 +114,9 @@ namespace undine
     state.contact.place.clear();
     if (stage.is_last)
       {
-        state.next      = {};
-        state.increment = {};
-        state.contact   = {};
+        state.next = {};
+        state.increment.clear();
+        state.contact = {};
         return;
       }
     go_on<dim>(state.next, stage.next_new.length, state.solid);
