@@ -154,6 +154,15 @@ namespace undine
   }
 
 
+  template <int dim>
+  void
+  SolidSide<dim>::add_columns(Report &report, const State<dim> &state, const double time) const
+  {
+    const SolidReport<dim> no_step;
+    add_columns(report, state, time, no_step);
+  }
+
+
   template class SolidSide<2>;
   template class SolidSide<3>;
 } // namespace undine

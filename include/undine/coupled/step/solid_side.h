@@ -50,12 +50,16 @@ namespace undine
            const SolidReport<dim> &solid,
            Report                 &report) const;
 
-    /// Energies, momentum and so on at `time` [s], see solid_columns(). Collective.
+    /// Energies, momentum and so on at `time` [s], see solid_columns(); after a step, or at the
+    /// start of a run. Collective. @{
     void
     add_columns(Report                 &report,
                 const State<dim>       &state,
                 double                  time,
-                const SolidReport<dim> &solid = {}) const;
+                const SolidReport<dim> &solid) const;
+    void
+    add_columns(Report &report, const State<dim> &state, double time) const;
+    /// @}
 
     const SolidEnvironment<dim> &
     environment() const
