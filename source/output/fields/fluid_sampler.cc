@@ -127,8 +127,11 @@ namespace undine
     const auto frozen = velocity;
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
-        fill_boundary_points<dim>(
-          velocity[axis], model, VelocityCondition<dim>(axis), frozen, state.clock.time);
+        fill_boundary_points<dim>(velocity[axis],
+                                  model.boundaries(),
+                                  VelocityCondition<dim>(axis),
+                                  frozen,
+                                  state.clock.time);
         velocity_fields[axis].field = velocity[axis];
         see(velocity_fields[axis]);
       }
