@@ -8,6 +8,7 @@ import unittest
 
 import check_include_direction
 import check_style
+import unit_cases
 
 LICENCE = "// SPDX-License-Identifier: LGPL-2.1-or-later\n"
 
@@ -137,6 +138,63 @@ class Style(Tree):
     def test_dimension(self):
         self.write("source/solid/mesh/beam.cc", LICENCE + "if (dim == 2)\n;\n")
         self.expect(self.style(), "dim")
+
+
+class UnitCases(Tree):
+    """What unit_cases.py reads from sources."""
+
+    def lines(self, text, *by_file):
+        self.write("tests/unit/solid/beam.cc", LICENCE + text)
+        return list(unit_cases.write("unit", [self.root / "tests/unit/solid/beam.cc"], by_file))
+
+    def refused(self, text, word):
+        with self.assertRaises(unit_cases.Unreadable) as raised:
+            self.lines(text)
+        self.assertIn("beam.cc:", str(raised.exception))
+        self.assertIn(word, str(raised.exception))
+
+    def test_name_over_several_literals(self):
+        self.assertEqual(self.lines('TEST_CASE("a beam, "\n          "bent", // far\n  "[solid]")\n{}\n'),
+                         [r"unit_serial([=[a beam, bent]=] [=[a beam\, bent]=] 1)"])
+
+    def test_signs(self):
+        self.assertEqual(self.lines(r'TEST_CASE("x \"y\" \\ [z];") {}'),
+                         [r'unit_serial([=[x "y" \ [z];]=] [=[x "y" \\ \[z];]=] 1)'])
+
+    def test_first_sign(self):
+        self.assertEqual(self.lines('TEST_CASE("--set") {}'), [r"unit_serial([=[--set]=] [=[\--set]=] 1)"])
+
+    def test_templates_are_one_test(self):
+        self.assertEqual(self.lines('TEMPLATE_TEST_CASE_SIG("a", "", ((int dim), dim), 2, 3) {}\n'
+                                    'TEMPLATE_TEST_CASE("b", "[x]", int, double) {}'),
+                         ["unit_serial([=[a]=] [=[a - *]=] 1)", "unit_serial([=[b]=] [=[b - *]=] 1)"])
+
+    def test_several_ranks(self):
+        self.assertEqual(self.lines('TEST_CASE("a", "[solid][mpi]") {}\nTEST_CASE("b", "[solid]") {}', "beam"),
+                         ["unit_serial([=[beam]=] [=[[#beam]]=] 2)",
+                          "unit_parallel([=[beam]=] [=[[#beam][mpi]]=] 1)"])
+
+    def test_comments_and_strings(self):
+        self.assertEqual(self.lines('// TEST_CASE("a")\n/* TEST_CASE("b") */\n'
+                                    'const char *c = "TEST_CASE(\\"c\\")", d = \'"\';\n'), [])
+
+    def test_what_cannot_be_a_test(self):
+        self.refused('TEST_CASE("a", "[.][speed]") {}', "hidden")
+        self.refused('TEST_CASE("a", "[!mayfail]") {}', "hidden")
+        self.refused("TEST_CASE(name) {}", "plain string")
+        self.refused('TEST_CASE(R"(a)") {}', "plain string")
+        self.refused('TEST_CASE("a\\n") {}', "not understood")
+        self.refused('TEST_CASE("") {}', "begins with")
+        self.refused("TEST_CASE() {}", "plain string")
+        self.refused('TEST_CASE("a", tags) {}', "plain string")
+        self.refused('TEST_CASE("a*") {}', "must not end")
+        self.refused('SCENARIO("a") {}', "SCENARIO")
+        self.refused('TEST_CASE("a") {}\nTEST_CASE("A") {}', "cannot be told")
+        self.refused('TEMPLATE_TEST_CASE("a", "", int) {}\nTEST_CASE("a - b") {}', "cannot be told")
+
+    def test_unknown_file(self):
+        with self.assertRaises(unit_cases.Unreadable):
+            self.lines("", "bean")
 
 
 if __name__ == "__main__":
