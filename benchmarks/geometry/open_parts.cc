@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <operators/immersed.h>
 
 #include "stopwatch.h"

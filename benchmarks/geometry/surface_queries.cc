@@ -2,6 +2,7 @@
 #include <undine/surface/surface_queries.h>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <operators/immersed.h>
 
 #include "stopwatch.h"
