@@ -3,6 +3,8 @@
 """The checks of the sources find what they are there to find: each is run on a small tree with one
 fault, and on the same tree without it."""
 import pathlib
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -34,7 +36,12 @@ class Tree(unittest.TestCase):
         return list(check_include_direction.problems(self.root))
 
     def style(self):
-        return list(check_style.problems(self.root))
+        return check_style.problems(self.root)
+
+    def hints(self):
+        """What is said without a fault."""
+        self.assertEqual(self.style(), [])
+        return check_style.hints(self.root)
 
     def expect(self, found, *words):
         self.assertEqual(len(found), 1, found)
@@ -106,7 +113,7 @@ class IncludeDirection(Tree):
 
 class Style(Tree):
     def test_good_tree(self):
-        self.assertEqual(self.style(), [])
+        self.assertEqual(self.hints(), [])
 
     def test_licence(self):
         self.write("source/solid/mesh/beam.cc", "int a;\n")
@@ -118,14 +125,22 @@ class Style(Tree):
 
     def test_long_file(self):
         self.write("source/solid/mesh/beam.cc", LICENCE + "int a;\n" * 400)
-        self.expect(self.style(), "401 lines")
+        self.expect(self.hints(), "source/solid/mesh/beam.cc:401:", "401 lines")
 
     def test_long_function(self):
         body = "".join(f"    if (a)\n      {{ a = {i}; }}\n" for i in range(30))
         text = ("namespace undine\n{\n  class Beam\n  {\n  public:\n    void\n    f(int a)\n    {\n" +
                 body + "    }\n    int g() { return 1; } // {\n  };\n}\n")
         self.write("source/solid/mesh/beam.cc", LICENCE + text)
-        self.expect(self.style(), "source/solid/mesh/beam.cc:7:", "64 lines")
+        self.expect(self.hints(), "source/solid/mesh/beam.cc:7:", "64 lines")
+
+    def test_hints_do_not_fail(self):
+        script = pathlib.Path(check_style.__file__)
+        for text, code in ((LICENCE + "int a;\n" * 400, 0), (LICENCE + "int a;\n" * 400 + "// TODO\n", 1)):
+            self.write("source/solid/mesh/beam.cc", text)
+            result = subprocess.run([sys.executable, script, self.root], capture_output=True, text=True)
+            self.assertEqual(result.returncode, code, result)
+            self.assertIn("hint: source/solid/mesh/beam.cc:", result.stdout)
 
     def test_unfinished(self):
         self.write("source/solid/mesh/beam.cc", LICENCE + "// TODO\n")
