@@ -10,6 +10,7 @@ import unittest
 
 import check_include_direction
 import check_style
+import scene_tools
 import unit_cases
 
 LICENCE = "// SPDX-License-Identifier: LGPL-2.1-or-later\n"
@@ -153,6 +154,34 @@ class Style(Tree):
     def test_dimension(self):
         self.write("source/solid/mesh/beam.cc", LICENCE + "if (dim == 2)\n;\n")
         self.expect(self.style(), "dim")
+
+
+class Differences(unittest.TestCase):
+    """Of files `statistics`."""
+    HEAD = "# 1: Step [1]\n# 2: speed [m/s]\n"
+
+    def differ(self, text, record):
+        return scene_tools.differences(text, record, 1e-8, True)
+
+    def test_same(self):
+        self.assertEqual(self.differ(self.HEAD + "0 1\n1 2\n", self.HEAD + "0 1\n1 2.00000001\n"), [])
+
+    def test_number(self):
+        self.assertEqual(len(self.differ(self.HEAD + "0 1\n1 2\n", self.HEAD + "0 1\n1 2.1\n")), 1)
+
+    def test_no_number(self):
+        for word in ("nan", "inf"):
+            self.assertTrue(self.differ(self.HEAD + f"0 {word}\n", self.HEAD + f"0 {word}\n"))
+            self.assertTrue(self.differ(self.HEAD + "0 1\n", self.HEAD + f"0 {word}\n"))
+
+    def test_rows(self):
+        self.assertTrue(self.differ(self.HEAD + "0 1\n", self.HEAD + "0 1\n1 2\n"))
+        self.assertTrue(self.differ(self.HEAD + "0\n", self.HEAD + "0 1\n"))
+        self.assertTrue(self.differ(self.HEAD, self.HEAD))
+        self.assertTrue(self.differ("0 1\n", "0 2\n"))
+
+    def test_columns(self):
+        self.assertTrue(self.differ(self.HEAD + "0 1\n", self.HEAD.replace("speed", "length") + "0 1\n"))
 
 
 class UnitCases(Tree):
