@@ -28,7 +28,7 @@ HUGE = {"plume.prm": "Domain/Cells=400, 625, 400", "cavity.prm": "Domain/Cells=1
 
 def limited(limit, command):
     """`command` with at most `limit` bytes of data for each rank."""
-    return ["sh", "-c", f'ulimit -t {SECONDS} -d {int(limit / 1024)} && exec "$0" "$@"'] + command
+    return ["sh", "-c", f'ulimit -t {SECONDS} && ulimit -d {int(limit / 1024)} && exec "$0" "$@"'] + command
 
 
 def run(program, scene, settings, ranks=1, limit=None, more=()):

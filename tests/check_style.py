@@ -141,9 +141,12 @@ def hints(root):
 
 def main():
     root = pathlib.Path(sys.argv[1])
-    for hint in hints(root):
-        print(f"hint: {hint}")
-    found = problems(root)
+    found = []
+    for rule, text in remarks(root):
+        if rule in HINTS:
+            print(f"hint: {text}")
+        else:
+            found.append(text)
     count = sum(1 for file in tracked(root) if is_code(file))
     if count == 0:
         found.append(f"{root}: no files found")
