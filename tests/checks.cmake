@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # What programs can check without running Undine: the sources' rules and the answers to bad scenes.
-find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
 
 add_test(NAME sources/checks_find_faults
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/test_checks.py)

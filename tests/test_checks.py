@@ -3,11 +3,15 @@
 """The checks of the sources find what they are there to find: each is run on a small tree with one
 fault, and on the same tree without it."""
 import pathlib
+import subprocess
+import sys
 import tempfile
 import unittest
 
 import check_include_direction
 import check_style
+import scene_tools
+import unit_cases
 
 LICENCE = "// SPDX-License-Identifier: LGPL-2.1-or-later\n"
 
@@ -33,7 +37,12 @@ class Tree(unittest.TestCase):
         return list(check_include_direction.problems(self.root))
 
     def style(self):
-        return list(check_style.problems(self.root))
+        return check_style.problems(self.root)
+
+    def hints(self):
+        """What is said without a fault."""
+        self.assertEqual(self.style(), [])
+        return check_style.hints(self.root)
 
     def expect(self, found, *words):
         self.assertEqual(len(found), 1, found)
@@ -105,7 +114,7 @@ class IncludeDirection(Tree):
 
 class Style(Tree):
     def test_good_tree(self):
-        self.assertEqual(self.style(), [])
+        self.assertEqual(self.hints(), [])
 
     def test_licence(self):
         self.write("source/solid/mesh/beam.cc", "int a;\n")
@@ -117,14 +126,22 @@ class Style(Tree):
 
     def test_long_file(self):
         self.write("source/solid/mesh/beam.cc", LICENCE + "int a;\n" * 400)
-        self.expect(self.style(), "401 lines")
+        self.expect(self.hints(), "source/solid/mesh/beam.cc:401:", "401 lines")
 
     def test_long_function(self):
         body = "".join(f"    if (a)\n      {{ a = {i}; }}\n" for i in range(30))
         text = ("namespace undine\n{\n  class Beam\n  {\n  public:\n    void\n    f(int a)\n    {\n" +
                 body + "    }\n    int g() { return 1; } // {\n  };\n}\n")
         self.write("source/solid/mesh/beam.cc", LICENCE + text)
-        self.expect(self.style(), "source/solid/mesh/beam.cc:7:", "64 lines")
+        self.expect(self.hints(), "source/solid/mesh/beam.cc:7:", "64 lines")
+
+    def test_hints_do_not_fail(self):
+        script = pathlib.Path(check_style.__file__)
+        for text, code in ((LICENCE + "int a;\n" * 400, 0), (LICENCE + "int a;\n" * 400 + "// TODO\n", 1)):
+            self.write("source/solid/mesh/beam.cc", text)
+            result = subprocess.run([sys.executable, script, self.root], capture_output=True, text=True)
+            self.assertEqual(result.returncode, code, result)
+            self.assertIn("hint: source/solid/mesh/beam.cc:", result.stdout)
 
     def test_unfinished(self):
         self.write("source/solid/mesh/beam.cc", LICENCE + "// TODO\n")
@@ -137,6 +154,91 @@ class Style(Tree):
     def test_dimension(self):
         self.write("source/solid/mesh/beam.cc", LICENCE + "if (dim == 2)\n;\n")
         self.expect(self.style(), "dim")
+
+
+class Differences(unittest.TestCase):
+    """Of files `statistics`."""
+    HEAD = "# 1: Step [1]\n# 2: speed [m/s]\n"
+
+    def differ(self, text, record):
+        return scene_tools.differences(text, record, 1e-8, True)
+
+    def test_same(self):
+        self.assertEqual(self.differ(self.HEAD + "0 1\n1 2\n", self.HEAD + "0 1\n1 2.00000001\n"), [])
+
+    def test_number(self):
+        self.assertEqual(len(self.differ(self.HEAD + "0 1\n1 2\n", self.HEAD + "0 1\n1 2.1\n")), 1)
+
+    def test_no_number(self):
+        for word in ("nan", "inf"):
+            self.assertTrue(self.differ(self.HEAD + f"0 {word}\n", self.HEAD + f"0 {word}\n"))
+            self.assertTrue(self.differ(self.HEAD + "0 1\n", self.HEAD + f"0 {word}\n"))
+
+    def test_rows(self):
+        self.assertTrue(self.differ(self.HEAD + "0 1\n", self.HEAD + "0 1\n1 2\n"))
+        self.assertTrue(self.differ(self.HEAD + "0\n", self.HEAD + "0 1\n"))
+        self.assertTrue(self.differ(self.HEAD, self.HEAD))
+        self.assertTrue(self.differ("0 1\n", "0 2\n"))
+
+    def test_columns(self):
+        self.assertTrue(self.differ(self.HEAD + "0 1\n", self.HEAD.replace("speed", "length") + "0 1\n"))
+
+
+class UnitCases(Tree):
+    """What unit_cases.py reads from sources."""
+
+    def lines(self, text, *by_file):
+        self.write("tests/unit/solid/beam.cc", LICENCE + text)
+        return list(unit_cases.write("unit", [self.root / "tests/unit/solid/beam.cc"], by_file))
+
+    def refused(self, text, word):
+        with self.assertRaises(unit_cases.Unreadable) as raised:
+            self.lines(text)
+        self.assertIn("beam.cc:", str(raised.exception))
+        self.assertIn(word, str(raised.exception))
+
+    def test_name_over_several_literals(self):
+        self.assertEqual(self.lines('TEST_CASE("a beam, "\n          "bent", // far\n  "[solid]")\n{}\n'),
+                         [r"unit_serial([=[a beam, bent]=] [=[a beam\, bent]=] 1)"])
+
+    def test_signs(self):
+        self.assertEqual(self.lines(r'TEST_CASE("x \"y\" \\ [z];") {}'),
+                         [r'unit_serial([=[x "y" \ [z];]=] [=[x "y" \\ \[z];]=] 1)'])
+
+    def test_first_sign(self):
+        self.assertEqual(self.lines('TEST_CASE("--set") {}'), [r"unit_serial([=[--set]=] [=[\--set]=] 1)"])
+
+    def test_templates_are_one_test(self):
+        self.assertEqual(self.lines('TEMPLATE_TEST_CASE_SIG("a", "", ((int dim), dim), 2, 3) {}\n'
+                                    'TEMPLATE_TEST_CASE("b", "[x]", int, double) {}'),
+                         ["unit_serial([=[a]=] [=[a - *]=] 1)", "unit_serial([=[b]=] [=[b - *]=] 1)"])
+
+    def test_several_ranks(self):
+        self.assertEqual(self.lines('TEST_CASE("a", "[solid][mpi]") {}\nTEST_CASE("b", "[solid]") {}', "beam"),
+                         ["unit_serial([=[beam]=] [=[[#beam]]=] 2)",
+                          "unit_parallel([=[beam]=] [=[[#beam][mpi]]=] 1)"])
+
+    def test_comments_and_strings(self):
+        self.assertEqual(self.lines('// TEST_CASE("a")\n/* TEST_CASE("b") */\n'
+                                    'const char *c = "TEST_CASE(\\"c\\")", d = \'"\';\n'), [])
+
+    def test_what_cannot_be_a_test(self):
+        self.refused('TEST_CASE("a", "[.][speed]") {}', "hidden")
+        self.refused('TEST_CASE("a", "[!mayfail]") {}', "hidden")
+        self.refused("TEST_CASE(name) {}", "plain string")
+        self.refused('TEST_CASE(R"(a)") {}', "plain string")
+        self.refused('TEST_CASE("a\\n") {}', "not understood")
+        self.refused('TEST_CASE("") {}', "begins with")
+        self.refused("TEST_CASE() {}", "plain string")
+        self.refused('TEST_CASE("a", tags) {}', "plain string")
+        self.refused('TEST_CASE("a*") {}', "must not end")
+        self.refused('SCENARIO("a") {}', "SCENARIO")
+        self.refused('TEST_CASE("a") {}\nTEST_CASE("A") {}', "cannot be told")
+        self.refused('TEMPLATE_TEST_CASE("a", "", int) {}\nTEST_CASE("a - b") {}', "cannot be told")
+
+    def test_unknown_file(self):
+        with self.assertRaises(unit_cases.Unreadable):
+            self.lines("", "bean")
 
 
 if __name__ == "__main__":

@@ -56,16 +56,19 @@ namespace
       on_nodes += force;
     for (const auto &force : fluid->friction->on_boundaries)
       on_sides += force;
-    const auto columns = budget.columns();
+    const auto   columns   = budget.columns();
+    unsigned int n_columns = 0;
     for (unsigned int axis = 0; axis < dim; ++axis)
       for (const auto &column : columns)
         if (column.name == std::string("momentum by diffusion ") + "xyz"[axis])
           {
+            ++n_columns;
             INFO("axis " << axis << " " << column.value << " " << on_nodes << " " << on_sides);
             CHECK(std::abs(on_nodes[axis]) > 1e-3);
             CHECK(std::abs(column.value + dt * (on_nodes[axis] + on_sides[axis])) <=
                   1e-9 * dt * (on_nodes.norm() + on_sides.norm()));
           }
+    CHECK(n_columns == dim);
   }
 
 

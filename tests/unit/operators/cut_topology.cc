@@ -5,8 +5,6 @@
 #include <cutting/cut_checks.h>
 #include <operators/immersed.h>
 
-#include <chrono>
-
 using namespace undine_tests;
 
 namespace
@@ -273,48 +271,4 @@ TEST_CASE("All faces of divided cells are divided", "[interface][mpi]")
           n += open.faces[axis].kind(moved(cell, axis, end)) != Kind::divided;
   });
   CHECK(n == 0);
-}
-
-
-TEST_CASE("Milliseconds for 20,000 triangles in a million cells", "[.][speed]")
-{
-  using Clock        = std::chrono::steady_clock;
-  const auto seconds = [](const Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  };
-  const auto         bodies  = ball<3>(5, .3).shift(all_equal<3>(.5));
-  const auto         surface = bodies.surface();
-  MacGrid<3>::Planes planes;
-  for (auto &along : planes)
-    for (int i = 0; i <= 100; ++i)
-      along.push_back(i / 100.);
-  const MacGrid<3> grid(MPI_COMM_WORLD, planes, {});
-  CutCells<3>      cut(block_of_rank(grid));
-  CutWorkspace<3>  work;
-  for (int repetition = 0; repetition < 3; ++repetition)
-    {
-      auto start = Clock::now();
-      cut_block(cut, work, {surface, bodies.nodes}, grid.cells()->blocks());
-      const double cutting = seconds(start);
-      start                = Clock::now();
-      const auto   parts   = make_fluid_topology(grid, cut);
-      const double opening = seconds(start);
-      start                = Clock::now();
-      const BoundaryFlux<3> flux(cut, surface);
-      const double          entries = seconds(start);
-      start                         = Clock::now();
-      const std::vector<double> ones(cut.components.size(), 1.);
-      nodal_forces(flux, ones, MPI_COMM_WORLD);
-      gravity_loads(
-        cut, surface, bodies.nodes, ones, dealii::Point<3>::unit_vector(2), MPI_COMM_WORLD);
-      std::printf("%zu triangles, %zu cut cells: cutting %.1f ms, open parts %.1f ms, %zu entries "
-                  "%.1f ms, forces %.1f ms\n",
-                  surface.facets().size(),
-                  cut.cells.size(),
-                  1e3 * cutting,
-                  1e3 * opening,
-                  flux.entries().size(),
-                  1e3 * entries,
-                  1e3 * seconds(start));
-    }
 }

@@ -5,7 +5,6 @@
 #include <catch2/catch.hpp>
 #include <operators/immersed.h>
 
-#include <chrono>
 #include <cmath>
 
 using namespace undine_tests;
@@ -326,45 +325,4 @@ TEST_CASE("Without bodies nothing is in the way", "[interface]")
   CHECK(queries.first_hit({0, 0, 0}, {1, 1, 1}) > 1);
   CHECK_FALSE(queries.is_freshly_cleared({0, 0, 0}));
   CHECK(queries.nearest_velocity({0, 0, 0}).norm() == 0);
-}
-
-
-TEST_CASE("Microseconds per query at 20,000 facets", "[.][speed]")
-{
-  const auto grid    = box_grid<3>();
-  const auto bodies  = ball<3>(5, 1);
-  const auto surface = bodies.surface();
-  auto       moved   = at_rest(surface, bodies.nodes);
-  for (auto &x : moved.positions)
-    x[0] += .01;
-  using Clock        = std::chrono::steady_clock;
-  const auto seconds = [](const Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  };
-  auto                    start = Clock::now();
-  const SurfaceQueries<3> queries(grid, moved);
-  std::printf("%zu facets: set-up %.1f ms\n", bodies.facets.size(), 1e3 * seconds(start));
-  Random                        random(1);
-  const int                     n = 100000;
-  std::vector<dealii::Point<3>> places, ends;
-  for (int k = 0; k < n; ++k)
-    {
-      const auto direction = random_point<3>(random, 1);
-      places.emplace_back(random.between(.9, 1.1) / direction.norm() * direction);
-      ends.push_back(places.back() + random_point<3>(random, .05));
-    }
-  int counts[2] = {};
-  start         = Clock::now();
-  for (int k = 0; k < n; ++k)
-    counts[0] += queries.first_hit(places[k], ends[k]) <= 1;
-  std::printf("first_hit %.2f us (%d hits)\n", 1e6 * seconds(start) / n, counts[0]);
-  start = Clock::now();
-  for (int k = 0; k < n; ++k)
-    counts[1] += queries.is_freshly_cleared(places[k]);
-  std::printf("swept %.2f us (%d)\n", 1e6 * seconds(start) / n, counts[1]);
-  start      = Clock::now();
-  double sum = 0;
-  for (int k = 0; k < n; ++k)
-    sum += queries.nearest_velocity(places[k]).norm();
-  std::printf("nearest_velocity %.2f us (%.3f)\n", 1e6 * seconds(start) / n, sum / n);
 }

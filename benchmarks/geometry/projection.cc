@@ -4,25 +4,15 @@
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>
 
-#include <chrono>
+#include "stopwatch.h"
+
 #include <iostream>
 
+using namespace undine_benchmarks;
 using namespace undine_tests;
 
 namespace
 {
-  template <class Action>
-  double
-  seconds(const Action &action)
-  {
-    MPI_Barrier(MPI_COMM_WORLD);
-    const auto start = std::chrono::steady_clock::now();
-    action();
-    MPI_Barrier(MPI_COMM_WORLD);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
-
-
   template <int dim>
   void
   measure(const std::string &name, const std::string &text)
@@ -51,7 +41,7 @@ namespace
 } // namespace
 
 
-TEST_CASE("a projection of a million cells, cold start from noise", "[.][speed]")
+TEST_CASE("a projection of a million cells, cold start from noise")
 {
   const auto open = boundary("out", "right", "outflow");
   measure<3>("3D 100^3, outflow", FluidText{"100, 100, 100", open});
