@@ -2,6 +2,7 @@
 #ifndef undine_particles_multigrid_multigrid_gradients_h
 #define undine_particles_multigrid_multigrid_gradients_h
 
+#include <undine/particles/execution/share.h>
 #include <undine/particles/multigrid/cell_interpolation.h>
 #include <undine/particles/multigrid/multigrid.h>
 #include <undine/particles/pressure/conjugate_gradients.h>
