@@ -57,8 +57,8 @@ namespace undine_tests
     void
     step(const double dt)
     {
-      Velocity<dim>  unused;
-      FluidStep<dim> fluid(
+      FluidStageStart<dim> unused;
+      FluidStep<dim>       fluid(
         model, state, unused, environment.gravity, time, single_stage(dt), timing);
       for (const auto &effect : effects)
         effect->transport(fluid);
