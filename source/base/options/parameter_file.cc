@@ -139,7 +139,11 @@ namespace undine
         if (line == "end" && sections.size() == depth_at_start)
           throw InputError(name + ":" + std::to_string(number) +
                            ": 'end' without an open subsection.");
-        if (!line.empty())
+        if (line.find('\0') != std::string::npos)
+          line_mistakes.push_back(name + ":" + std::to_string(number) +
+                                  ": the line has a byte that is zero. Is the file a text, and was "
+                                  "it copied as a whole?");
+        else if (!line.empty())
           understand(line, name, number, sections);
       }
     if (sections.size() != depth_at_start)
