@@ -36,6 +36,7 @@ def check_questions(program, scene):
                                   ([scene, "--set", "Time"], 2, "'--set Time' must have the form"),
                                   (["no_such_file.prm"], 4, "'no_such_file.prm'"),
                                   ([scene, "--set", "Time/Stepp=1"], 2, "Did you mean 'Step'"),
+                                  ([scene, "--output", "--validate"], 2, "'--validate' is an option"),
                                   (["resume", "no_such_folder"], 4, "no_such_folder")):
         result = call(program, *arguments)
         expect(f"{arguments} must be refused with exit code {code} and '{word}'",
