@@ -139,7 +139,7 @@ namespace undine
   void
   ClosedRegions<dim>::remove_means(Field<dim> &pressure) const
   {
-    if (regions.empty())
+    if (region_volumes.empty()) // the same on all ranks, also where one has no fluid
       return;
     std::vector<double> values;
     for_each_value(

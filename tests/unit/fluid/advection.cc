@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/advection/advection.h>
+#include <undine/fluid/model/fluid_quantities.h>
 
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>
