@@ -185,7 +185,7 @@ TEST_CASE("particles: obstacles move as prescribed, and come from outside the do
                  std::cos(t) * rest[k][1] + std::sin(t) * rest[k][0]}};
       };
       CHECK(norm_square(paths[k].start - place(time)) < 1e-20);
-      CHECK(norm_square(paths[k].start + paths[k].increment - place(time + length)) < 1e-20);
+      CHECK(norm_square(paths[k].start + paths[k].way - place(time + length)) < 1e-20);
       const auto speed = (1 / (2 * 1e-6)) * (place(time + 1e-6) - place(time - 1e-6));
       CHECK(norm_square(paths[k].v_start - speed) < 1e-8);
     }

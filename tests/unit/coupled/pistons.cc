@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/model/fluid_quantities.h>
 
 #include <coupled/obstacle_run.h>
 
