@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/model/fluid_quantities.h>
+
 #include <catch2/catch.hpp>
 #include <effects/flow_run.h>
 
@@ -9,7 +12,7 @@ namespace
   /// What the effect alone does to the velocity in a unit of time, on a grid of `n` cells along
   /// each axis: at once, before anything else.
   template <int dim>
-  FluidStageStart<dim>
+  Velocity<dim>
   confining_acceleration(const std::string &fluid, const double strength)
   {
     const auto options =
