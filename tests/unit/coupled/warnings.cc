@@ -9,8 +9,7 @@ namespace
   std::string
   block_and_pillar(const std::string &coupling)
   {
-    return "set Dimension = 2\n" + section("Time", "set Step = .05") +
-           section("Domain", "set Cells = 16, 16") +
+    return section("Time", "set Step = .05") + section("Domain", "set Cells = 16, 16") +
            section("Fluid",
                    "set Density = 1\n" +
                      section("Boundaries",
