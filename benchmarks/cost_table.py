@@ -8,8 +8,8 @@ usage: benchmarks/cost_table.py [PROGRAM] [--smallest]
 
 --smallest takes the first of the three sizes alone, and leaves out what follows these tables.
 
-Beside PROGRAM its tests are expected: tests/unit_fluid holds the projection of a million cells,
-tests/unit_interface the cutting of a grid.
+Beside PROGRAM tests/geometry_benchmark is expected, which './undine test' builds: it measures the projection of
+a million cells and the cutting of a grid.
 Nothing else should run meanwhile.
 """
 import os
@@ -106,24 +106,24 @@ def table(program, title, scene, values):
     sys.stdout.flush()
 
 
-def projections(tests):
+def projections(benchmark):
     """The projections of a million cells from noise, on 1 and 2 ranks."""
     print("\n## Projection of a million cells\n\nFrom a velocity of noise to a divergence of 1e-10; "
           "seconds. The setup is done once in a run.\n")
     print("| grid | ranks | setup | solve | iterations |\n|---|---|---|---|---|")
     for ranks in (1, 2):
-        text = scene_tools.run(tests, ["[speed]"], ranks).stdout
+        text = scene_tools.run(benchmark, ["a projection of a million cells*"], ranks).stdout
         for row in re.findall(r"([23]D .*?) +\d+ cells, setup +([\d.]+) s, solve +([\d.]+) s, (\d+)",
                               text):
             print(f"| {row[0]} | {ranks} | {row[1]} | {row[2]} | {row[3]} |")
 
 
-def cuts(tests):
+def cuts(benchmark):
     """A ball of more and more facets cuts finer and finer grids, on one rank."""
     print("\n## Cutting a grid\n\nA ball of diameter 0.7 in a unit cube (square in 2D); one rank.\n")
     print("| cells along an edge | facets | cut cells | ms | µs per facet | µs per cut cell |\n"
           "|---|---|---|---|---|---|")
-    text = scene_tools.run(tests, ["a ball of more and more facets*"], 1).stdout
+    text = scene_tools.run(benchmark, ["a ball of more and more facets*"], 1).stdout
     for row in re.findall(r"([23]D) +(\d+) cells along an edge, +(\d+) facets, +(\d+) cut cells: +"
                           r"([\d.]+) ms, +([\d.]+) us per facet, +([\d.]+) us", text):
         print(f"| {row[0]}, {row[1]} | " + " | ".join(row[2:]) + " |")
@@ -141,9 +141,9 @@ def main():
         table(program, title, scene, values[:1] if smallest else values)
     if smallest:
         return
-    tests = os.path.join(os.path.dirname(program), "tests")
-    projections(os.path.join(tests, "unit_fluid"))
-    cuts(os.path.join(tests, "unit_interface"))
+    benchmark = os.path.join(os.path.dirname(program), "tests", "geometry_benchmark")
+    projections(benchmark)
+    cuts(benchmark)
 
 
 main()

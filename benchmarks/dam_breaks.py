@@ -120,6 +120,8 @@ def compare_front(dimension, arguments):
         print(f"  {name:32s} {clock:15s}  {in_words(found)}")
         if not (allowed is None or all(abs(deviation) <= allowed for _, deviation in found)):
             failures.append(f"{name} is more than {100 * allowed:.0f} % away")
+        if allowed is not None and not (points and points[-1][0] < times[-1]):
+            failures.append(f"{name}: the run ends at T = {times[-1]:.2f}, before the last of {len(points)} points")
 
     print(f"{FRONT} in {dimension} dimensions: {seconds:.1f} s\n{'':52s}before T = 2: mean, most; from T = 2 on")
     for name, ours, value in (("front", front, "z_over_a"), ("height", height, "height_over_2a")):
@@ -172,7 +174,7 @@ def compare_pressure(dimension, arguments):
         print(f"  {probe}: first peak {middle[f'{probe} peak']:.2f} ({min(peaks):.2f} to {max(peaks):.2f}), experiment "
               f"{measured:.2f} ({100 * (middle[f'{probe} peak'] / measured - 1):+.0f} %); "
               f"after it {middle[f'{probe} plateau']:.2f}, experiment {sum(plateau) / len(plateau):.2f}", flush=True)
-        if abs(middle[f"{probe} peak"] / measured - 1) > PEAK_BOUND:
+        if not abs(middle[f"{probe} peak"] / measured - 1) <= PEAK_BOUND:
             failures.append(f"the first peak of {probe} is more than {100 * PEAK_BOUND:.0f} % away")
     return failures
 

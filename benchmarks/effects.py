@@ -79,7 +79,7 @@ def plume(fill, grid, neglected):
     from_axis = f"((x-0.5)^2+(z-0.5)^2)/{radius:.6g}^2"
     smoke = f"max(0,1-{from_axis})^2*max(0,1-(y/{HEIGHT})^8)"
     section = "Effects/scalar transport"
-    return [f"Domain/Cells={grid}", f"Time/Maximum steps={STEPS_OF_PLUME}", "Output/Ledger=false",
+    return [f"Domain/Cells={grid}", f"Time/Maximum steps={STEPS_OF_PLUME}", "Output/Budget=false",
             f"Fluid/Initial velocity=0; 0.5*exp(-{from_axis}); 0",
             f"{section}/smoke/Initial value={smoke}", f"{section}/smoke/Source=0",
             f"{section}/temperature/Initial value=293+40*{smoke}", f"{section}/temperature/Source=0",

@@ -39,8 +39,8 @@ CASES = {
     "csm3": Case("prm/turek_hron_csm3.prm", "A displacement y", ["Bodies/flag/Cells=20, 2", "Time/End=2"]),
     "cantilever": Case("prm/cantilever.prm", "tip displacement y", ["Bodies/beam/Cells=10, 1, 2"]),
     "piston": Case("prm/piston.prm", "tip displacement x", []),
-    "plate": Case("prm/hydrostatic_plate.prm", "middle displacement y", ["Time/End=1", "Output/Ledger=false"]),
-    "jet": Case("prm/jet_two_sheets_2d.prm", "first_tip displacement x", ["Time/End=1", "Output/Ledger=false"]),
+    "plate": Case("prm/hydrostatic_plate.prm", "middle displacement y", ["Time/End=1", "Output/Budget=false"]),
+    "jet": Case("prm/jet_two_sheets_2d.prm", "first_tip displacement x", ["Time/End=1", "Output/Budget=false"]),
 }
 
 

@@ -100,7 +100,7 @@ CASES = {
                   point("middle", "y", "plate"), (64, 128, 256, 512, 1024),
                   ("Effects/damping/Stiffness coefficient=0.002",)),
     "jet": Case("the first sheet in the jet", "prm/jet_two_sheets_2d.prm", 1, point("first_tip", "x", "first"),
-                (32, 64, 128, 256), ("Output/Ledger=false",)),
+                (32, 64, 128, 256), ("Output/Budget=false",)),
     "csm3": Case("a flag alone, without damping", "prm/turek_hron_csm3.prm", 1, point("A", "y"),
                  (16, 32, 64, 128)),
 }

@@ -4,7 +4,7 @@
 
 #include "flagged_words.cuh"
 
-#include <undine/particles/sums.h>
+#include <undine/particles/execution/sums.h>
 
 namespace undine::particles
 {

@@ -4,9 +4,9 @@
 
 #include "banded_inverse.cuh"
 #include "block_exchange.cuh"
-#include "resident_rows.cuh"
+#include "resident/rows.cuh"
 
-#include <undine/particles/conjugate_gradients.h>
+#include <undine/particles/pressure/conjugate_gradients.h>
 
 namespace undine::particles
 {

@@ -10,22 +10,22 @@ namespace undine::particles
   {
   public:
     std::string
-    reason_not_available() const
+    reason_not_available(const unsigned int device) const override
     {
-      return reason_without_device();
+      return reason_without_device(device);
     }
 
     std::unique_ptr<Engine<dim>>
-    make(const Precision precision) const override
+    make(const Precision precision, const unsigned int device) const override
     {
-      return precision == Precision::single_precision ? make_device_engine<dim, float>()
-                                                      : make_device_engine<dim, double>();
+      return precision == Precision::single_precision ? make_device_engine<dim, float>(device)
+                                                      : make_device_engine<dim, double>(device);
     }
   };
 
   namespace
   {
     const RegisterForDimensions<EngineFactory, DeviceEngineFactory>
-      device("device", "an NVIDIA graphics processor");
+      registered("device", "an NVIDIA graphics processor");
   } // namespace
 } // namespace undine::particles

@@ -6,10 +6,10 @@
 #include "device_kernels.cuh"
 #include "device_stopwatch.cuh"
 #include "find_device.h"
-#include "resident_bodies.cuh"
-#include "resident_solver.cuh"
+#include "resident/bodies.cuh"
+#include "resident/solver.cuh"
 
-#include <undine/particles/damped_iterations.h>
+#include <undine/particles/pressure/damped_iterations.h>
 
 #include <cub/device/device_scan.cuh>
 
@@ -30,13 +30,15 @@ namespace undine::particles
     static constexpr int multigrid_pays_from = 300000;
     static constexpr int room_pays_from      = 100000;
 
-    /// Throws InputError if there is no device.
-    DeviceExecutor()
+    /// On the device of this number, which the thread works on from now on. Throws InputError if
+    /// there is none.
+    explicit DeviceExecutor(const unsigned int device)
     {
-      const std::string reason = reason_without_device();
+      const std::string reason = reason_without_device(device);
       if (!reason.empty())
         throw InputError(reason);
-      check_device(cudaGetDeviceProperties(&properties, 0), "to describe itself");
+      check_device(cudaSetDevice(device), "to be chosen");
+      check_device(cudaGetDeviceProperties(&properties, device), "to describe itself");
       check_device(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "to start");
       resident          = ResidentSolver(properties, stream);
       bodies            = ResidentBodies(properties, stream);

@@ -2,7 +2,7 @@
 #ifndef undine_cuda_device_lanes_cuh
 #define undine_cuda_device_lanes_cuh
 
-#include <undine/particles/matrix.h>
+#include <undine/particles/math/matrix.h>
 
 namespace undine::particles
 {

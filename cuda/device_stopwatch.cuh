@@ -4,7 +4,7 @@
 
 #include "device_error.cuh"
 
-#include <undine/particles/phases.h>
+#include <undine/particles/execution/phases.h>
 
 #include <array>
 #include <vector>

@@ -4,8 +4,8 @@
 
 #include "device_lanes.cuh"
 
-#include <undine/particles/share.h>
-#include <undine/particles/sums.h>
+#include <undine/particles/execution/share.h>
+#include <undine/particles/execution/sums.h>
 
 #include <cuda_runtime.h>
 

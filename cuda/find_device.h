@@ -6,9 +6,10 @@
 
 namespace undine::particles
 {
-  /// Why there is no device to compute on, and what to do; empty if there is one.
+  /// Why there is no device of this number (from 0 on) to compute on, and what to do; empty if there
+  /// is one.
   std::string
-  reason_without_device();
+  reason_without_device(unsigned int device);
 } // namespace undine::particles
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef undine_cuda_flagged_words_cuh
 #define undine_cuda_flagged_words_cuh
 
-#include <undine/particles/vector.h>
+#include <undine/particles/math/vector.h>
 
 #include <cuda_runtime.h>
 

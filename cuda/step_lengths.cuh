@@ -2,7 +2,7 @@
 #ifndef undine_cuda_step_lengths_cuh
 #define undine_cuda_step_lengths_cuh
 
-#include <undine/particles/sums.h>
+#include <undine/particles/execution/sums.h>
 
 #include <cuda_runtime.h>
 

@@ -32,11 +32,15 @@ def check_questions(program, scene):
         result = call(program, scene, "--validate", folder=folder)
         expect("--validate must write nothing", result.returncode == 0 and not os.listdir(folder),
                result)
-    for arguments in ([], ["--no-such-option"], [scene, "--set", "Time"], ["no_such_file.prm"],
-                      [scene, "--set", "Time/Stepp=1"], ["resume", "no_such_folder"]):
+    for arguments, code, word in (([], 2, "no scene"), (["--no-such-option"], 2, "--no-such-option"),
+                                  ([scene, "--set", "Time"], 2, "'--set Time' must have the form"),
+                                  (["no_such_file.prm"], 4, "'no_such_file.prm'"),
+                                  ([scene, "--set", "Time/Stepp=1"], 2, "Did you mean 'Step'"),
+                                  ([scene, "--output", "--validate"], 2, "'--validate' is an option"),
+                                  (["resume", "no_such_folder"], 4, "no_such_folder")):
         result = call(program, *arguments)
-        expect(f"{arguments} must be refused with a message",
-               result.returncode > 0 and result.stderr.strip(), result)
+        expect(f"{arguments} must be refused with exit code {code} and '{word}'",
+               result.returncode == code and word in result.stderr, result)
 
 
 def check_output(program, scene):

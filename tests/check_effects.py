@@ -5,6 +5,7 @@
 usage: check_effects.py PROGRAM FOLDER_OF_SCENES
 """
 import json
+import math
 import os
 import re
 import sys
@@ -108,9 +109,8 @@ def check_obstacles(program, folder):
     expect("a rigid obstacle costs no solid solve", not solid, phases)
     cells = 128 * 64 * 8  # bytes of a number in each
     for name in ("convection", "scalar transport"):
-        expect(f"'{name}' must have calls, time and memory", effects[name]["calls"] > 0 and
-               effects[name]["seconds"] > 0 and effects[name]["peak bytes"] >= cells,
-               effects[name])
+        expect(f"'{name}' must have calls and memory", effects[name]["calls"] > 0 and
+               effects[name]["peak bytes"] >= cells, effects[name])
     smoke = effects["scalar transport"]
     expect("the smoke is a field of the state from the start, and needs another while carried",
            cells <= smoke["bytes at start"] < 2 * cells <= smoke["peak bytes"] < 5 * cells, smoke)
@@ -149,7 +149,7 @@ def advice_of(program, scene, *settings):
     for remark in whole["advice"]:
         expect("the log must have the advice", f"advice: '{remark['effect']}'" in log, log)
         expect("advice needs a number and a rule", remark["number"] and remark["rule"] and
-               remark["value"] == remark["value"], remark)
+               math.isfinite(remark["value"]), remark)
     return {(remark["effect"], remark["on"]) for remark in whole["advice"]}
 
 

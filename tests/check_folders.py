@@ -108,7 +108,8 @@ def check_refused_resumes(program, scenes, folder):
     results = folder / "refused"
     scene = scenes / "obstacle_flow.prm"
     coarse = settings("Domain/Cells=24, 12", "Time/Maximum steps=4")
-    call(program, scene, "--output", results, *coarse)
+    result = call(program, scene, "--output", results, *coarse)
+    expect("a run of four steps works", result.returncode == 0 and steps(results) == list(range(5)), result)
     before = contents(results)
     more = "Time/Maximum steps=6"
 
@@ -148,7 +149,8 @@ def check_changed_bodies(program, scenes, folder):
                            ("floating_block.prm", ["Bodies/block/Lower corner=0.4, 0.27",
                                                    "Bodies/block/Upper corner=0.6, 0.47"])):
         results = folder / scene
-        call(program, scenes / scene, "--output", results, *settings("Time/Maximum steps=1"))
+        result = call(program, scenes / scene, "--output", results, *settings("Time/Maximum steps=1"))
+        expect(f"{scene} runs", result.returncode == 0 and steps(results) == [0, 1], result)
         result = call(program, "resume", results, *settings("Time/Maximum steps=2", *changes))
         expect(f"other bodies in {scene} are refused", result.returncode == 4 and
                "bodies at rest" in result.stderr, result)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Includes follow the order of the modules (doc/architecture.md), and headers have no cycles.
+"""Includes follow the order of the modules and their rooms (doc/architecture.md); neither rooms nor headers
+have cycles, and no folder is crowded.
 
 usage: check_include_direction.py ROOT      prints FILE:LINE: REASON for every violation
 """
@@ -9,38 +10,99 @@ import re
 import sys
 
 BASE = {"base/core", "base/options", "base/parallel"}
-PHYSICS = BASE | {"solid", "fluid", "interface", "particles"}
+GEOMETRY = {"surface", "cutting", "operators", "contact"}
+PHYSICS = BASE | GEOMETRY | {"solid", "fluid", "particles"}
 
-# module: what it may include besides itself
+# Room: what it may include besides itself. A room is a module or, as "module/room", a folder of one; the
+# name of a module stands for all of its rooms. Files directly in a module that has rooms are a room, too.
 SEES = {
     "base/core": set(),
     "base/options": {"base/core"},
     "base/parallel": {"base/core"},
-    "solid": BASE,
-    "fluid": BASE,
-    "particles": {"base/core"},
+
+    "solid/material": BASE,
+    "solid/time": BASE,
+    "solid/mesh": BASE | {"solid/material", "solid/time"},
+    "solid/assembly": BASE | {"solid/material", "solid/mesh"},
+    "solid/solvers": BASE | {"solid/mesh", "solid/assembly"},
+    "solid/step": BASE | {"solid/time", "solid/mesh", "solid/assembly", "solid/solvers"},
+
+    "fluid/grid": BASE,
+    "fluid/boundary": BASE | {"fluid/grid"},
+    "fluid/model": BASE | {"fluid/grid", "fluid/boundary"},
+    "fluid/visibility": BASE | {"fluid/grid"},
+    "fluid/advection": BASE | {"fluid/grid", "fluid/boundary", "fluid/model", "fluid/visibility"},
+    "fluid/viscosity": BASE | {"fluid/grid", "fluid/boundary", "fluid/model"},
+    "fluid/pressure": BASE | {"fluid/grid", "fluid/boundary", "fluid/model"},
+    "fluid": BASE | {"fluid/grid", "fluid/model", "fluid/advection"},
+
+    "particles/math": set(),
+    "particles/execution": {"particles/math"},
+    "particles/model": {"base/core", "particles/math", "particles/execution"},
+    "particles/boundaries": {"particles/math", "particles/execution", "particles/model"},
+    "particles/setup": {"base/core", "particles/model", "particles/boundaries"},
+    "particles/neighbours": {"particles/math", "particles/execution", "particles/model"},
+    "particles/fluid": {"particles/math", "particles/execution", "particles/model",
+                        "particles/neighbours"},
+    "particles/elasticity": {"particles/math", "particles/execution", "particles/model",
+                             "particles/setup", "particles/neighbours"},
+    "particles/pressure": {"particles/math", "particles/execution", "particles/model",
+                           "particles/neighbours", "particles/fluid", "particles/elasticity"},
+    "particles/multigrid": {"particles/math", "particles/execution", "particles/model",
+                            "particles/neighbours", "particles/pressure"},
+    "particles/engine": {"base/core", "particles"},
     "cuda": {"base/core", "particles"},
-    "interface": BASE | {"solid", "fluid"},
-    "effects": PHYSICS,
-    "coupled": PHYSICS | {"effects"},
-    "output": PHYSICS | {"effects", "coupled"},
-    "scene": PHYSICS | {"effects", "coupled", "output"},
-    "driver": PHYSICS | {"effects", "coupled", "output", "scene"},
-    "study": PHYSICS | {"effects", "coupled", "output", "scene", "driver"},
+
+    "surface": BASE | {"solid/mesh", "fluid/grid", "fluid/visibility"},
+    "cutting": BASE | {"surface", "fluid/grid", "fluid/boundary"},
+    "operators": BASE | {"surface", "cutting", "fluid"},
+    "contact": BASE | {"surface", "solid/mesh", "solid/assembly", "fluid/grid", "fluid/model"},
+    "effects": BASE | {"solid", "fluid", "particles"},
+    "particle_model": BASE | {"solid/material", "solid/mesh", "fluid/boundary", "surface", "particles",
+                              "effects"},
+
+    "coupled/model": PHYSICS | {"effects", "particle_model"},
+    "coupled/state": PHYSICS,
+    "coupled/linear": BASE | {"solid/solvers"},
+    "coupled/immersed": PHYSICS | {"coupled/model", "coupled/state", "coupled/linear"},
+    "coupled/budget": PHYSICS | {"coupled/model", "coupled/state"},
+    "coupled/step": PHYSICS | {"effects", "coupled/model", "coupled/state", "coupled/linear",
+                               "coupled/immersed", "coupled/budget"},
+    "coupled/adaptivity": PHYSICS | {"effects", "coupled/model", "coupled/state", "coupled/budget",
+                                     "coupled/step"},
+    "coupled/scheme": PHYSICS | {"effects", "particle_model", "coupled"},
+
+    "output/files": BASE,
+    "output/checkpoint": PHYSICS | {"coupled", "output/files"},
+    "output/fields": PHYSICS | {"particle_model", "coupled", "output/files"},
+    "output/probes": PHYSICS | {"particle_model", "coupled", "output/files", "output/fields"},
+    "output": PHYSICS | {"effects", "coupled", "output"},
+    "scene": PHYSICS | {"effects", "particle_model", "coupled", "output"},
+    "driver": PHYSICS | {"effects", "particle_model", "coupled", "output", "scene"},
+    "study": PHYSICS | {"effects", "particle_model", "coupled", "output", "scene", "driver"},
 }
-STANDARD_LIBRARY_ONLY = {"base/core", "particles", "cuda"}
-WITHOUT_DEAL_II = {"particles", "cuda"}
+WITHOUT_DEAL_II = ("base/core", "particles", "cuda")
 
 INCLUDE = re.compile(r"\s*#\s*include\s*[<\"]([^>\"]+)[>\"]")
 SUFFIXES = {".h", ".cc", ".cu", ".cuh"}
+MOST_FILES = 25
 
 
-def module_of(path):
-    """The module that owns a path like base/core/clock.h; None if it is in no module."""
+def room_of(path):
+    """The room that owns a path like base/core/clock.h or solid/material/materials/neo_hookean.cc, as it is
+    called in SEES; None if it is in no room."""
     parts = pathlib.PurePosixPath(path).parts
-    if len(parts) > 2 and parts[0] == "base":
+    if len(parts) > 2 and "/".join(parts[:2]) in SEES:
         return "/".join(parts[:2])
-    return parts[0] if len(parts) > 1 else None
+    has_rooms = any(room.startswith(parts[0] + "/") for room in SEES)
+    if len(parts) == 1 or parts[0] not in SEES or (has_rooms and len(parts) > 2):
+        return None
+    return parts[0]
+
+
+def may_see(room, other):
+    """Whether what is in `room` may include what is in the room `other`."""
+    return other == room or other in SEES[room] or other.split("/")[0] in SEES[room]
 
 
 def sources(root):
@@ -61,60 +123,91 @@ def includes(file):
             yield number, match[1]
 
 
-def reason(module, included):
-    """Why `module` may not include `included`; empty if it may."""
+def reason(room, included):
+    """Why `room` may not include `included`; empty if it may."""
     if included.startswith("undine/"):
-        other = module_of(included[len("undine/"):])
-        if other == module or other in SEES[module]:
-            return ""
-        if other not in SEES:
-            return f"<{included}> belongs to no module"
-        return f"module '{module}' must not see module '{other}': <{included}>"
-    if included.startswith("deal.II/") and module in WITHOUT_DEAL_II | STANDARD_LIBRARY_ONLY:
-        return f"module '{module}' must not see deal.II: <{included}>"
-    if module == "base/core" and not re.fullmatch(r"[a-z_]+", included):
-        return f"module '{module}' uses the standard library only: <{included}>"
+        other = room_of(included[len("undine/"):])
+        if other is None:
+            return f"<{included}> belongs to no room"
+        return "" if may_see(room, other) else f"'{room}' must not see '{other}': <{included}>"
+    if included.startswith("deal.II/") and room.startswith(WITHOUT_DEAL_II):
+        return f"'{room}' must not see deal.II: <{included}>"
+    if room == "base/core" and not re.fullmatch(r"[a-z_]+", included):
+        return f"'{room}' uses the standard library only: <{included}>"
     return ""
 
 
 def wrong_directions(root):
     for file, inside in sources(root):
-        module = module_of(inside)
-        if module not in SEES:
-            yield f"{file.relative_to(root)}:1: belongs to no module of doc/architecture.md"
+        room = room_of(inside)
+        if room is None:
+            yield f"{file.relative_to(root)}:1: belongs to no room of doc/architecture.md"
             continue
         for number, included in includes(file):
-            why = reason(module, included)
+            why = reason(room, included)
             if why:
                 yield f"{file.relative_to(root)}:{number}: {why}"
 
 
-def cycles(root):
+def cycles_of_rooms(root):
+    """Rooms that see each other, directly or through others: by what they include."""
+    graph = {}
+    for file, inside in sources(root):
+        room = room_of(inside)
+        graph.setdefault(room, set())
+        for _, included in includes(file):
+            if included.startswith("undine/"):
+                graph[room].add(room_of(included[len("undine/"):]))
+    yield from cycles_in({room: sorted(other for other in others if other and other != room)
+                          for room, others in graph.items() if room})
+
+
+def cycles_of_headers(root):
     """Headers that include themselves through others."""
-    graph = {"undine/" + inside: [name for _, name in includes(file) if name.startswith("undine/")]
-             for file, inside in sources(root) if file.suffix == ".h"}
+    yield from cycles_in(
+        {"undine/" + inside: [name for _, name in includes(file) if name.startswith("undine/")]
+         for file, inside in sources(root) if file.suffix == ".h"})
+
+
+def cycles_in(graph):
     done = set()
 
-    def visit(header, trail):
-        if header in trail:
-            yield "cycle: " + " -> ".join(trail[trail.index(header):] + [header])
-        elif header not in done:
-            for other in graph.get(header, []):
-                yield from visit(other, trail + [header])
-            done.add(header)
+    def visit(node, trail):
+        if node in trail:
+            yield "cycle: " + " -> ".join(trail[trail.index(node):] + [node])
+        elif node not in done:
+            for other in graph.get(node, []):
+                yield from visit(other, trail + [node])
+            done.add(node)
 
-    for header in graph:
-        yield from visit(header, [])
+    for node in graph:
+        yield from visit(node, [])
+
+
+def crowded_folders(root):
+    """Folders with more files than one can take in."""
+    for tree in ("include/undine", "source", "cuda"):
+        for folder in [root / tree, *sorted((root / tree).rglob("*"))]:
+            count = sum(file.suffix in SUFFIXES for file in folder.iterdir()) if folder.is_dir() else 0
+            if count > MOST_FILES:
+                yield f"{folder.relative_to(root)}:1: {count} files; more than {MOST_FILES}: which rooms are in it?"
+
+
+def problems(root):
+    yield from wrong_directions(root)
+    yield from cycles_of_rooms(root)
+    yield from cycles_of_headers(root)
+    yield from crowded_folders(root)
 
 
 def main():
     root = pathlib.Path(sys.argv[1])
     count = len(list(sources(root)))
-    problems = list(wrong_directions(root)) + list(cycles(root))
+    found = list(problems(root))
     if count == 0:
-        problems.append(f"{root}: no sources found")
-    if problems:
-        sys.exit("\n".join(problems))
+        found.append(f"{root}: no sources found")
+    if found:
+        sys.exit("\n".join(found))
     print(f"{count} files: all includes point downwards")
 
 

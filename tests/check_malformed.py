@@ -6,7 +6,7 @@ usage: check_malformed.py PROGRAM FOLDER
 
 Each .prm file in FOLDER names in a comment `# expect: text | text` what the message must contain; the
 file's own name is always expected. What `# never: text | text` lists it must not contain. Files with the
-comment `# run` are valid and fail while running.
+comment `# run` are valid and fail while running. The exit code is 2, or what `# exit: code` says.
 The good scenes that the others include must be accepted.
 """
 import concurrent.futures
@@ -18,7 +18,6 @@ import tempfile
 
 import scene_tools
 
-EXIT_CODES = {2, 3, 4}  # InputError, SolveError, FileError
 
 
 def call(program, arguments):
@@ -37,8 +36,10 @@ def faults(program, scene):
     runs = re.search(r"^# run$", text, re.M) is not None
     result = call(program, [str(scene)] + ([] if runs else ["--validate"]))
     found = []
-    if result.returncode not in EXIT_CODES:
-        found.append(f"exit code {result.returncode}, expected one of {sorted(EXIT_CODES)}")
+    exit_code = re.search(r"^# exit: (\d+)$", text, re.M)
+    wanted = int(exit_code[1]) if exit_code else 2
+    if result.returncode != wanted:
+        found.append(f"exit code {result.returncode} instead of {wanted}")
     words = [word.strip() for word in expected[1].split(" | ")]
     if not runs:
         words.append(scene.name)

@@ -22,13 +22,16 @@ def main():
     arguments = [word for setting in settings for word in ("--set", setting)]
     found = []
     with tempfile.TemporaryDirectory() as folder:
-        texts = []
+        texts = {}
         for ranks in (1, 2, 3, 4):
             output = os.path.join(folder, str(ranks))
             scene_tools.run(program, [scene, "--output", output] + arguments, ranks)
-            texts.append(scene_tools.statistics(output))
+            texts[ranks] = scene_tools.statistics(output)
+        if len(scene_tools.parse(texts[1])[2]) != STEPS + 1:
+            sys.exit(f"{STEPS} steps were expected\n{texts[1]}")
+        for ranks in (2, 3, 4):
             found += [f"{ranks} ranks, {line}" for line in
-                      scene_tools.differences(texts[-1], texts[0], TOLERANCE, False)]
+                      scene_tools.differences(texts[ranks], texts[1], TOLERANCE, False)]
     if found:
         sys.exit("\n".join(found[:20]))
     print(f"{os.path.basename(scene)}: {STEPS} steps on 1, 2, 3, 4 ranks are the same")

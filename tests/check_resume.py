@@ -8,6 +8,7 @@ usage: check_resume.py PROGRAM SCENE.prm [--one-rank] [--same-ranks] [--long] [S
 Schemes that run on one rank are resumed on one. Long runs are ten times as long.
 """
 import os
+import re
 import sys
 import tempfile
 
@@ -38,13 +39,17 @@ def main():
     def call(arguments, ranks, steps, more=()):
         for setting in (*more, f"Time/Maximum steps={steps}"):
             arguments = arguments + ["--set", setting]
-        scene_tools.run(program, arguments, ranks)
+        return scene_tools.run(program, arguments, ranks).stdout
 
     with tempfile.TemporaryDirectory() as folder:
         straight, broken = os.path.join(folder, "straight"), os.path.join(folder, "broken")
         call([scene, "--output", straight], 1, whole, settings)
         call([scene, "--output", broken], first, half, settings)
-        call(["resume", broken], second, whole)
+        begun = re.findall(r"^resumed at step (\d+)", call(["resume", broken], second, whole), re.M)
+        if begun != [str(half)]:
+            sys.exit(f"the run was resumed at step {begun}, not at {half}")
+        if len(scene_tools.parse(scene_tools.statistics(broken))[2]) != whole + 1:
+            sys.exit(f"statistics of {whole} steps were expected\n{scene_tools.statistics(broken)}")
         found = (first_difference(broken, straight) if same else
                  scene_tools.differences(scene_tools.statistics(broken),
                                          scene_tools.statistics(straight), TOLERANCE, False))

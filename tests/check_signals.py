@@ -92,7 +92,7 @@ def end_by_second_signal(program, scene, folder):
         sys.exit(f"exit code {process.returncode} after one signal to a run that cannot go on")
     process.send_signal(signal.SIGTERM)
     try:
-        code = process.wait(5)
+        code = process.wait(LIMIT)
     except subprocess.TimeoutExpired:
         process.kill()
         sys.exit("a second SIGTERM does not end the process")

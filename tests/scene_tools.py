@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the checks of whole runs share: starting the program and comparing `statistics`."""
+import math
 import os
 import re
 import subprocess
@@ -18,6 +19,13 @@ def environment():
 
 def command(program, arguments, ranks):
     return (["mpirun", "-np", str(ranks)] if ranks > 1 else []) + [program] + arguments
+
+
+def ended(program, arguments, ranks=1):
+    """Exit code, output and errors of a run, however it ends."""
+    result = subprocess.run(command(program, arguments, ranks), env=environment(),
+                            capture_output=True, text=True)
+    return result.returncode, result.stdout, result.stderr
 
 
 def run(program, arguments, ranks=1):
@@ -67,10 +75,12 @@ def differences(text, record, tolerance, compare_iterations, rounding=ROUNDING):
     noise in a component that should be zero is measured by its neighbours."""
     names, units, rows = parse(text)
     expected_names, expected_units, expected_rows = parse(record)
-    if (names, units) != (expected_names, expected_units):
+    if (names, units) != (expected_names, expected_units) or not names:
         return [f"columns differ: {names} {units}\nexpected {expected_names} {expected_units}"]
     if len(rows) != len(expected_rows) or not rows:
         return [f"{len(rows)} rows instead of {len(expected_rows)}"]
+    if any(len(row) != len(names) or not all(map(math.isfinite, row)) for row in rows + expected_rows):
+        return [f"a row lacks one of {len(names)} numbers"]
     scale = {}
     for row in expected_rows:
         for unit, value in zip(units, row):

@@ -4,7 +4,7 @@
 
 #include "dam_break.h"
 
-#include <undine/particles/engine.h>
+#include <undine/particles/engine/engine.h>
 
 namespace undine::particles
 {

@@ -2,8 +2,8 @@
 #ifndef undine_benchmarks_particles_dam_break_h
 #define undine_benchmarks_particles_dam_break_h
 
-#include <undine/particles/particle_state.h>
-#include <undine/particles/setup.h>
+#include <undine/particles/model/particle_state.h>
+#include <undine/particles/setup/setup.h>
 
 namespace undine::particles
 {

@@ -3,7 +3,7 @@
 #include "check_run.h"
 #include "dam_break.h"
 
-#include <undine/particles/engine.h>
+#include <undine/particles/engine/engine.h>
 
 #include <chrono>
 #include <cstdio>
@@ -148,7 +148,7 @@ namespace
     DamBreak dam(n, choice.sphere);
     dam.setup.numerics = choice.numerics;
     auto factory       = undine::Registry<EngineFactory<3>>::instance().make(choice.executor);
-    auto engine        = factory->make(choice.precision);
+    auto engine        = factory->make(choice.precision, 0);
     engine->load(dam.setup, dam.start);
     double time = 0;
     for (; time < choice.start - choice.frame / 2; time += choice.frame)

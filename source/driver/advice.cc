@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/driver/adviser.h>
-#include <undine/solid/material.h>
+#include <undine/solid/material/material.h>
 
 #include <fmt/format.h>
 
@@ -216,7 +216,7 @@ namespace undine
           }
         const double speed = U > 0 ? largest.body_speed / U : 0;
         add("motion of bodies",
-            std::max(largest.way / L, speed),
+            std::max(largest.displacement / L, speed),
             "larger of displacement / L and speed / U");
         judge(name,
               models.direction == Direction::two_way,
@@ -239,7 +239,9 @@ namespace undine
   {
     if (models.particles)
       return {};
-    return Rules<dim>(models, largest).advice();
+    auto result = Rules<dim>(models, largest).advice();
+    result.missing.assign(missing.begin(), missing.end());
+    return result;
   }
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/driver/adviser.h>
-#include <undine/solid/internal_forces.h>
+#include <undine/solid/assembly/internal_forces.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -39,14 +39,27 @@ namespace undine
     }
 
 
-    double
-    column(const Columns &columns, const std::string &name)
+    /// nullptr if there is none of that name.
+    const Column *
+    find(const Columns &columns, const std::string &name)
     {
       const auto found = std::find_if(
         columns.begin(), columns.end(), [&](const auto &column) { return column.name == name; });
-      return found == columns.end() ? 0 : found->value;
+      return found == columns.end() ? nullptr : &*found;
     }
   } // namespace
+
+
+  /// The value of a column that every step has; zero, and noted, if one has not.
+  template <int dim>
+  double
+  Adviser<dim>::column(const Columns &columns, const std::string &name)
+  {
+    const auto *found = find(columns, name);
+    if (found == nullptr)
+      missing.insert(name);
+    return found == nullptr ? 0 : found->value;
+  }
 
 
   template <int dim>
@@ -99,8 +112,10 @@ namespace undine
   Adviser<dim>::observe(const State<dim> &state, const Report &report)
   {
     largest.time += report.dt;
-    largest.speed = std::max(largest.speed, column(report.columns, "Fluid largest speed"));
-    largest.damped += std::abs(column(report.columns, "energy by damping"));
+    if (models.fluid)
+      largest.speed = std::max(largest.speed, column(report.columns, "Fluid largest speed"));
+    if (const auto *damped = find(report.columns, "energy by damping")) // of the budget
+      largest.damped += std::abs(damped->value);
     if (models.solid)
       {
         for (const auto &body : models.solid->bodies())
@@ -109,9 +124,9 @@ namespace undine
         largest.body_energy = std::max(largest.body_energy,
                                        column(report.columns, "solid kinetic energy") +
                                          column(report.columns, "solid elastic energy"));
-        auto way            = state.solid.displacement;
-        way -= first_displacement;
-        largest.way = std::max(largest.way, way.linfty_norm());
+        auto displacement   = state.solid.displacement;
+        displacement -= first_displacement;
+        largest.displacement = std::max(largest.displacement, displacement.linfty_norm());
         // Costs a loop over all cells: at steps 1, 2, 4, 8, ... and at the end.
         const auto step = state.clock.step;
         if ((step & (step - 1)) == 0 || state.clock.ended())

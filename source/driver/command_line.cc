@@ -18,7 +18,15 @@ namespace undine
     void
     add_run_options(CLI::App &command, Request &request, const std::string &output)
     {
-      command.add_option("--output", request.output, output)->type_name("DIR");
+      command.add_option("--output", request.output, output)
+        ->type_name("DIR")
+        ->check(CLI::Validator(
+          [](const std::string &folder) {
+            return folder.rfind("--", 0) == 0
+                     ? "'" + folder + "' is an option, no folder: what shall the folder be?"
+                     : std::string();
+          },
+          ""));
       command.add_flag("--overwrite",
                        request.overwrite,
                        "replace a run in that folder which has not reached its end");

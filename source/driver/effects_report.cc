@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/implied_effect.h>
+#include <undine/coupled/model/implied_effect.h>
 #include <undine/driver/effects_report.h>
-#include <undine/particles/phases.h>
+#include <undine/particles/execution/phases.h>
 
 #include <algorithm>
 
@@ -159,6 +159,8 @@ namespace undine
                 remark.number,
                 remark.value,
                 remark.rule);
+    for (const auto &name : advice.missing)
+      log.print("advice: no step had a column '{}'; what follows from it was not judged", name);
   }
 
 
@@ -203,13 +205,15 @@ namespace undine
                          remark.value,
                          quoted(remark.rule));
     });
+    const auto missing = json_list(advice.missing, quoted);
     return fmt::format("{{\n  \"ranks\": {},\n  \"seconds\": {:.6f},\n  \"effects\": {},\n"
-                       "  \"numbers\": {},\n  \"advice\": {}\n}}\n",
+                       "  \"numbers\": {},\n  \"advice\": {},\n  \"columns not found\": {}\n}}\n",
                        dealii::Utilities::MPI::n_mpi_processes(communicator),
                        whole,
                        effects,
                        numbers,
-                       remarks);
+                       remarks,
+                       missing);
   }
 
 

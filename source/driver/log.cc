@@ -27,6 +27,24 @@ namespace undine
   }
 
 
+  bool
+  Log::has_notes(const Report &report) const
+  {
+    return !report.note.empty() || !new_warnings(report.warnings, told).empty();
+  }
+
+
+  void
+  Log::print_notes(const Report &report)
+  {
+    if (!report.note.empty())
+      print("note: {}", report.note);
+    for (const auto &text : new_warnings(report.warnings, told))
+      print("note: {}", text);
+    told = report.warnings;
+  }
+
+
   void
   Log::write(const std::string &text)
   {

@@ -64,8 +64,11 @@ namespace undine
     last_step              = std::chrono::steady_clock::now();
     pause_within           = first_pause;
     if (clock.step != start.step + 1 && !clock.ended() && seconds_since(last_line) < pause &&
-        report.cuts == 0 && report.note.empty())
-      return;
+        report.cuts == 0 && !log.has_notes(report))
+      {
+        log.print_notes(report); // none, but it learns what has passed
+        return;
+      }
     last_line         = std::chrono::steady_clock::now();
     const double done = share_done(clock);
     log.print(
@@ -82,8 +85,7 @@ namespace undine
         (report.rejections > 0 ? fmt::format(", {} for its error", report.rejections) : "") +
         (report.error_in_time ? fmt::format("   error in time {:.2g}", *report.error_in_time)
                               : ""));
-    if (!report.note.empty())
-      log.print("note: {}", report.note);
+    log.print_notes(report);
   }
 
 

@@ -2,7 +2,7 @@
 #include <undine/base/core/interruption.h>
 #include <undine/base/core/version.h>
 #include <undine/base/parallel/interruption.h>
-#include <undine/coupled/fluid_geometry.h>
+#include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/driver/effects_report.h>
 #include <undine/driver/log.h>
 #include <undine/driver/measured_costs.h>
@@ -10,7 +10,7 @@
 #include <undine/driver/run.h>
 #include <undine/driver/run_directory.h>
 #include <undine/driver/size_check.h>
-#include <undine/output/checkpoint.h>
+#include <undine/output/checkpoint/checkpoint.h>
 #include <undine/scene/scene.h>
 
 #include <iostream>
@@ -77,13 +77,13 @@ namespace undine
     /// is also logged, after `heading`.
     template <int dim>
     std::string
-    last_words(const Error        &error,
-               const State<dim>   &state,
-               const Scene<dim>   &scene,
-               const ResultFolder &folder,
-               Log                &log,
-               const std::string  &heading  = "Error: ",
-               const std::string  &settings = " --set \"Section/Key=value\"")
+    failure_report(const Error        &error,
+                   const State<dim>   &state,
+                   const Scene<dim>   &scene,
+                   const ResultFolder &folder,
+                   Log                &log,
+                   const std::string  &heading  = "Error: ",
+                   const std::string  &settings = " --set \"Section/Key=value\"")
     {
       const std::string message = fmt::format("step {}, which begins at {:.6g} s: {}\n{}",
                                               state.clock.step + 1,
@@ -117,15 +117,15 @@ namespace undine
         }
       catch (const Interruption &error)
         {
-          throw Interruption(last_words(error, state, scene, folder, log, "", ""));
+          throw Interruption(failure_report(error, state, scene, folder, log, "", ""));
         }
       catch (const InputError &error)
         {
-          throw InputError(last_words(error, state, scene, folder, log));
+          throw InputError(failure_report(error, state, scene, folder, log));
         }
       catch (const Error &error)
         {
-          throw SolveError(last_words(error, state, scene, folder, log));
+          throw SolveError(failure_report(error, state, scene, folder, log));
         }
     }
 
@@ -145,6 +145,14 @@ namespace undine
       if (state.clock.ended())
         log.print("note: the run has reached its end; a later one is set by --set Time/End=...");
       return from;
+    }
+
+
+    void
+    print_remarks(const Options &options, Log &log)
+    {
+      for (const auto &remark : options.file().remarks())
+        log.print("note: {}", remark);
     }
 
 
@@ -187,14 +195,6 @@ namespace undine
     }
 
 
-    void
-    print_note(Log &log, const Report &report)
-    {
-      if (!report.note.empty())
-        log.print("note: {}", report.note);
-    }
-
-
     /// Make state, folder and outputs ready for the first step. The folder is touched last: a run
     /// that cannot start, or be taken up again, leaves what is in it as it was.
     template <int dim>
@@ -222,7 +222,7 @@ namespace undine
       prepare_directory(folder, options, from, communicator);
       log.open(folder.path(),
                from && from->directory == folder.path() ? std::ios::app : std::ios::trunc);
-      print_note(log, first);
+      log.print_notes(first);
       start_outputs(state, first, scene, context);
     }
 
@@ -235,6 +235,7 @@ namespace undine
     {
       Log log(communicator);
       check_sections<dim>(options); // mistakes first
+      print_remarks(options, log);
       const auto  size   = SizeCheck::of<dim>(options, communicator);
       std::string checks = "no mistakes found";
       if (size.may_be_too_large())
@@ -245,7 +246,7 @@ namespace undine
           auto       scene = read_scene<dim>(options, communicator);
           State<dim> state;
           TimingTree timing;
-          print_note(log, start(state, scene, timing));
+          log.print_notes(start(state, scene, timing));
         }
       size.print(log, request.output.empty() ? "." : request.output);
       log.print("{}: {}", options.file().name(), checks);
@@ -268,6 +269,7 @@ namespace undine
       if (request.action != Request::Action::resume || scene.directory != request.directory)
         assert_replaceable(folder, request.overwrite, communicator);
       print_header(log, scene, options, communicator);
+      print_remarks(options, log);
       size.print(log, scene.directory);
       State<dim> state;
       set_up(state, scene, options, request, folder, log, timing, communicator);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/version.h>
 #include <undine/driver/run_directory.h>
-#include <undine/output/files.h>
-#include <undine/solid/locking.h>
+#include <undine/output/files/files.h>
+#include <undine/solid/mesh/locking.h>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
 #include <undine/effects/face_forces.h>
-#include <undine/solid/solid_model.h>
+#include <undine/solid/mesh/solid_model.h>
 
 #include <algorithm>
 
@@ -79,7 +79,7 @@ namespace undine
               return acceleration(step, component.lattice().point(face))[axis];
             },
             [&](const unsigned int piece) {
-              const auto &open = *component.open_parts();
+              const auto &open = *component.topology();
               const auto &part = component.divided()->all()[piece];
               const auto  across =
                 place(grid, open, axis, piece, 1) - place(grid, open, axis, piece, 0);
@@ -112,17 +112,17 @@ namespace undine
     /// Where the pressure below (0) or above (1) a piece is, taken as the centroid of its
     /// component; at a side of the domain the piece's own.
     static dealii::Point<dim>
-    place(const MacGrid<dim>   &grid,
-          const OpenParts<dim> &open,
-          const unsigned int    axis,
-          const unsigned int    piece,
-          const unsigned int    end)
+    place(const MacGrid<dim>       &grid,
+          const FluidTopology<dim> &open,
+          const unsigned int        axis,
+          const unsigned int        piece,
+          const unsigned int        end)
     {
       const auto &part   = open.faces[axis].all()[piece];
       const int   beside = open.pieces[axis][piece].components[end];
-      if (beside == OpenParts<dim>::outside)
+      if (beside == FluidTopology<dim>::outside)
         return part.place;
-      if (beside == OpenParts<dim>::whole)
+      if (beside == FluidTopology<dim>::whole)
         return grid.cells()->point(moved<dim>(part.index, axis, int(end) - 1));
       return open.cells.all()[beside].place;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
 #include <undine/effects/face_forces.h>
-#include <undine/fluid/pressure_numbers.h>
+#include <undine/fluid/grid/pressure_numbers.h>
 
 #include <fmt/format.h>
 
@@ -117,7 +117,7 @@ namespace undine
                      const unsigned int axis) const
     {
       const auto  &grid   = step.model.grid();
-      const auto  *open   = step.state.velocity.open_parts();
+      const auto  *open   = step.state.velocity.topology();
       const double factor = -lift.expansion * step.gravity[axis];
       accelerate_faces(
         step,
@@ -151,14 +151,14 @@ namespace undine
 
     /// Mean of the values on both sides of a piece, or of the one inside the domain.
     static double
-    mean_of_ends(const Field<dim>     &scalar,
-                 const OpenParts<dim> &open,
-                 const unsigned int    axis,
-                 const int             piece)
+    mean_of_ends(const Field<dim>         &scalar,
+                 const FluidTopology<dim> &open,
+                 const unsigned int        axis,
+                 const int                 piece)
     {
       double sum = 0, n = 0;
       for (const unsigned int end : {0, 1})
-        if (open.pieces[axis][piece].components[end] != OpenParts<dim>::outside)
+        if (open.pieces[axis][piece].components[end] != FluidTopology<dim>::outside)
           {
             sum += value_at(scalar, end_of_piece(open, axis, piece, end));
             n += 1;

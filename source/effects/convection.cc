@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
-#include <undine/fluid/advection.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/advection/advection.h>
 
 #include <utility>
 #include <vector>
@@ -68,7 +67,7 @@ namespace undine
             }
           step.timing.memory.hold_briefly(this->name, memory);
           components =
-            method->advect(step.flow, std::move(components), VelocityCondition<dim>(axis));
+            method->advect(step.tracer, std::move(components), VelocityCondition<dim>(axis));
           for (std::size_t k = 0; k < components.size(); ++k)
             (*velocities[k])[axis] = std::move(components[k]);
         }
@@ -95,7 +94,7 @@ namespace undine
     {
       const auto *divided = component.divided();
       for_each(component.owned(), [&](const GridIndex<dim> &face) {
-        if (!divided || divided->kind(face) == LatticeParts<dim>::Kind::whole)
+        if (!divided || divided->kind(face) == SubLattice<dim>::Kind::whole)
           component(face) += factor * acceleration(face);
       });
     }

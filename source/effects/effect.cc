@@ -67,7 +67,7 @@ namespace undine
 
   template <int dim>
   bool
-  Effect<dim>::sticks_to_surfaces() const
+  Effect<dim>::needs_no_slip_surfaces() const
   {
     return false;
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
-#include <undine/fluid/advection.h>
-#include <undine/fluid/implicit_diffusion.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/advection/advection.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/model/fluid_quantities.h>
+#include <undine/fluid/viscosity/implicit_diffusion.h>
 
 #include <algorithm>
 #include <optional>
@@ -50,17 +51,17 @@ namespace undine
           "field's range, nothing is carried: what holds no smoke costs nothing. 0: "
           "everything is carried.");
         options.add("Diffusivity", diffusivity, "m^2/s", Allowed::not_negative(), "Its own.");
-        options.add("Held boundaries",
+        options.add("Dirichlet boundaries",
                     held_boundaries,
                     "",
                     Allowed::anything(),
                     "Names of boundaries on which the value is held, such as heated walls.");
         options.add(
-          "Held value", held, "", Allowed::anything(), "On the boundaries where it is held.");
-        if (!options.is_reference() && options.given("Held value") && held_boundaries.empty())
-          throw options.error("Held value",
+          "Dirichlet value", held, "", Allowed::anything(), "On the boundaries where it is held.");
+        if (!options.is_reference() && options.given("Dirichlet value") && held_boundaries.empty())
+          throw options.error("Dirichlet value",
                               "is given, but no boundary to hold it",
-                              "Name boundaries of the fluid in 'Held boundaries'.");
+                              "Name boundaries of the fluid in 'Dirichlet boundaries'.");
       }
 
       bool
@@ -102,7 +103,7 @@ namespace undine
       {
         const auto *divided = values.divided();
         for (const auto &[index, rate] : sources(values, time))
-          if (!divided || divided->kind(index) == LatticeParts<dim>::Kind::whole)
+          if (!divided || divided->kind(index) == SubLattice<dim>::Kind::whole)
             values(index) += length * rate;
         for (std::size_t k = 0; k < values.parts().size(); ++k)
           if (divided->owns(k))
@@ -125,18 +126,20 @@ namespace undine
 
       /// s^0 of a stage that keeps rates (T9), and what the next one needs of s^n and f^n.
       void
-      start(Field<dim> &values, const Field<dim> &rate, const Stage &stage) const
+      start(FluidStep<dim> &step) const
       {
-        const auto before = values;
-        if (stage.is_first)
-          add(values, stage.rate(), rate);
+        auto       &values = step.state.scalars.at(name);
+        const auto &rate   = step.state.scalar_rates.at(name);
+        const auto  before = values;
+        if (step.stage.is_first)
+          add(values, step.stage.rate(), rate);
         else
-          values = *next;
-        next.reset();
-        if (stage.is_last)
+          values = step.next.scalars.at(name);
+        step.next.scalars.erase(name);
+        if (step.stage.is_last)
           return;
-        next = before;
-        add(*next, stage.next_old.length, rate);
+        auto &next = step.next.scalars[name] = before;
+        add(next, step.stage.next_old.length, rate);
       }
 
       std::string              name;
@@ -144,9 +147,6 @@ namespace undine
       std::vector<std::string> held_boundaries;
       double                   diffusivity = 0;
       double                   neglected   = 1e-6;
-
-      /// What the stage that follows starts from; within a step only.
-      mutable std::optional<Field<dim>> next;
 
       /// Matrix of the last step size: a cache.
       mutable std::unique_ptr<ImplicitDiffusion<dim>> equation;
@@ -251,7 +251,7 @@ namespace undine
     {
       for (const auto &field : fields)
         {
-          Field<dim> values(model.grid().cells(), state.velocity[0].open_parts());
+          Field<dim> values(model.grid().cells(), state.velocity[0].topology());
           for_each_value(values, [&](double &value, const auto &place, const auto &) {
             value = field->initial.value(place, 0);
           });
@@ -259,7 +259,7 @@ namespace undine
           state.scalars[field->name] = values;
           if (field->changes())
             state.scalar_rates[field->name] =
-              Field<dim>(model.grid().cells(), state.velocity[0].open_parts());
+              Field<dim>(model.grid().cells(), state.velocity[0].topology());
         }
     }
 
@@ -273,8 +273,8 @@ namespace undine
           auto &values = step.state.scalars.at(field->name);
           step.timing.memory.hold_briefly(this->name, values.memory_consumption());
           if (field->changes() && step.stage.keeps_rates)
-            field->start(values, step.state.scalar_rates.at(field->name), step.stage);
-          if (field->next)
+            field->start(step);
+          if (step.next.scalars.count(field->name) > 0)
             step.timing.memory.hold_briefly(this->name, 2 * values.memory_consumption());
           carry(values, *field, step);
           if (field->changes())
@@ -328,12 +328,13 @@ namespace undine
     {
       std::vector<Field<dim>> carried;
       carried.push_back(std::move(values));
-      if (field.next)
-        carried.push_back(*field.next);
-      carried = method->advect(step.flow, std::move(carried), field);
+      const auto next = step.next.scalars.find(field.name);
+      if (next != step.next.scalars.end())
+        carried.push_back(next->second);
+      carried = method->advect(step.tracer, std::move(carried), field);
       values  = std::move(carried.front());
-      if (field.next)
-        field.next = std::move(carried.back());
+      if (next != step.next.scalars.end())
+        next->second = std::move(carried.back());
     }
 
     /// Sources and diffusion, and the rate that they make.
@@ -343,7 +344,7 @@ namespace undine
       auto        &values  = step.state.scalars.at(field.name);
       const auto   carried = values;
       const auto  &stage   = step.stage;
-      const double at      = stage.keeps_rates ? step.end : step.time + stage.way() / 2;
+      const double at      = stage.keeps_rates ? step.end : step.time + stage.duration() / 2;
       if (!field.source.is_zero())
         {
           field.add_source(values, at, stage.length);
@@ -360,8 +361,8 @@ namespace undine
       rate       = values;
       add(rate, -1., carried);
       add(rate, 1 / stage.length - 1, Field<dim>(rate));
-      if (field.next)
-        add(*field.next, stage.next_new.length, rate);
+      if (const auto next = step.next.scalars.find(field.name); next != step.next.scalars.end())
+        add(next->second, stage.next_new.length, rate);
     }
 
     static void
@@ -382,7 +383,7 @@ namespace undine
               return boundary.name == name;
             }))
           throw options.section(field.name)
-            .error("Held boundaries",
+            .error("Dirichlet boundaries",
                    "the fluid has no boundary named '" + name + "'",
                    "Allowed: " + known);
     }

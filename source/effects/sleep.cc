@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
-#include <undine/solid/solid_model.h>
+#include <undine/solid/mesh/solid_model.h>
 
 #include <fmt/format.h>
 

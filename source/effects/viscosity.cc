@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
-#include <undine/fluid/immersed_friction.h>
-#include <undine/fluid/implicit_diffusion.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/boundary/boundary_quantities.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/pressure/divergence.h>
+#include <undine/fluid/pressure/pressure_gradient.h>
+#include <undine/fluid/viscosity/immersed_viscous_term.h>
+#include <undine/fluid/viscosity/implicit_diffusion.h>
 
 #include <fmt/format.h>
 
@@ -59,15 +62,15 @@ namespace undine
       const auto gradient = pressure_acceleration(
         step.model,
         pressure,
-        open_faces(step.model, step.flow.velocity(), velocity.open_parts(), step.time));
+        open_faces(step.model, step.tracer.velocity(), velocity.topology(), step.time));
       add(velocity, step.dt, gradient);
-      set_boundary_velocity(velocity, step.model, step.end);
+      set_boundary_velocity(velocity, step.model.boundaries(), step.end);
       for (unsigned int axis = 0; axis < dim; ++axis)
         step.linear_iterations +=
-          step.flow.bodies().walls
+          step.tracer.bodies().walls
             ? among_bodies(step, axis)
             : solver(step.model, axis).step(velocity[axis], step.end, step.dt);
-      step.pressure_correction = pressure_correction(step.model, velocity, step.flow.bodies());
+      step.pressure_correction = pressure_correction(step.model, velocity, step.tracer.bodies());
       step.timing.memory.hold_briefly(this->name,
                                       pressure.memory_consumption() +
                                         undine::memory_consumption(gradient) +
@@ -93,7 +96,7 @@ namespace undine
     }
 
     bool
-    sticks_to_surfaces() const override
+    needs_no_slip_surfaces() const override
     {
       return true;
     }
@@ -103,8 +106,9 @@ namespace undine
             const FluidState<dim> &state,
             const double           time) const override
     {
-      return force_columns(
-        "Viscous force", model, viscous_forces(model, state, dynamic_viscosity, time));
+      return force_columns("Viscous force",
+                           model.boundaries(),
+                           viscous_forces(model.boundaries(), state, dynamic_viscosity, time));
     }
 
     void
@@ -118,11 +122,11 @@ namespace undine
     unsigned int
     among_bodies(FluidStep<dim> &step, const unsigned int axis) const
     {
-      const auto &bodies   = step.flow.bodies();
+      const auto &bodies   = step.tracer.bodies();
       auto       &friction = frictions[axis];
       if (!friction || friction->walls() != bodies.walls)
-        friction = std::make_unique<ImmersedFriction<dim>>(
-          step.model, axis, bodies.open_parts, bodies.walls, dynamic_viscosity);
+        friction = std::make_unique<ImmersedViscousTerm<dim>>(
+          step.model, axis, bodies.topology, bodies.walls, dynamic_viscosity);
       const unsigned int n_iterations =
         friction->step(step.state.velocity[axis], bodies.wall_velocities, step.end, step.dt);
       const auto &forces = friction->forces();
@@ -142,16 +146,16 @@ namespace undine
     /// -mu div w in every cell; in components of divided ones half of that, since there only less
     /// than 2/dim is sure to converge (Guermond, Minev & Shen 2006) [Pa]. Exchanges ghosts of w.
     Field<dim>
-    pressure_correction(const FluidModel<dim>            &model,
-                        Velocity<dim>                    &velocity,
-                        const typename Flow<dim>::Bodies &bodies) const
+    pressure_correction(const FluidModel<dim>                            &model,
+                        Velocity<dim>                                    &velocity,
+                        const typename CharacteristicTracer<dim>::Bodies &bodies) const
     {
       constexpr double share = 0.5, least_fraction = 0.01;
       exchange(velocity);
       auto        correction = divergence(model, velocity);
       const auto *divided    = correction.divided();
       for_each(correction.owned(), [&](const GridIndex<dim> &cell) {
-        const bool is_whole = !divided || divided->kind(cell) == LatticeParts<dim>::Kind::whole;
+        const bool is_whole = !divided || divided->kind(cell) == SubLattice<dim>::Kind::whole;
         correction(cell) *= is_whole ? -dynamic_viscosity / model.grid().cell_volume(cell) : 0.;
       });
       if (bodies.walls)
@@ -186,9 +190,9 @@ namespace undine
 
     double dynamic_viscosity = 0;
     /// Matrices of the last step size: a cache.
-    mutable std::array<std::unique_ptr<VelocityCondition<dim>>, dim> conditions;
-    mutable std::array<std::unique_ptr<ImplicitDiffusion<dim>>, dim> equations;
-    mutable std::array<std::unique_ptr<ImmersedFriction<dim>>, dim>  frictions;
+    mutable std::array<std::unique_ptr<VelocityCondition<dim>>, dim>   conditions;
+    mutable std::array<std::unique_ptr<ImplicitDiffusion<dim>>, dim>   equations;
+    mutable std::array<std::unique_ptr<ImmersedViscousTerm<dim>>, dim> frictions;
   };
 
 

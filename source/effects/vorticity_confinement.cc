@@ -117,9 +117,9 @@ namespace undine
       auto velocity = step.state.velocity;
       exchange(velocity);
       Fields      result(dim + 1, Field<dim>(step.model.grid().cells()));
-      const auto *open = velocity.open_parts();
+      const auto *open = velocity.topology();
       for_each(result[dim].owned(), [&](const GridIndex<dim> &cell) {
-        if (open && open->cells.kind(cell) != LatticeParts<dim>::Kind::whole)
+        if (open && open->cells.kind(cell) != SubLattice<dim>::Kind::whole)
           return;
         for (unsigned int axis = 0; axis < dim; ++axis)
           result[axis](cell) =

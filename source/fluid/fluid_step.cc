@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/advection.h>
+#include <undine/fluid/advection/advection.h>
 #include <undine/fluid/fluid_step.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/grid/field_algebra.h>
 
 #include <algorithm>
 
@@ -12,9 +12,9 @@ namespace undine
     /// The same values on points, and on parts the mean of their point.
     template <int dim>
     Field<dim>
-    moved_to(const Field<dim> &old, const std::shared_ptr<const OpenParts<dim>> &open_parts)
+    moved_to(const Field<dim> &old, const std::shared_ptr<const FluidTopology<dim>> &topology)
     {
-      Field<dim> result(old.shared_lattice(), open_parts);
+      Field<dim> result(old.shared_lattice(), topology);
       for_each(result.owned(), [&](const GridIndex<dim> &index) { result(index) = old(index); });
       for (std::size_t k = 0; k < result.parts().size(); ++k)
         if (result.divided()->owns(k))
@@ -30,7 +30,7 @@ namespace undine
     {
       auto result = state.velocity;
       if (stage.keeps_rates)
-        add(result, stage.way() / 2, state.change);
+        add(result, stage.duration() / 2, state.change);
       return result;
     }
 
@@ -49,14 +49,14 @@ namespace undine
 
 
   template <int dim>
-  FluidStep<dim>::FluidStep(const FluidModel<dim>            &model_,
-                            FluidState<dim>                  &state_,
-                            Velocity<dim>                    &next_,
-                            const dealii::Tensor<1, dim>     &gravity_,
-                            const double                      time_,
-                            const Stage                      &stage_,
-                            TimingTree                       &timing_,
-                            const typename Flow<dim>::Bodies &bodies)
+  FluidStep<dim>::FluidStep(const FluidModel<dim>                            &model_,
+                            FluidState<dim>                                  &state_,
+                            FluidStageStart<dim>                             &next_,
+                            const dealii::Tensor<1, dim>                     &gravity_,
+                            const double                                      time_,
+                            const Stage                                      &stage_,
+                            TimingTree                                       &timing_,
+                            const typename CharacteristicTracer<dim>::Bodies &bodies)
     : model(model_)
     , state(state_)
     , next(next_)
@@ -67,11 +67,11 @@ namespace undine
     , end(time_ + stage.end)
     , dt(stage.length)
     , timing(timing_)
-    , flow(model_, carrying_velocity(state_, stage), time, stage.way(), bodies)
+    , tracer(model_, carrying_velocity(state_, stage), time, stage.duration(), bodies)
   {
     if (stage.keeps_rates)
       start_from_rates();
-    if (state.pressure.open_parts() != bodies.open_parts)
+    if (state.pressure.topology() != bodies.topology)
       move_pressure_and_acceleration();
   }
 
@@ -85,12 +85,12 @@ namespace undine
     if (stage.is_first)
       add(state.velocity, stage.rate(), state.acceleration);
     else
-      state.velocity = next;
-    next = Velocity<dim>();
+      state.velocity = next.velocity;
+    next.velocity = Velocity<dim>();
     if (!stage.is_last)
       {
-        next = before;
-        add(next, stage.next_old.length, state.acceleration);
+        next.velocity = before;
+        add(next.velocity, stage.next_old.length, state.acceleration);
       }
   }
 
@@ -99,7 +99,7 @@ namespace undine
   void
   FluidStep<dim>::move_pressure_and_acceleration()
   {
-    const auto &now = flow.bodies().open_parts;
+    const auto &now = tracer.bodies().topology;
     state.pressure  = moved_to(state.pressure, now);
     if (stage.keeps_rates)
       return; // accelerations have been carried as part of velocities
@@ -124,33 +124,33 @@ namespace undine
   {
     if (stage.is_last)
       return {&state.velocity};
-    return {&state.velocity, &next};
+    return {&state.velocity, &next.velocity};
   }
 
 
   /// The same velocity on what bodies leave of the grid now.
   template <int dim>
   Velocity<dim>
-  FluidStep<dim>::settled(const Velocity<dim> &velocity) const
+  FluidStep<dim>::remapped_velocity(const Velocity<dim> &velocity) const
   {
     auto result = velocity;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      result[axis] = kept_in_place(flow, velocity[axis], VelocityCondition<dim>(axis));
+      result[axis] = remapped(tracer, velocity[axis], VelocityCondition<dim>(axis));
     return result;
   }
 
 
   template <int dim>
   void
-  FluidStep<dim>::settle()
+  FluidStep<dim>::remap()
   {
     for (auto *velocity : to_carry())
-      if ((*velocity)[0].open_parts() != flow.bodies().open_parts)
-        *velocity = settled(*velocity);
+      if ((*velocity)[0].topology() != tracer.bodies().topology)
+        *velocity = remapped_velocity(*velocity);
     if (stage.keeps_rates)
       {
         carried = state.velocity;
-        before  = settled(before);
+        before  = remapped_velocity(before);
       }
   }
 
@@ -162,15 +162,15 @@ namespace undine
     if (stage.keeps_rates)
       {
         state.acceleration = difference(state.velocity, *carried, stage.length);
-        state.change       = difference(state.velocity, before, stage.way());
+        state.change       = difference(state.velocity, before, stage.duration());
         if (!stage.is_last)
-          add(next, stage.next_new.length, state.acceleration);
+          add(next.velocity, stage.next_new.length, state.acceleration);
       }
     else if (carried)
       for (unsigned int axis = 0; axis < dim; ++axis)
         for_each(state.velocity[axis].owned(), [&](const GridIndex<dim> &face) {
           const auto *divided = state.velocity[axis].divided();
-          const bool  whole   = !divided || divided->kind(face) == LatticeParts<dim>::Kind::whole;
+          const bool  whole   = !divided || divided->kind(face) == SubLattice<dim>::Kind::whole;
           state.acceleration[axis](face) =
             whole ? (state.velocity[axis](face) - (*carried)[axis](face)) / dt : 0.;
         });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/output.h>
-#include <undine/output/probe.h>
+#include <undine/output/probes/probe.h>
 #include <undine/output/statistics_file.h>
 
 namespace undine

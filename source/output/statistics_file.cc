@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/files.h>
+#include <undine/output/files/files.h>
 #include <undine/output/statistics_file.h>
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/files.h>
+#include <undine/output/fields/particle_patches.h>
+#include <undine/output/fields/solution_parts.h>
+#include <undine/output/files/files.h>
+#include <undine/output/files/schedule.h>
+#include <undine/output/files/time_records.h>
 #include <undine/output/output.h>
-#include <undine/output/particle_patches.h>
-#include <undine/output/schedule.h>
-#include <undine/output/solution_parts.h>
-#include <undine/output/time_records.h>
 
 #include <fmt/format.h>
 

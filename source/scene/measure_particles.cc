@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/particle_body.h>
-#include <undine/coupled/particle_fluid.h>
-#include <undine/coupled/particle_numerics.h>
 #include <undine/effects/effect.h>
-#include <undine/interface/obstacle_description.h>
-#include <undine/particles/make_constants.h>
+#include <undine/particle_model/particle_body.h>
+#include <undine/particle_model/particle_fluid.h>
+#include <undine/particle_model/particle_numerics.h>
+#include <undine/particles/setup/make_constants.h>
 #include <undine/scene/measure_particles.h>
+#include <undine/surface/obstacle_description.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/boundary_condition.h>
-#include <undine/fluid/fluid_quantities.h>
+#include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/boundary/boundary_quantities.h>
 #include <undine/scene/other_schemes.h>
 #include <undine/scene/scene.h>
 
@@ -64,11 +64,8 @@ namespace undine
     {
       const auto &model      = *scene.models.fluid;
       const auto  boundaries = options.section("Fluid").section("Boundaries");
-      const auto &effects    = scene.models.effects;
       const auto  wall       = model.boundaries().wall_that_needs_viscosity();
-      if (!wall.empty() && std::none_of(effects.begin(), effects.end(), [](const auto &effect) {
-            return effect->name == "viscosity";
-          }))
+      if (!wall.empty() && !scene.models.has_friction())
         throw boundaries.section(wall).error(
           "Kind",
           "fluid without viscosity does not stick to a wall",
@@ -76,8 +73,8 @@ namespace undine
       if (scene.models.surface)
         return; // obstacles take part in the balance, which the projection checks
       auto velocity = model.initial_state().velocity;
-      set_boundary_velocity(velocity, model, 0.);
-      const auto complaint = net_flux_complaint(model, velocity);
+      set_boundary_velocity(velocity, model.boundaries(), 0.);
+      const auto complaint = net_flux_complaint(model.boundaries(), velocity);
       if (!complaint.empty())
         throw boundaries.error(
           "",

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/direction.h>
-#include <undine/coupled/scheme.h>
+#include <undine/coupled/model/direction.h>
+#include <undine/coupled/scheme/scheme.h>
 #include <undine/effects/effect.h>
-#include <undine/fluid/boundary.h>
-#include <undine/fluid/mac_grid.h>
-#include <undine/interface/obstacle_description.h>
+#include <undine/fluid/boundary/boundary.h>
+#include <undine/fluid/grid/mac_grid.h>
 #include <undine/scene/measure_particles.h>
 #include <undine/scene/scene_size.h>
-#include <undine/solid/body.h>
-#include <undine/solid/factorisation_work.h>
-#include <undine/solid/solid_numerics.h>
+#include <undine/solid/mesh/body.h>
+#include <undine/solid/mesh/solid_numerics.h>
+#include <undine/solid/solvers/factorisation_work.h>
+#include <undine/surface/obstacle_description.h>
 
 #include <algorithm>
 #include <cmath>

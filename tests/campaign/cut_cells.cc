@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Random configurations of bodies that cut a grid; `campaign_cut_cells --help` says how to use it.
-#include <interface/block_checks.h>
-#include <interface/trial.h>
-#include <interface/wrong_bodies.h>
+#include <cutting/block_checks.h>
+#include <cutting/trial.h>
+#include <cutting/wrong_bodies.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -12,7 +12,7 @@ FORMS = ("/=1", "=1", "=", "", "/", "//", "Time//End=1", "Time/=1", "/Time/End=1
          "Scheme=time_splitting", "Title=" + "a" * 100000, "a" * 5000 + "=1", "/" * 5000 + "=1", "# comment", "Title=#", "--help",
          "Output/Parts=vtu, vtu", "Output/Parts=", "Output/Parts=xdmf", "Output/Parts=xdmf, vtu, checkpoint, statistics",
          "Output/Interval=1e-300", "Output/Interval=1e300", "Time/End=1e300", "Time/Step=1e-300", "Time/Step=1e300",
-         "Time/End=5e-324", "Time/Maximum steps=0", "Output/checkpoint/Interval=0", "Output/Ledger=true",
+         "Time/End=5e-324", "Time/Maximum steps=0", "Output/checkpoint/Interval=0", "Output/Budget=true",
          "Output/vtu/Bodies=deformed", "Output/vtu/Cells of bodies=high-order")
 OUTPUTS = ("a#b", "a b", "é", "a\\b", "a\\", "a\"b<c>&d", "a'b", "a%sb", "{0}", "a/b/c", "a//b/", "./a", "a/../b", "-a", "a\nb",
            "\udcff", "a=b", "a;b", "$HOME", "*", "名前", "a.prm", "solution.pvd", "a" * 200, "a" * 300)

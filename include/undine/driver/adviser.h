@@ -2,11 +2,11 @@
 #ifndef undine_driver_adviser_h
 #define undine_driver_adviser_h
 
-#include <undine/coupled/models.h>
-#include <undine/coupled/report.h>
-#include <undine/coupled/state.h>
+#include <undine/coupled/model/models.h>
+#include <undine/coupled/state/report.h>
+#include <undine/coupled/state/state.h>
 
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,20 +34,24 @@ namespace undine
 
     std::vector<Number> numbers;
     std::vector<Remark> remarks;
+
+    /// Columns of `statistics` that the rules need and no step had: what follows from them is not
+    /// judged.
+    std::vector<std::string> missing;
   };
 
 
   /// The largest of what was measured during a run.
   struct Extremes
   {
-    double speed      = 0; ///< of the fluid [m/s]
-    double body_speed = 0; ///< [m/s]
-    double way        = 0; ///< of the bodies from where they were at the start [m]
-    double gradient   = 0; ///< |dd/dX| in the bodies [1]
+    double speed        = 0; ///< of the fluid [m/s]
+    double body_speed   = 0; ///< [m/s]
+    double displacement = 0; ///< of the bodies from where they were at the start [m]
+    double gradient     = 0; ///< |dd/dX| in the bodies [1]
     double length = 0; ///< of a body or obstacle in the fluid along an axis, or of the domain [m]
     double viscosity   = 0; ///< dynamic [Pa s]
     double lift        = 0; ///< relative change of the fluid's density by carried fields [1]
-    double damped      = 0; ///< sum of |energy by damping|, where there is a ledger [J]
+    double damped      = 0; ///< sum of |energy by damping|, where there is a budget [J]
     double body_energy = 0; ///< kinetic and elastic [J]
     double time        = 0; ///< how long it was [s]
   };
@@ -73,10 +77,13 @@ namespace undine
   private:
     void
     measure_length(const State<dim> &state);
+    double
+    column(const Columns &columns, const std::string &name);
 
     const Models<dim>                    &models;
     dealii::TrilinosWrappers::MPI::Vector first_displacement;
     Extremes                              largest;
+    std::set<std::string>                 missing; ///< see Advice
   };
 } // namespace undine
 

@@ -2,6 +2,8 @@
 #ifndef undine_driver_log_h
 #define undine_driver_log_h
 
+#include <undine/coupled/state/report.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace undine
 {
@@ -32,6 +35,15 @@ namespace undine
         write(fmt::format(format, std::forward<Values>(values)...) + "\n");
     }
 
+    /// Has `report` something for print_notes()?
+    bool
+    has_notes(const Report &report) const;
+
+    /// What `report` says that a user may want to know; a warning only if the report before had
+    /// none of the same subject.
+    void
+    print_notes(const Report &report);
+
     /// To log.txt only: what is printed elsewhere but belongs to the history of the run.
     void
     record(const std::string &text);
@@ -40,10 +52,11 @@ namespace undine
     void
     write(const std::string &text);
 
-    MPI_Comm      communicator;
-    bool          speaks;
-    std::string   early; ///< printed before the file was open
-    std::ofstream file;
+    MPI_Comm                     communicator;
+    bool                         speaks;
+    std::string                  early; ///< printed before the file was open
+    std::ofstream                file;
+    std::vector<Report::Warning> told; ///< of the last report
   };
 } // namespace undine
 

@@ -3,7 +3,7 @@
 #define undine_driver_progress_h
 
 #include <undine/base/core/clock.h>
-#include <undine/coupled/report.h>
+#include <undine/coupled/state/report.h>
 #include <undine/driver/log.h>
 
 #include <chrono>

@@ -5,8 +5,8 @@
 #include <undine/base/core/timing.h>
 #include <undine/base/options/options.h>
 #include <undine/driver/log.h>
-#include <undine/output/checkpoint.h>
-#include <undine/output/result_folder.h>
+#include <undine/output/checkpoint/checkpoint.h>
+#include <undine/output/files/result_folder.h>
 #include <undine/scene/scene.h>
 
 #include <optional>

@@ -5,8 +5,8 @@
 #include <undine/base/core/column.h>
 #include <undine/base/options/options.h>
 #include <undine/fluid/fluid_step.h>
-#include <undine/particles/setup.h>
-#include <undine/solid/solid_environment.h>
+#include <undine/particles/setup/setup.h>
+#include <undine/solid/assembly/solid_environment.h>
 
 #include <memory>
 #include <string>
@@ -91,7 +91,7 @@ namespace undine
 
     /// Does it need to know where the planes of the grid meet the surfaces in the fluid?
     virtual bool
-    sticks_to_surfaces() const;
+    needs_no_slip_surfaces() const;
 
     /// Say what the effect does to the bodies.
     virtual void

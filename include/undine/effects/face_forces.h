@@ -3,7 +3,7 @@
 #define undine_effects_face_forces_h
 
 #include <undine/fluid/fluid_step.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/grid/field_algebra.h>
 
 namespace undine
 {
@@ -23,7 +23,7 @@ namespace undine
     const auto &grid      = step.model.grid();
     auto       &component = step.state.velocity[axis];
     const auto *divided   = component.divided();
-    const auto *open      = component.open_parts().get();
+    const auto *open      = component.topology().get();
     double      work      = step.work.value_or(0.);
     const auto  act       = [&](double &velocity, const double volume, const double acceleration) {
       const double gain = step.dt * acceleration;
@@ -31,7 +31,7 @@ namespace undine
       velocity += gain;
     };
     for_each(component.owned(), [&](const GridIndex<dim> &face) {
-      if (!divided || divided->kind(face) == LatticeParts<dim>::Kind::whole)
+      if (!divided || divided->kind(face) == SubLattice<dim>::Kind::whole)
         act(component(face), grid.dual_volume(axis, face), on_face(face));
     });
     for (unsigned int k = 0; k < component.parts().size(); ++k)

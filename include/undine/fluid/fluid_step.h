@@ -4,9 +4,9 @@
 
 #include <undine/base/core/stage.h>
 #include <undine/base/core/timing.h>
-#include <undine/fluid/flow.h>
-#include <undine/fluid/fluid_model.h>
-#include <undine/fluid/fluid_state.h>
+#include <undine/fluid/advection/characteristic_tracer.h>
+#include <undine/fluid/grid/fluid_state.h>
+#include <undine/fluid/model/fluid_model.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -46,14 +46,14 @@ namespace undine
     /// A stage of the step that begins at `time` = t^n. `next` is what the stage that follows
     /// starts from. Freezes the flow. What bodies leave of the grid may have changed since then:
     /// velocity and scalars follow when they are carried, pressure here. Collective.
-    FluidStep(const FluidModel<dim>            &model,
-              FluidState<dim>                  &state,
-              Velocity<dim>                    &next,
-              const dealii::Tensor<1, dim>     &gravity,
-              double                            time,
-              const Stage                      &stage,
-              TimingTree                       &timing,
-              const typename Flow<dim>::Bodies &bodies = {});
+    FluidStep(const FluidModel<dim>                            &model,
+              FluidState<dim>                                  &state,
+              FluidStageStart<dim>                             &next,
+              const dealii::Tensor<1, dim>                     &gravity,
+              double                                            time,
+              const Stage                                      &stage,
+              TimingTree                                       &timing,
+              const typename CharacteristicTracer<dim>::Bodies &bodies = {});
 
     /// The velocities that convection carries.
     std::vector<Velocity<dim> *>
@@ -62,7 +62,7 @@ namespace undine
     /// Bring what no effect has carried to what bodies leave of the grid now: it stays where it
     /// was. Collective.
     void
-    settle();
+    remap();
 
     /// Ends the stage, after the projection: acceleration and pressure for the next one.
     void
@@ -70,7 +70,7 @@ namespace undine
 
     const FluidModel<dim>       &model;
     FluidState<dim>             &state;
-    Velocity<dim>               &next;    ///< of the stage that follows [m/s]
+    FluidStageStart<dim>        &next;    ///< of the stage that follows
     const dealii::Tensor<1, dim> gravity; ///< uniform acceleration, in the reduced pressure [m/s^2]
     const Stage                  stage;
     const double                 time;  ///< where the way of parcels begins [s]
@@ -78,8 +78,8 @@ namespace undine
     const double                 end;   ///< of both [s]
     const double                 dt;    ///< g, the length of the implicit step [s]
     TimingTree                  &timing;
-    const Flow<dim>              flow;                  ///< carries everything
-    unsigned int                 linear_iterations = 0; ///< summed over implicit solves
+    const CharacteristicTracer<dim> tracer;                ///< carries everything
+    unsigned int                    linear_iterations = 0; ///< summed over implicit solves
 
     /// What effects leave for finish(). @{
     std::optional<Velocity<dim>> carried;             ///< v' [m/s], by convection
@@ -87,7 +87,7 @@ namespace undine
     std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces
     /// @}
 
-    /// For the ledger: the work of the effect that has just acted, on this rank, by the effect's
+    /// For the budget: the work of the effect that has just acted, on this rank, by the effect's
     /// own formula [J]; empty: it has none.
     std::optional<double> work;
 
@@ -97,7 +97,7 @@ namespace undine
     void
     move_pressure_and_acceleration();
     Velocity<dim>
-    settled(const Velocity<dim> &velocity) const;
+    remapped_velocity(const Velocity<dim> &velocity) const;
 
     Velocity<dim> before; ///< where the way begins, if rates are kept [m/s]
   };

@@ -4,11 +4,11 @@
 
 #include <undine/base/core/timing.h>
 #include <undine/base/options/options.h>
-#include <undine/coupled/models.h>
-#include <undine/coupled/report.h>
-#include <undine/coupled/state.h>
-#include <undine/output/checkpoint.h>
-#include <undine/output/result_folder.h>
+#include <undine/coupled/model/models.h>
+#include <undine/coupled/state/report.h>
+#include <undine/coupled/state/state.h>
+#include <undine/output/checkpoint/checkpoint.h>
+#include <undine/output/files/result_folder.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,10 +3,10 @@
 #define undine_scene_scene_h
 
 #include <undine/base/options/options.h>
-#include <undine/coupled/models.h>
-#include <undine/coupled/scheme.h>
+#include <undine/coupled/model/models.h>
+#include <undine/coupled/scheme/scheme.h>
 #include <undine/output/output.h>
-#include <undine/output/probe.h>
+#include <undine/output/probes/probe.h>
 
 #include <deal.II/base/mpi.h>
 

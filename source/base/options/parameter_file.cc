@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/base/options/old_names.h>
 #include <undine/base/options/parameter_file.h>
 
 #include <deal.II/base/utilities.h>
@@ -138,7 +139,11 @@ namespace undine
         if (line == "end" && sections.size() == depth_at_start)
           throw InputError(name + ":" + std::to_string(number) +
                            ": 'end' without an open subsection.");
-        if (!line.empty())
+        if (line.find('\0') != std::string::npos)
+          line_mistakes.push_back(name + ":" + std::to_string(number) +
+                                  ": the line has a byte that is zero. Is the file a text, and was "
+                                  "it copied as a whole?");
+        else if (!line.empty())
           understand(line, name, number, sections);
       }
     if (sections.size() != depth_at_start)
@@ -240,8 +245,12 @@ namespace undine
 
 
   void
-  ParameterFile::assign(const std::string &path, const Assignment &assignment)
+  ParameterFile::assign(const std::string &given_path, const Assignment &assignment)
   {
+    const auto path = current_path(given_path);
+    if (path != given_path)
+      all_remarks.push_back(assignment.place + ": '" + given_path + "' is called '" + path +
+                            "' now; the old name still works.");
     const auto found = assignments.find(path);
     if (found == assignments.end())
       order.push_back(path);
@@ -259,6 +268,13 @@ namespace undine
   ParameterFile::mistakes() const
   {
     return line_mistakes;
+  }
+
+
+  const std::vector<std::string> &
+  ParameterFile::remarks() const
+  {
+    return all_remarks;
   }
 
 

@@ -171,27 +171,36 @@ namespace undine
   }
 
 
+  namespace
+  {
+    /// What is no value of its kind leaves the whole list as it was: mistakes are collected, and
+    /// what is read after one must make sense.
+    template <class Value>
+    void
+    read_list(const std::string &text, const Allowed &allowed, std::vector<Value> &values)
+    {
+      std::vector<Value> result;
+      for (const auto &part : dealii::Utilities::split_string_list(text, ','))
+        {
+          result.emplace_back();
+          read_value(part, allowed, result.back());
+        }
+      values = std::move(result);
+    }
+  } // namespace
+
+
   void
   read_value(const std::string &text, const Allowed &allowed, std::vector<double> &value)
   {
-    value.clear();
-    for (const auto &part : dealii::Utilities::split_string_list(text, ','))
-      {
-        value.push_back(0);
-        read_value(part, allowed, value.back());
-      }
+    read_list(text, allowed, value);
   }
 
 
   void
   read_value(const std::string &text, const Allowed &allowed, std::vector<std::string> &value)
   {
-    value.clear();
-    for (const auto &part : dealii::Utilities::split_string_list(text, ','))
-      {
-        value.emplace_back();
-        read_value(part, allowed, value.back());
-      }
+    read_list(text, allowed, value);
   }
 
 
@@ -199,9 +208,11 @@ namespace undine
   void
   read_value(const std::string &text, const Allowed &allowed, dealii::Tensor<1, dim> &value)
   {
-    const auto parts = split(text, dim);
+    const auto parts  = split(text, dim);
+    auto       result = value;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      read_value(parts[axis], allowed, value[axis]);
+      read_value(parts[axis], allowed, result[axis]);
+    value = result;
   }
 
 
@@ -217,9 +228,11 @@ namespace undine
   void
   read_value(const std::string &text, const Allowed &allowed, std::array<unsigned int, n> &value)
   {
-    const auto parts = split(text, n);
+    const auto parts  = split(text, n);
+    auto       result = value;
     for (std::size_t i = 0; i < n; ++i)
-      read_value(parts[i], allowed, value[i]);
+      read_value(parts[i], allowed, result[i]);
+    value = result;
   }
 
 

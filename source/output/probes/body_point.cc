@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/particle_queries.h>
-#include <undine/output/probe.h>
-#include <undine/solid/solid_point.h>
+#include <undine/output/probes/particle_queries.h>
+#include <undine/output/probes/probe.h>
+#include <undine/solid/mesh/solid_point.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/place_in_domain.h>
-#include <undine/output/fluid_sampler.h>
-#include <undine/output/probe.h>
+#include <undine/fluid/grid/place_in_domain.h>
+#include <undine/output/fields/fluid_sampler.h>
+#include <undine/output/probes/probe.h>
 
 namespace undine
 {

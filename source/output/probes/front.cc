@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/particle_queries.h>
-#include <undine/output/probe.h>
+#include <undine/output/probes/particle_queries.h>
+#include <undine/output/probes/probe.h>
 
 #include <algorithm>
 #include <limits>

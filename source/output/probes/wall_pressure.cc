@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/probe.h>
+#include <undine/output/probes/probe.h>
 
 #include <algorithm>
 #include <cmath>

@@ -336,3 +336,63 @@ TEST_CASE("texts that are no UTF-8 are shown and written to JSON as what can be 
   options.write_json(json);
   CHECK(is_utf8(json.str()));
 }
+
+
+TEST_CASE("keys of earlier versions still work, and it is said what they are called", "[options]")
+{
+  const auto options = read("subsection Output\n set Ledger = true\nend\n"
+                            "subsection Effects\n subsection scalar transport\n  subsection smoke\n"
+                            "   set Held value = 3\n  end\n end\nend\n");
+  bool       budget  = false;
+  double     held    = 0;
+  options.section("Output").add("Budget", budget, "", Allowed::anything(), "Terms.");
+  options.section("Effects")
+    .section("scalar transport")
+    .section("smoke")
+    .add("Dirichlet value", held, "", Allowed::anything(), "On boundaries.");
+  options.assert_all_used();
+  CHECK(budget);
+  CHECK(held == 3);
+  const auto &remarks = options.file().remarks();
+  REQUIRE(remarks.size() == 2);
+  CHECK(remarks[0].find("scene_under_test.prm:2") == 0);
+  CHECK(remarks[0].find("'Output/Ledger' is called 'Output/Budget'") != std::string::npos);
+  CHECK(remarks[1].find("smoke/Dirichlet value") != std::string::npos);
+  // Elsewhere the word may be a key of its own; and both names are one key.
+  CHECK(read("subsection Bodies\n set Ledger = true\nend\n").file().remarks().empty());
+  CHECK(
+    message([] {
+      read("subsection Output\n set Ledger = true\n set Budget = false\nend\n").assert_all_used();
+    }).find("set twice") != std::string::npos);
+}
+
+
+TEST_CASE("a list with a value that is not allowed leaves the variable as it was", "[options]")
+{
+  const auto options = read("set Sides = left, lft\nset Point = 1, x\nset Numbers = 1, two\n");
+  std::vector<std::string> sides{"top"};
+  std::vector<double>      numbers{7};
+  dealii::Tensor<1, 2>     point({3, 4});
+  CHECK(message([&] {
+          options.add("Sides", sides, "", Allowed::one_of({"left", "top"}), "Sides.");
+        }).find("left, lft") != std::string::npos);
+  CHECK(message([&] { options.add("Numbers", numbers, "", Allowed::anything(), "Numbers."); }) !=
+        "no error");
+  CHECK(message([&] { options.add("Point", point, "m", Allowed::anything(), "A point."); }) !=
+        "no error");
+  CHECK(sides == std::vector<std::string>{"top"});
+  CHECK(numbers == std::vector<double>{7});
+  CHECK(point == dealii::Tensor<1, 2>({3, 4}));
+}
+
+
+TEST_CASE("a line with a byte that is zero is refused with its number", "[options]")
+{
+  std::ofstream file("scene_under_test.prm", std::ios::binary);
+  file << "set End = 1\nset St" << '\0' << "ep = 2\n";
+  file.close();
+  const ParameterFile scene("scene_under_test.prm");
+  REQUIRE(scene.mistakes().size() == 1);
+  CHECK(scene.mistakes().front().find("scene_under_test.prm:2: the line has a byte that is zero") ==
+        0);
+}

@@ -46,7 +46,7 @@ namespace
     for (unsigned int n = 0; n < 3; ++n)
       {
         run.step();
-        CHECK(run.report.note == "");
+        CHECK(run.report.warnings.empty());
         CHECK(run.column("Fluid divergence") <= 1e-10);
         CHECK(run.column("momentum residual sheet") <= 1e-9);
         most = std::max(most, run.column("Most iterations of a solve"));
@@ -96,6 +96,7 @@ TEST_CASE("Where GMRES gives up the matrix is factorised, with a note", "[couple
 {
   CoupledRun<2> run(jet_on_sheet<2>("set Maximum iterations = 1", ""));
   run.step();
-  CHECK(run.report.note.find("solved directly") != std::string::npos);
+  REQUIRE(run.report.warnings.size() == 1);
+  CHECK(run.report.warnings.front().text.find("solved directly") != std::string::npos);
   CHECK(run.column("Fluid divergence") <= 1e-10);
 }

@@ -60,7 +60,8 @@ namespace
         CHECK(run.report.cuts == 0);
         CHECK(run.column("Fluid divergence") <= 1e-10);
         CHECK(run.column("momentum residual column") <= 1e-9);
-        result.notes += run.report.note;
+        for (const auto &warning : run.report.warnings)
+          result.notes += warning.text;
         result.most_iterations =
           std::max(result.most_iterations,
                    static_cast<unsigned int>(run.column("Most iterations of a solve")));

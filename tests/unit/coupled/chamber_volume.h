@@ -2,7 +2,7 @@
 #ifndef undine_tests_chamber_volume_h
 #define undine_tests_chamber_volume_h
 
-#include <undine/coupled/chamber.h>
+#include <undine/coupled/immersed/chamber.h>
 
 #include <coupled/coupled_run.h>
 

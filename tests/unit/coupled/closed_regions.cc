@@ -82,6 +82,22 @@ TEST_CASE("Rounding is no flux out of a closed region", "[coupled][mpi]")
 }
 
 
+TEST_CASE("A rank whose cells an obstacle fills takes part in what all must do", "[coupled][mpi]")
+{
+  // On two and three ranks the obstacle has the whole block of one.
+  for (const unsigned int axis : {0, 1})
+    {
+      INFO("the lower part along axis " << axis);
+      const std::string upper = axis == 0 ? ".7, 2" : "2, .7";
+      auto              run   = in_closed_box<2>(
+        obstacle("pillar", "box", "set Lower corner = -1, -1\nset Upper corner = " + upper));
+      run.step();
+      CHECK(run.column("Fluid divergence") <= 1e-10);
+      CHECK(run.column("Fluid largest speed") < 1e-10);
+    }
+}
+
+
 TEST_CASE("A piston that retreats balances an inflow", "[coupled][mpi]")
 {
   const auto check = [](auto dimension) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <coupled/contact_course.h>
 
-#include <undine/interface/barrier.h>
+#include <undine/contact/barrier.h>
 
 #include <message_of.h>
 
@@ -14,7 +14,7 @@ namespace
   check_drop(const double dt, const unsigned int n_steps, const double least_speed)
   {
     INFO(dim << "D, steps of " << dt);
-    CoupledRun<dim> run(steps_of(dt) + elements<dim>() + section("Output", "set Ledger = true") +
+    CoupledRun<dim> run(steps_of(dt) + elements<dim>() + section("Output", "set Budget = true") +
                         section("Bodies",
                                 ball<dim>("ball",
                                           plane_or_space<dim>("0, .15", "0, .15, 0"),
@@ -54,7 +54,7 @@ TEST_CASE("no step is so long that bodies pass a wall or each other", "[contact]
   for (const double dt : {.1, 1.})
     {
       CoupledRun<2> run(
-        steps_of(dt) + section("Output", "set Ledger = true") +
+        steps_of(dt) + section("Output", "set Budget = true") +
         section("Bodies",
                 ball<2>("low", "0, .12", "0; -.2") + ball<2>("high", "0.02, .35", "0; -.6")) +
         floor_at_zero<2>());
@@ -108,7 +108,7 @@ TEST_CASE("contact goes with every integrator of one stage", "[contact]")
       INFO(integrator);
       CoupledRun<2> run(
         section("Time", "set Step = .01\nset Integrator = " + integrator) +
-        section("Output", "set Ledger = true") +
+        section("Output", "set Budget = true") +
         section("Bodies",
                 ball<2>("fast", "-.15, .2", "1; 0") + ball<2>("slow", ".1, .25", "-.2; 0")) +
         floor_at_zero<2>());
@@ -165,7 +165,7 @@ namespace
   sinking(const std::string &scheme, const std::string &more)
   {
     return CoupledRun<2>(
-      "set Scheme = " + scheme + "\n" + steps_of(.02) + section("Output", "set Ledger = true") +
+      "set Scheme = " + scheme + "\n" + steps_of(.02) + section("Output", "set Budget = true") +
       section("Domain", "set Cells = 16, 16") + section("Fluid", "set Density = 1000") +
       section("Bodies",
               body("ball",

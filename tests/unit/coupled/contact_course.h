@@ -4,7 +4,7 @@
 
 #include <coupled/coupled_run.h>
 
-#include <undine/solid/solid_columns.h>
+#include <undine/solid/step/solid_columns.h>
 
 #include <algorithm>
 #include <string>
@@ -73,7 +73,7 @@ namespace undine_tests
     double       least_gap      = 1;
     unsigned int most_contacts  = 0;
 
-    /// Of the ledger, while there is contact. Between bodies its momentum sums up to nothing, so
+    /// Of the budget, while there is contact. Between bodies its momentum sums up to nothing, so
     /// that there is nothing to compare with. @{
     double energy_closure   = 0;
     double momentum_closure = 0;
@@ -112,7 +112,7 @@ namespace undine_tests
   check_collision(const double dt, const unsigned int n_steps, const unsigned int refinements = 1)
   {
     INFO(dim << "D, steps of " << dt);
-    CoupledRun<dim> run(steps_of(dt) + elements<dim>() + section("Output", "set Ledger = true") +
+    CoupledRun<dim> run(steps_of(dt) + elements<dim>() + section("Output", "set Budget = true") +
                         section("Bodies",
                                 ball<dim>("fast",
                                           plane_or_space<dim>("-.15, 0", "-.15, 0, 0"),

@@ -12,7 +12,7 @@ namespace
   {
     INFO(dim << "D, steps of " << dt);
     CoupledRun<dim> run(
-      steps_of(dt) + elements<dim>() + section("Output", "set Ledger = true") +
+      steps_of(dt) + elements<dim>() + section("Output", "set Budget = true") +
       section("Bodies",
               ball<dim>("ball",
                         plane_or_space<dim>("0, .115", "0, .115, 0"),
@@ -59,7 +59,7 @@ namespace
       return plane_or_space<dim>(plane, space);
     };
     return CoupledRun<dim>(
-      steps_of(.02) + elements<dim>() + section("Output", "set Ledger = true") +
+      steps_of(.02) + elements<dim>() + section("Output", "set Budget = true") +
       section("Domain", "set Cells = " + cells) + section("Fluid", "set Density = 1000") +
       section("Bodies",
               body("ball",
@@ -121,7 +121,7 @@ TEST_CASE("cubes whose edges cross bounce off each other", "[contact]")
 {
   // Edges along y and x, nodes far from them.
   CoupledRun<3> run(
-    steps_of(.004) + elements<3>() + section("Output", "set Ledger = true") +
+    steps_of(.004) + elements<3>() + section("Output", "set Budget = true") +
     section(
       "Bodies",
       cube_on_edge("low", "(x - z) / 2^.5; y; (x + z) / 2^.5", "0; 0; 0") +

@@ -2,8 +2,8 @@
 #ifndef undine_tests_coupled_run_h
 #define undine_tests_coupled_run_h
 
-#include <undine/coupled/scheme.h>
-#include <undine/solid/solid_columns.h>
+#include <undine/coupled/scheme/scheme.h>
+#include <undine/solid/step/solid_columns.h>
 
 #include <coupled/obstacle_run.h>
 

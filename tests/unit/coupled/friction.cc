@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/fluid_side.h>
-#include <undine/interface/body_forces.h>
+#include <undine/coupled/step/fluid_side.h>
+#include <undine/operators/body_forces.h>
 
 #include <coupled/coupled_run.h>
 #include <coupled/viscous_flows.h>
@@ -41,14 +41,14 @@ namespace
     const Options options(read_scene_text(swirl_among_bodies<dim>() + section("Obstacles", bodies) +
                                           section("Effects", viscosity(30))));
     const auto    models = make_models<dim>(options);
-    Ledger<dim>   ledger(models, true);
+    Budget<dim>   budget(models, true);
     TimingTree    timing;
-    FluidAlone<dim> scheme(models, ledger, timing);
+    FluidAlone<dim> scheme(models, budget, timing);
     State<dim>      state;
     Report          report;
     const double    dt = .01;
     scheme.initialize(state, dt, report);
-    FluidSide<dim> side(models, ledger, timing);
+    FluidSide<dim> side(models, budget, timing);
     const auto     fluid = side.predict(state, single_stage(dt));
     REQUIRE(fluid->friction);
     dealii::Tensor<1, dim> on_nodes, on_sides;
@@ -56,16 +56,19 @@ namespace
       on_nodes += force;
     for (const auto &force : fluid->friction->on_boundaries)
       on_sides += force;
-    const auto columns = ledger.columns();
+    const auto   columns   = budget.columns();
+    unsigned int n_columns = 0;
     for (unsigned int axis = 0; axis < dim; ++axis)
       for (const auto &column : columns)
         if (column.name == std::string("momentum by diffusion ") + "xyz"[axis])
           {
+            ++n_columns;
             INFO("axis " << axis << " " << column.value << " " << on_nodes << " " << on_sides);
             CHECK(std::abs(on_nodes[axis]) > 1e-3);
             CHECK(std::abs(column.value + dt * (on_nodes[axis] + on_sides[axis])) <=
                   1e-9 * dt * (on_nodes.norm() + on_sides.norm()));
           }
+    CHECK(n_columns == dim);
   }
 
 
@@ -86,11 +89,11 @@ namespace
                "20\nset Displacement = t; 0"),
       viscosity(value),
       .01);
-    FluidSide<2> side(run.models, run.ledger, run.timing);
+    FluidSide<2> side(run.models, run.budget, run.timing);
     run.state.fluid.velocity =
-      run.models.fluid->initial_state(run.state.fluid.pressure.open_parts()).velocity;
+      run.models.fluid->initial_state(run.state.fluid.pressure.topology()).velocity;
     run.state.fluid.pressure =
-      Field<2>(run.models.fluid->grid().cells(), run.state.fluid.pressure.open_parts());
+      Field<2>(run.models.fluid->grid().cells(), run.state.fluid.pressure.topology());
     side.predict(run.state, single_stage(.01));
     return run.state.fluid.velocity;
   }
@@ -101,7 +104,7 @@ namespace
   sheet_in_cavity(const std::string &integrator, const double density)
   {
     return section("Time", "set Step = .01\nset Integrator = " + integrator) +
-           section("Output", "set Ledger = true") + section("Domain", "set Cells = 24, 24") +
+           section("Output", "set Budget = true") + section("Domain", "set Cells = 24, 24") +
            section("Fluid",
                    "set Density = 1000\n" +
                      section("Boundaries",

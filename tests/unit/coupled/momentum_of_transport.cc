@@ -21,7 +21,7 @@ namespace
            section("Fluid",
                    "set Density = 1\nset Initial velocity = " + velocity + "\n" +
                      section("Boundaries", boundary("around", every_side<dim>(), "periodic"))) +
-           section("Effects", convection()) + section("Output", "set Ledger = true");
+           section("Effects", convection()) + section("Output", "set Budget = true");
   }
 
 

@@ -2,7 +2,7 @@
 #ifndef undine_tests_obstacle_run_h
 #define undine_tests_obstacle_run_h
 
-#include <undine/coupled/single_physics.h>
+#include <undine/coupled/step/single_physics.h>
 
 #include <catch2/catch.hpp>
 #include <effects/flow_run.h>
@@ -34,8 +34,8 @@ namespace undine_tests
       : options(
           read_scene_text(fluid + section("Obstacles", obstacles) + section("Effects", effects)))
       , models(make_models<dim>(options))
-      , ledger(models, false)
-      , scheme(models, ledger, timing)
+      , budget(models, false)
+      , scheme(models, budget, timing)
       , dt(dt)
     {
       scheme.initialize(state, dt, report);
@@ -86,7 +86,7 @@ namespace undine_tests
     const Options   options;
     Models<dim>     models;
     TimingTree      timing;
-    Ledger<dim>     ledger;
+    Budget<dim>     budget;
     FluidAlone<dim> scheme;
     State<dim>      state;
     Report          report;

@@ -32,7 +32,7 @@ namespace
   std::string
   plate(const double modulus)
   {
-    return steps_of(1. / 50) + section("Output", "set Ledger = true") +
+    return steps_of(1. / 50) + section("Output", "set Budget = true") +
            section(
              "Bodies",
              body("plate",
@@ -114,7 +114,7 @@ TEMPLATE_TEST_CASE_SIG("a body that does not feel the fluid moves as without it"
   difference -= alone.state.solid.displacement;
   CHECK(difference.linfty_norm() == 0);
   CHECK(run.column("max speed plate") > 0.05);
-  // The fluid follows, and what it takes is in the ledger.
+  // The fluid follows, and what it takes is in the budget.
   CHECK(run.column("Fluid divergence") < 1e-9);
   CHECK(run.column("energy closure") < 1e-9);
   CHECK(run.column("momentum closure") < 1e-9);

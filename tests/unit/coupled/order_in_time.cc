@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/solid/solid_point.h>
+#include <undine/solid/mesh/solid_point.h>
 
 #include <coupled/coupled_run.h>
 

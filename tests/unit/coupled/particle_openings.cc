@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <message_of.h>
 
-#include <undine/particles/engine.h>
+#include <undine/particles/engine/engine.h>
 
 #include "particle_scene.h"
 
@@ -126,7 +126,7 @@ TEST_CASE("particles: an empty box may fill, and the flow into it is as given")
   CHECK(count(model, Kind::fluid) == 0);
   CHECK(model.has_fluid());
   const auto engine = Registry<particles::EngineFactory<2>>::instance().make("host")->make(
-    model.numerics().precision);
+    model.numerics().precision, 0);
   engine->load(model.setup(), model.initial_state());
   for (int frame = 0; frame < 6; ++frame)
     engine->advance(0.5);

@@ -2,7 +2,7 @@
 #ifndef undine_tests_coupled_particle_scene_h
 #define undine_tests_coupled_particle_scene_h
 
-#include <undine/coupled/particle_model.h>
+#include <undine/particle_model/particle_model.h>
 
 #include <effects/flow_run.h>
 

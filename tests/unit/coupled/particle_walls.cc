@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/particles/lattice.h>
+#include <undine/particles/model/lattice.h>
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/model/fluid_quantities.h>
+
 #include <coupled/obstacle_run.h>
 
 using namespace undine_tests;
@@ -61,7 +64,7 @@ namespace
 
 
   double
-  way(const double time)
+  path(const double time)
   {
     return .4 * std::pow(std::sin(2 * time), 2);
   }
@@ -70,7 +73,7 @@ namespace
 
 TEST_CASE("A piston pushes out what it sweeps", "[coupled][mpi]")
 {
-  const auto lost = [](const double begin, const double end) { return way(end) - way(begin); };
+  const auto lost = [](const double begin, const double end) { return path(end) - path(begin); };
   SECTION("2D")
   {
     check_swept<2>("box",

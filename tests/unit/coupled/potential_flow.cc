@@ -104,9 +104,9 @@ namespace
       v[0] = 1;
     FluidGeometry<dim> geometry(models);
     geometry.place(nodes, nodes, velocity);
-    auto            state = models.fluid->initial_state(geometry.bodies().open_parts);
+    auto            state = models.fluid->initial_state(geometry.bodies().topology);
     Projection<dim> projection(*models.fluid);
-    projection.project(state, state.velocity, 0, step, geometry.pushed(step));
+    projection.project(state, state.velocity, 0, step, geometry.swept_volume_flux(step));
 
     Errors errors{};
     measure_pressure(errors, state.pressure, 2. / cells);

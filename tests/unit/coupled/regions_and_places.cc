@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/solid/time_integrator.h>
+#include <undine/solid/time/time_integrator.h>
 
 #include <coupled/coupled_run.h>
 
@@ -28,7 +28,7 @@ TEST_CASE("A region that no body yields to keeps its fluid beside coupled bodies
 {
   // Behind a wall a ball stirs fluid that has no outlet.
   CoupledRun<2> run(
-    steps_of(.05) + section("Output", "set Ledger = true") + tank("16, 8") +
+    steps_of(.05) + section("Output", "set Budget = true") + tank("16, 8") +
     section("Fluid",
             "set Density = 1000\n" + section("Boundaries", boundary("out", "left", "outflow"))) +
     section("Bodies",

@@ -25,8 +25,8 @@ namespace
                              section("heat",
                                      "set Initial value = cos(pi*x)\n"
                                      "set Source = 9*sin(5*t)*cos(pi*x)*(1+cos(pi*y))\n"
-                                     "set Diffusivity = .2\nset Held boundaries = hot\n"
-                                     "set Held value = cos(4*t)")) +
+                                     "set Diffusivity = .2\nset Dirichlet boundaries = hot\n"
+                                     "set Dirichlet value = cos(4*t)")) +
                      section("buoyancy",
                              section("heat",
                                      "set Expansion coefficient = " + expansion +

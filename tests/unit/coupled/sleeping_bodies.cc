@@ -10,7 +10,7 @@ namespace
   constexpr double speed = 1e-3; // V [m/s]
   constexpr double rest  = 0.25; // T [s]
 
-  const std::string ledger = section("Output", "set Ledger = true");
+  const std::string budget = section("Output", "set Budget = true");
 
 
   std::string
@@ -117,7 +117,7 @@ namespace
 TEMPLATE_TEST_CASE_SIG(
   "bodies that sleep are off by less than V T", "[sleep][mpi]", ((int dim), dim), 2, 3)
 {
-  const std::string scene = steps_of(.02) + ledger + four_posts<dim>();
+  const std::string scene = steps_of(.02) + budget + four_posts<dim>();
   CoupledRun<dim>   run(scene + section("Effects", sleep())), awake(scene);
   double            largest = 0, taken = 0;
   for (unsigned int n = 0; n < 40; ++n)
@@ -144,7 +144,7 @@ TEMPLATE_TEST_CASE_SIG(
 
 TEST_CASE("what is awake does not notice what sleeps", "[sleep][mpi]")
 {
-  const std::string scene = steps_of(.02) + ledger;
+  const std::string scene = steps_of(.02) + budget;
   CoupledRun<2>     run(scene + four_posts<2>() + section("Effects", sleep()));
   CoupledRun<2>     alone(scene + section("Bodies", post<2>("a", .1, 0.3)));
   for (unsigned int n = 0; n < 40; ++n)
@@ -164,7 +164,7 @@ TEST_CASE("where all sleep nothing is computed, and statistics go on", "[sleep][
 {
   const auto    posts = section("Bodies", post<2>("a", .1, 8e-4) + post<2>("b", .3, 0));
   const auto    down  = section("gravity", "set Acceleration = 0, -1e-5");
-  CoupledRun<2> run(steps_of(.02) + ledger + posts + section("Effects", sleep() + down));
+  CoupledRun<2> run(steps_of(.02) + budget + posts + section("Effects", sleep() + down));
   const auto    first = run.report.columns;
   while (n_asleep(run) < 2)
     run.step();
@@ -190,7 +190,7 @@ TEMPLATE_TEST_CASE_SIG(
   const bool        one_way = coupling == "fluid to body";
   const std::string scene =
     (one_way ? section("Coupling", "set Direction = fluid to body") : coupling) + steps_of(.05) +
-    ledger + two_posts<dim>() + channel<dim>("2 * max(0, t - 1)");
+    budget + two_posts<dim>() + channel<dim>("2 * max(0, t - 1)");
   INFO(dim << "D, " << coupling);
   // Loads change by what the first post does, too.
   constexpr double slow = 2e-3;
@@ -215,9 +215,9 @@ TEMPLATE_TEST_CASE_SIG(
       check_closures(run, awake);
     }
   CHECK(woke);
-  const double way = awake.column("centre of mass b x") - .25;
-  CHECK(way > 2 * slow * rest);
-  CHECK(std::abs(run.column("centre of mass b x") - .25 - way) < 2 * slow * rest);
+  const double path = awake.column("centre of mass b x") - .25;
+  CHECK(path > 2 * slow * rest);
+  CHECK(std::abs(run.column("centre of mass b x") - .25 - path) < 2 * slow * rest);
 }
 
 
@@ -226,7 +226,7 @@ TEST_CASE("fluid flows on where all bodies sleep", "[sleep][mpi]")
   const std::string friction =
     GENERATE(as<std::string>(), "", section("viscosity", "set Dynamic viscosity = .05"));
   const auto scene =
-    steps_of(.05) + ledger + section("Bodies", post<2>("a", .45, 0)) + channel<2>("1e-3", 1);
+    steps_of(.05) + budget + section("Bodies", post<2>("a", .45, 0)) + channel<2>("1e-3", 1);
   CoupledRun<2> run(scene + section("Effects", convection() + friction + sleep(1e-2)));
   CoupledRun<2> awake(scene + section("Effects", convection() + friction));
   const auto    n_columns = run.report.columns.size();
@@ -261,7 +261,7 @@ TEMPLATE_TEST_CASE_SIG("contact wakes a body", "[sleep][mpi]", ((int dim), dim),
                             plane_or_space<dim>("; 0", "; 0; 0")));
   };
   const std::string scene =
-    steps_of(.01) + ledger +
+    steps_of(.01) + budget +
     section("Solid numerics", "set Element degree = " + plane_or_space<dim>("2", "1")) +
     section("Bodies", ball("fast", -.2, 1) + ball("target", .1, 0));
   CoupledRun<dim> run(scene + section("Effects", section("contact", "") + sleep(1e-3, .03)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
-#include <undine/coupled/scheme.h>
+#include <undine/coupled/scheme/scheme.h>
 
 #include <coupled/obstacle_run.h>
 

@@ -190,8 +190,10 @@ TEST_CASE("steps that may not be as short as the tolerance takes are reported", 
   std::string notes;
   while (!run.state.clock.ended())
     {
+      const auto before = run.report.warnings;
       run.advance();
-      notes += run.report.note;
+      for (const auto &text : new_warnings(run.report.warnings, before))
+        notes += text;
     }
   CHECK(notes.find("Time/Maximum cuts") != std::string::npos);
   CHECK(notes.find("Time/Maximum cuts") == notes.rfind("Time/Maximum cuts"));

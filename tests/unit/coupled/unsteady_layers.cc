@@ -91,7 +91,7 @@ namespace
         const double       drop,
         const std::string &initial,
         const std::string &wall,
-        const std::string &way)
+        const std::string &path)
   {
     const double length = 4. / n;
     const auto   still  = plane_or_space<dim>("; 0", "; 0; 0");
@@ -133,7 +133,7 @@ namespace
       section("Effects", convection() + viscosity(dynamic_viscosity));
     if (layer.of_obstacles)
       text += section("Obstacles",
-                      box("lower", -1, layer.lower, way) + box("upper", layer.upper, 2, "0"));
+                      box("lower", -1, layer.lower, path) + box("upper", layer.upper, 2, "0"));
     return text;
   }
 

@@ -60,7 +60,7 @@ namespace
       complaints.push_back("is on, but no phase bears its name: open one where it works, "
                            "'const auto timed = step.timing.section(this->name);'");
     if (!on_particles && !run.has("energy by " + name))
-      complaints.push_back("has no term 'energy by " + name + "' in the ledger");
+      complaints.push_back("has no term 'energy by " + name + "' in the budget");
     const std::string column = sample.column.empty() ? "energy by " + name : sample.column;
     if (!sample.energy)
       complaints.push_back("has a sample without a formula: give EffectSample::energy");
@@ -70,10 +70,10 @@ namespace
       {
         const double value = run.column(column), expected = sample.energy(last, run);
         const double size = std::max(std::abs(value), std::abs(expected));
-        if (std::abs(value - expected) > sample.tolerance * size)
+        if (!(std::abs(value - expected) <= sample.tolerance * size)) // nor is what is no number
           complaints.push_back(fmt::format(
             "column '{}' is {:.12g}, its formula gives {:.12g}", column, value, expected));
-        if (size < 1e-6)
+        if (!(size >= 1e-6))
           complaints.push_back(fmt::format(
             "column '{}' is {:.3g}: a sample in which it does something, please", column, value));
       }

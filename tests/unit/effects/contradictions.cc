@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/solid/solid_model.h>
+#include <undine/solid/mesh/solid_model.h>
 
 #include <catch2/catch.hpp>
 #include <effects/flow_run.h>
@@ -80,7 +80,7 @@ TEST_CASE("effects that contradict the scene are refused with a hint", "[effects
                  "subsection");
   check_contains(
     complaint("scalar transport",
-              section("scalar transport", section("heat", "set Held boundaries = lid")),
+              section("scalar transport", section("heat", "set Dirichlet boundaries = lid")),
               true,
               false),
     "no boundary named 'lid'",
@@ -110,9 +110,9 @@ TEST_CASE("keys without a sensible default must be given", "[effects]")
   check_contains(
     why(section("buoyancy", section("smoke", ""))), "'Expansion coefficient'", "must be given");
   check_contains(why(convection("upwind")), "MacCormack", "semi-Lagrangian");
-  check_contains(why(section("scalar transport", section("heat", "set Held value = 1"))),
+  check_contains(why(section("scalar transport", section("heat", "set Dirichlet value = 1"))),
                  "no boundary",
-                 "'Held boundaries'");
+                 "'Dirichlet boundaries'");
 }
 
 

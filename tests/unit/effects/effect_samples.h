@@ -30,7 +30,7 @@ namespace undine_tests
   sample_steps(const double dt)
   {
     return section("Time", fmt::format("set End = 10\nset Step = {}\nset Integrator = theta", dt)) +
-           section("Output", "set Ledger = true\nset Parts = ");
+           section("Output", "set Budget = true\nset Parts = ");
   }
 
 
@@ -81,15 +81,15 @@ namespace undine_tests
 
   /// How far the block has come in the step [m].
   inline dealii::Tensor<1, 2>
-  way_of_block(const SampleRun &before, const SampleRun &after)
+  displacement_of_block(const SampleRun &before, const SampleRun &after)
   {
-    dealii::Tensor<1, 2> way;
+    dealii::Tensor<1, 2> path;
     for (const unsigned int axis : {0, 1})
       {
         const std::string name = std::string("centre of mass block ") + "xy"[axis];
-        way[axis]              = after.column(name) - before.column(name);
+        path[axis]             = after.column(name) - before.column(name);
       }
-    return way;
+    return path;
   }
 
 
@@ -158,15 +158,15 @@ namespace undine_tests
                           "set Acceleration = 3, -10",
                           "",
                           [](const auto &before, const auto &after) {
-                            const auto way = way_of_block(before, after);
-                            return 0.5 * (3 * way[0] - 10 * way[1]);
+                            const auto path = displacement_of_block(before, after);
+                            return 0.5 * (3 * path[0] - 10 * path[1]);
                           }};
     samples["damping"] = {flying_block(),
                           "",
                           "set Mass coefficient = 2",
                           "",
                           [](const auto &before, const auto &after) {
-                            return -2 * 0.5 * way_of_block(before, after).norm_square() /
+                            return -2 * 0.5 * displacement_of_block(before, after).norm_square() /
                                    after.report.dt;
                           }};
     samples["sleep"]   = {

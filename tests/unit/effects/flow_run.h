@@ -3,7 +3,7 @@
 #define undine_tests_flow_run_h
 
 #include <undine/effects/effect.h>
-#include <undine/fluid/projection.h>
+#include <undine/fluid/pressure/projection.h>
 
 #include <fluid/fluid_scene.h>
 
@@ -57,8 +57,8 @@ namespace undine_tests
     void
     step(const double dt)
     {
-      Velocity<dim>  unused;
-      FluidStep<dim> fluid(
+      FluidStageStart<dim> unused;
+      FluidStep<dim>       fluid(
         model, state, unused, environment.gravity, time, single_stage(dt), timing);
       for (const auto &effect : effects)
         effect->transport(fluid);
@@ -67,7 +67,7 @@ namespace undine_tests
       for (const auto &effect : effects)
         effect->diffuse(fluid);
       time += dt;
-      report = projection.project(state, fluid.flow.velocity(), time, dt);
+      report = projection.project(state, fluid.tracer.velocity(), time, dt);
       fluid.finish();
     }
 

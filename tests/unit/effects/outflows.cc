@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/model/fluid_quantities.h>
+
 #include <catch2/catch.hpp>
 #include <effects/flow_run.h>
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/model/fluid_quantities.h>
+
 #include <catch2/catch.hpp>
 #include <effects/flow_run.h>
 
@@ -58,7 +61,7 @@ TEST_CASE("held walls conduct heat linearly through still fluid", "[scalars][mpi
               boundary("hot", "left", "slip wall") + boundary("cold", "right", "slip wall"),
               "",
               "set Grading x = x^1.3"},
-    heat("set Diffusivity = 1\nset Held boundaries = hot, cold\nset Held value = 5-3*x"));
+    heat("set Diffusivity = 1\nset Dirichlet boundaries = hot, cold\nset Dirichlet value = 5-3*x"));
   run.run(40, 1);
   CHECK(largest_error(run.state.scalars.at("heat"),
                       [](const auto &place) { return 5 - 3 * place[0]; }) < 1e-9);
@@ -115,7 +118,7 @@ TEST_CASE("heated and cooled walls drive a circulation", "[scalars]")
               boundary("hot", "left", "no-slip wall") + boundary("cold", "right", "no-slip wall") +
                 boundary("floor", "bottom, top", "no-slip wall")},
     section("gravity", "set Acceleration = 0, -1") + convection() + viscosity(prandtl) +
-      heat("set Diffusivity = 1\nset Held boundaries = hot, cold\nset Held value = 1-x"
+      heat("set Diffusivity = 1\nset Dirichlet boundaries = hot, cold\nset Dirichlet value = 1-x"
              "\nset Initial value = 1-x") +
       section("buoyancy",
               section("heat",

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/model/fluid_quantities.h>
+
 #include <catch2/catch.hpp>
 #include <effects/flow_run.h>
 
@@ -20,7 +23,7 @@ namespace
     const auto            effects = make_effects<dim>(options);
     auto                  state   = model.initial_state();
     const auto            before  = state.velocity;
-    Velocity<dim>         unused;
+    FluidStageStart<dim>  unused;
     TimingTree            timing;
     FluidStep<dim>        step(model, state, unused, {}, 0, single_stage(1.), timing);
     effects[0]->accelerate(step);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/advection.h>
+#include <undine/fluid/advection/advection.h>
+#include <undine/fluid/model/fluid_quantities.h>
 
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>
@@ -82,15 +83,15 @@ namespace
                               "",
                               "0.5-y; x-0.5",
                               "set Grading x = " + grading + "\nset Grading y = " + grading});
-    const auto    advection = Registry<Advection<2>>::instance().make(method);
-    const auto    velocity  = model.initial_state().velocity;
-    const int     steps     = 2 * n;
-    const double  dt        = 2 * dealii::numbers::PI / steps;
-    const Flow<2> flow(model, velocity, 0, dt);
-    const auto    start = make_field<2>(model.grid().cells(), bump);
-    auto          field = start;
+    const auto                    advection = Registry<Advection<2>>::instance().make(method);
+    const auto                    velocity  = model.initial_state().velocity;
+    const int                     steps     = 2 * n;
+    const double                  dt        = 2 * dealii::numbers::PI / steps;
+    const CharacteristicTracer<2> tracer(model, velocity, 0, dt);
+    const auto                    start = make_field<2>(model.grid().cells(), bump);
+    auto                          field = start;
     for (int step = 0; step < steps; ++step)
-      field = advection->advect(flow, field, Dye<2>());
+      field = advection->advect(tracer, field, Dye<2>());
     Turn result;
     result.error   = std::sqrt(sum_over(field.lattice(), [&](const GridIndex<2> &cell) {
       return model.grid().cell_volume(cell) * std::pow(field(cell) - start(cell), 2);
@@ -133,13 +134,13 @@ TEST_CASE("carried fields stay between their bounds", "[advection][mpi]")
     {
       const auto model =
         make_model<2>(FluidText{"30, 30", "", "sin(pi*x)*cos(pi*y); -cos(pi*x)*sin(pi*y)"});
-      const auto    advection = Registry<Advection<2>>::instance().make(method);
-      const Flow<2> flow(model, model.initial_state().velocity, 0, 0.1);
-      auto          field = make_field<2>(model.grid().cells(), [](const auto &place) {
+      const auto                    advection = Registry<Advection<2>>::instance().make(method);
+      const CharacteristicTracer<2> tracer(model, model.initial_state().velocity, 0, 0.1);
+      auto field = make_field<2>(model.grid().cells(), [](const auto &place) {
         return place[0] > 0.5 && place[1] < 0.3 ? 1. : -1.;
       });
       for (unsigned int step = 0; step < 20; ++step)
-        field = advection->advect(flow, field, Dye<2>());
+        field = advection->advect(tracer, field, Dye<2>());
       CHECK(largest_over(field.lattice(),
                          [&](const auto &cell) { return std::abs(field(cell)); }) <= 1 + 1e-14);
     }
@@ -158,11 +159,11 @@ TEST_CASE("linear fields are carried exactly by uniform flow, at any Courant num
                                     boundary("out", "right", "outflow"),
                                   "1; 0; 0",
                                   "set Grading x = x^1.4"});
-        const auto    advection = Registry<Advection<3>>::instance().make(method);
-        const Flow<3> flow(model, model.initial_state().velocity, 0, dt);
-        const auto    start =
+        const auto                    advection = Registry<Advection<3>>::instance().make(method);
+        const CharacteristicTracer<3> tracer(model, model.initial_state().velocity, 0, dt);
+        const auto                    start =
           make_field<3>(model.grid().cells(), [](const auto &place) { return 1 - place[0]; });
-        const auto carried = advection->advect(flow, start, Dye<3>());
+        const auto carried = advection->advect(tracer, start, Dye<3>());
         // Beyond the outflow the field goes on as a constant, which the way back of MacCormack
         // sees.
         CHECK(largest_over(carried.lattice(), [&](const GridIndex<3> &cell) {
@@ -182,8 +183,8 @@ TEST_CASE("periodic fields travel around and come back", "[advection][mpi]")
       {
         const auto model = make_model<2>(
           FluidText{"16, 8", boundary("around", every_side<2>(), "periodic"), "1; -2"});
-        const auto    advection = Registry<Advection<2>>::instance().make(method);
-        const Flow<2> flow(model, model.initial_state().velocity, 0, dt);
+        const auto                    advection = Registry<Advection<2>>::instance().make(method);
+        const CharacteristicTracer<2> tracer(model, model.initial_state().velocity, 0, dt);
         for (unsigned int axis = 0; axis < 2; ++axis)
           {
             const auto start = make_field<2>(model.grid().faces(axis), [](const auto &place) {
@@ -192,7 +193,7 @@ TEST_CASE("periodic fields travel around and come back", "[advection][mpi]")
             });
             auto       field = start;
             for (unsigned int step = 0; step < 8; ++step)
-              field = advection->advect(flow, field, VelocityCondition<2>(axis));
+              field = advection->advect(tracer, field, VelocityCondition<2>(axis));
             CHECK(largest_over(field.lattice(), [&](const auto &face) {
                     return std::abs(field(face) - start(face));
                   }) < 1e-11);
@@ -214,10 +215,10 @@ TEST_CASE("carried fields do not depend on the number of ranks", "[advection][mp
       const FluidModel<2> alone(read_scene_text(text), MPI_COMM_SELF);
       const auto          advection = Registry<Advection<2>>::instance().make(method);
       const auto          carry     = [&](const FluidModel<2> &where) {
-        const Flow<2> flow(where, where.initial_state().velocity, 0, 0.2);
-        Field<2>      field(where.grid().cells());
+        const CharacteristicTracer<2> tracer(where, where.initial_state().velocity, 0, 0.2);
+        Field<2>                      field(where.grid().cells());
         fill_scattered(field, 4);
-        return advection->advect(flow, field, Dye<2>());
+        return advection->advect(tracer, field, Dye<2>());
       };
       const auto parallel = carry(model);
       const auto serial   = carry(alone);
@@ -237,16 +238,16 @@ TEST_CASE("fields that are carried together are carried as each of them alone", 
                                 boundary("in", "left", "inflow", "set Velocity = 1; 0.3; 0") +
                                   boundary("out", "right, top", "outflow"),
                                 "1+y; sin(7*x); cos(5*y)"});
-      const auto            advection = Registry<Advection<3>>::instance().make(method);
-      const Flow<3>         flow(model, model.initial_state().velocity, 0, 0.2);
-      std::vector<Field<3>> fields(3, Field<3>(model.grid().cells()));
+      const auto                    advection = Registry<Advection<3>>::instance().make(method);
+      const CharacteristicTracer<3> tracer(model, model.initial_state().velocity, 0, 0.2);
+      std::vector<Field<3>>         fields(3, Field<3>(model.grid().cells()));
       for (std::size_t k = 0; k < fields.size(); ++k)
         fill_scattered(fields[k], 4 + k);
-      const auto together = advection->advect(flow, fields, Dye<3>());
+      const auto together = advection->advect(tracer, fields, Dye<3>());
       REQUIRE(together.size() == fields.size());
       for (std::size_t k = 0; k < fields.size(); ++k)
         {
-          const auto alone = advection->advect(flow, fields[k], Dye<3>());
+          const auto alone = advection->advect(tracer, fields[k], Dye<3>());
           CHECK(largest_over(alone.lattice(), [&](const GridIndex<3> &cell) {
                   return std::abs(together[k](cell) - alone(cell));
                 }) == 0);
@@ -257,16 +258,16 @@ TEST_CASE("fields that are carried together are carried as each of them alone", 
 
 TEST_CASE("paths end at openings and slide along walls", "[advection]")
 {
-  const auto    model = make_model<2>(FluidText{
+  const auto                    model = make_model<2>(FluidText{
     "10, 10",
     boundary("in", "left", "inflow", "set Velocity = 1; 0") + boundary("out", "right", "outflow"),
     "1; 0.5"});
-  const Flow<2> flow(model, model.initial_state().velocity, 0, 1);
-  const auto    back = flow.trace({0.25, 0.5}, -1);
+  const CharacteristicTracer<2> tracer(model, model.initial_state().velocity, 0, 1);
+  const auto                    back = tracer.trace({0.25, 0.5}, -1);
   CHECK(back.left_domain);
   CHECK(back.foot.point[0] == Approx(0).margin(1e-14));
   CHECK(back.foot.point[1] == Approx(0.5 - 0.125));
-  const auto up = flow.trace({0.2, 0.95}, 0.4);
+  const auto up = tracer.trace({0.2, 0.95}, 0.4);
   CHECK_FALSE(up.left_domain);
   CHECK(up.foot.point[0] == Approx(0.6));
   CHECK(up.foot.point[1] == 1);
@@ -276,5 +277,6 @@ TEST_CASE("paths end at openings and slide along walls", "[advection]")
 TEST_CASE("steps that travel absurdly far are refused", "[advection]")
 {
   const auto model = make_model<2>(FluidText{"4, 4", "", "1; 0"});
-  CHECK_THROWS_AS(Flow<2>(model, model.initial_state().velocity, 0, 1e3), SolveError);
+  CHECK_THROWS_AS(CharacteristicTracer<2>(model, model.initial_state().velocity, 0, 1e3),
+                  SolveError);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/boundary_condition.h>
+#include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/boundary/boundary_quantities.h>
 
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>
@@ -31,10 +32,10 @@ TEST_CASE("regions select faces by their centre and later sections override", "[
   CHECK_FALSE(model.boundaries().has_opening());
 
   auto velocity = model.initial_state().velocity;
-  set_boundary_velocity(velocity, model, 0);
+  set_boundary_velocity(velocity, model.boundaries(), 0);
   CHECK(velocity[0](GridIndex<2>{{0, 1}}) == 0);
   CHECK(velocity[0](GridIndex<2>{{0, 3}}) == 2);
-  CHECK(boundary_fluxes(model, velocity)[1] == Approx(-1));
+  CHECK(boundary_fluxes(model.boundaries(), velocity)[1] == Approx(-1));
 }
 
 
@@ -76,7 +77,8 @@ TEST_CASE("boundary points hold, bring in or continue a value", "[boundaries][mp
   for (auto &component : velocity.components)
     component.exchange(2);
   for (unsigned int axis = 0; axis < 2; ++axis)
-    fill_boundary_points(velocity[axis], model, VelocityCondition<2>(axis), velocity, 0.);
+    fill_boundary_points(
+      velocity[axis], model.boundaries(), VelocityCondition<2>(axis), velocity, 0.);
   const auto &u = velocity[0];
   const auto &v = velocity[1];
   for_each(u.stored(), [&](const GridIndex<2> &index) {
@@ -92,7 +94,7 @@ TEST_CASE("boundary points hold, bring in or continue a value", "[boundaries][mp
 
   // What comes in through the opening comes in at right angles.
   for_each(velocity[0].stored(), [&](const GridIndex<2> &index) { velocity[0](index) = -1; });
-  fill_boundary_points(velocity[1], model, VelocityCondition<2>(1), velocity, 0.);
+  fill_boundary_points(velocity[1], model.boundaries(), VelocityCondition<2>(1), velocity, 0.);
   for_each(v.stored(), [&](const GridIndex<2> &index) {
     if (index[0] == 6)
       REQUIRE(v(index) == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/interpolation.h>
+#include <undine/fluid/grid/interpolation.h>
 
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>
@@ -59,7 +59,8 @@ TEMPLATE_TEST_CASE_SIG(
       CHECK(*numbers.rbegin() + 1 == lattice->n_points());
       CHECK(dealii::Utilities::MPI::sum(lattice->owned().size(), MPI_COMM_WORLD) ==
             lattice->n_points());
-      auto expected = lattice->owned_numbers().begin();
+      const auto owned    = lattice->owned_numbers();
+      auto       expected = owned.begin();
       for_each(lattice->owned(), [&](const GridIndex<dim> &index) {
         REQUIRE(lattice->number(index) == *expected++);
       });

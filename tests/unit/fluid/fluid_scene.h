@@ -2,9 +2,7 @@
 #ifndef undine_tests_fluid_scene_h
 #define undine_tests_fluid_scene_h
 
-#include <undine/fluid/fluid_model.h>
-#include <undine/fluid/fluid_quantities.h>
-#include <undine/fluid/pressure_gradient.h>
+#include <undine/fluid/model/fluid_model.h>
 
 #include <deal.II/base/mpi.h>
 

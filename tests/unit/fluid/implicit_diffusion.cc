@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/implicit_diffusion.h>
+#include <undine/fluid/model/fluid_quantities.h>
+#include <undine/fluid/viscosity/implicit_diffusion.h>
 
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>

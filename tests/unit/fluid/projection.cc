@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/boundary_condition.h>
-#include <undine/fluid/pressure_matrix.h>
-#include <undine/fluid/projection.h>
+#include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/model/fluid_quantities.h>
+#include <undine/fluid/pressure/divergence.h>
+#include <undine/fluid/pressure/pressure_gradient.h>
+#include <undine/fluid/pressure/pressure_matrix.h>
+#include <undine/fluid/pressure/projection.h>
 
 #include <catch2/catch.hpp>
 #include <fluid/fluid_scene.h>
@@ -79,7 +83,7 @@ TEMPLATE_TEST_CASE_SIG("pressure gradient and divergence are adjoint: p.D v = v.
       auto       state = model.initial_state();
       fill_scattered(state.velocity);
       fill_scattered(state.pressure, 9);
-      set_boundary_velocity(state.velocity, model, 0);
+      set_boundary_velocity(state.velocity, model.boundaries(), 0);
       exchange(state.velocity);
       state.pressure.exchange(1);
       auto openings = open_faces<dim>(model, state.velocity, nullptr, 0.);
@@ -168,7 +172,7 @@ TEST_CASE("a projection removes energy and is the nearest divergence-free field"
   Projection<3> projection(model);
   auto          state = model.initial_state();
   fill_scattered(state.velocity);
-  set_boundary_velocity(state.velocity, model, 0);
+  set_boundary_velocity(state.velocity, model.boundaries(), 0);
   const auto before = state.velocity;
   projection.project(state, 0, 1);
   auto removed = before;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/checkpoint.h>
+#include <undine/output/checkpoint/checkpoint.h>
 
 #include <catch2/catch.hpp>
 

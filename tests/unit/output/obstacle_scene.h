@@ -2,7 +2,7 @@
 #ifndef undine_tests_output_obstacle_scene_h
 #define undine_tests_output_obstacle_scene_h
 
-#include <undine/coupled/fluid_geometry.h>
+#include <undine/coupled/immersed/fluid_geometry.h>
 
 #include "sample_scene.h"
 
@@ -43,7 +43,7 @@ namespace undine_tests
       state.clock.time        = time;
       state.clock.end_time    = 1;
       state.surface_positions = models.surface->positions(state.solid, time);
-      const auto open         = geometry_of(models, state)->cut_parts().open;
+      const auto open         = geometry_of(models, state)->cut_topology().open;
       state.fluid             = models.fluid->initial_state(open);
       state.fluid.scalars.emplace("smoke", Field<dim>(models.fluid->grid().cells(), open));
       return state;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/checkpoint.h>
-#include <undine/output/fluid_sampler.h>
-#include <undine/output/solution_parts.h>
+#include <undine/output/checkpoint/checkpoint.h>
+#include <undine/output/fields/fluid_sampler.h>
+#include <undine/output/fields/solution_parts.h>
 
 #include <catch2/catch.hpp>
 

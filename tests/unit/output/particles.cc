@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/checkpoint.h>
-#include <undine/output/particle_patches.h>
-#include <undine/output/particle_queries.h>
-#include <undine/output/probe.h>
+#include <undine/output/checkpoint/checkpoint.h>
+#include <undine/output/fields/particle_patches.h>
+#include <undine/output/probes/particle_queries.h>
+#include <undine/output/probes/probe.h>
 
 #include <catch2/catch.hpp>
 #include <message_of.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/files.h>
-#include <undine/output/result_folder.h>
+#include <undine/output/files/files.h>
+#include <undine/output/files/result_folder.h>
 
 #include <catch2/catch.hpp>
 

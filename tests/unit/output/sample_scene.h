@@ -2,9 +2,9 @@
 #ifndef undine_tests_output_sample_scene_h
 #define undine_tests_output_sample_scene_h
 
-#include <undine/coupled/models.h>
-#include <undine/coupled/state.h>
-#include <undine/output/files.h>
+#include <undine/coupled/model/models.h>
+#include <undine/coupled/state/state.h>
+#include <undine/output/files/files.h>
 
 #include <csignal>
 #include <filesystem>

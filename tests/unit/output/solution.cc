@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/hdf5_file.h>
+#include <undine/output/fields/solution_parts.h>
+#include <undine/output/files/hdf5_file.h>
 #include <undine/output/output.h>
-#include <undine/output/probe.h>
-#include <undine/output/solution_parts.h>
+#include <undine/output/probes/probe.h>
 
 #include <boost/property_tree/xml_parser.hpp>
 #include <catch2/catch.hpp>

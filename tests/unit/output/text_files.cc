@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/output/schedule.h>
+#include <undine/output/files/schedule.h>
+#include <undine/output/files/time_records.h>
 #include <undine/output/statistics_file.h>
-#include <undine/output/time_records.h>
 
 #include <boost/property_tree/xml_parser.hpp>
 #include <catch2/catch.hpp>

@@ -14,7 +14,7 @@ namespace particle_tests
   engine_on(const std::string &executor, const ParticleScene<dim> &scene)
   {
     auto engine =
-      Registry<EngineFactory<dim>>::instance().make(executor)->make(Precision::single_precision);
+      Registry<EngineFactory<dim>>::instance().make(executor)->make(Precision::single_precision, 0);
     engine->load(scene.setup, scene.state);
     return engine;
   }
@@ -24,7 +24,7 @@ namespace particle_tests
   has_device()
   {
     const auto factory = Registry<EngineFactory<dim>>::instance().make("device");
-    return factory->reason_not_available().empty();
+    return factory->reason_not_available(0).empty();
   }
 
   /// True where there is no device, which is said.

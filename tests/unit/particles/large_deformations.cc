@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/particles/rotation.h>
-#include <undine/particles/volume_law.h>
+#include <undine/particles/elasticity/volume_law.h>
+#include <undine/particles/math/rotation.h>
 
 #include <catch2/catch.hpp>
 

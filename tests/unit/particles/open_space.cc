@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
-#include <undine/particles/cell_grid.h>
+#include <undine/particles/model/cell_grid.h>
 
 #include <catch2/catch.hpp>
 

@@ -3,7 +3,7 @@
 #define undine_tests_unit_particles_particle_scene_h
 
 #include <undine/base/core/registry.h>
-#include <undine/particles/engine.h>
+#include <undine/particles/engine/engine.h>
 
 #include <algorithm>
 #include <array>
@@ -119,7 +119,7 @@ namespace particle_tests
     std::unique_ptr<Engine<dim>>
     engine(const Precision precision = Precision::double_precision) const
     {
-      auto result = Registry<EngineFactory<dim>>::instance().make("host")->make(precision);
+      auto result = Registry<EngineFactory<dim>>::instance().make("host")->make(precision, 0);
       result->load(setup, state);
       return result;
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_scene.h"
 
-#include <undine/solid/internal_forces.h>
-#include <undine/solid/loads.h>
+#include <undine/solid/assembly/internal_forces.h>
+#include <undine/solid/assembly/loads.h>
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What every way of embedding a body in space has to fulfil with every material.
 #include <undine/base/core/errors.h>
-#include <undine/solid/elastic_constants.h>
-#include <undine/solid/kinematics.h>
+#include <undine/solid/material/elastic_constants.h>
+#include <undine/solid/material/kinematics.h>
 
 #include <catch2/catch.hpp>
 #include <solid/material_samples.h>

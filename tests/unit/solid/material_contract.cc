@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What every registered material has to fulfil. A new law is covered without a change here.
 #include <undine/base/core/errors.h>
-#include <undine/solid/elastic_constants.h>
-#include <undine/solid/material.h>
+#include <undine/solid/material/elastic_constants.h>
+#include <undine/solid/material/material.h>
 
 #include <catch2/catch.hpp>
 #include <solid/material_samples.h>

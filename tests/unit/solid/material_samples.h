@@ -2,9 +2,9 @@
 #ifndef undine_unit_solid_material_samples_h
 #define undine_unit_solid_material_samples_h
 
-#include <undine/solid/elastic_constants.h>
-#include <undine/solid/kinematics.h>
-#include <undine/solid/material.h>
+#include <undine/solid/material/elastic_constants.h>
+#include <undine/solid/material/kinematics.h>
+#include <undine/solid/material/material.h>
 
 #include <deal.II/base/tensor.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Closed solutions of single laws.
-#include <undine/solid/elastic_constants.h>
-#include <undine/solid/material.h>
+#include <undine/solid/material/elastic_constants.h>
+#include <undine/solid/material/material.h>
 
 #include <catch2/catch.hpp>
 #include <solid/material_samples.h>

@@ -2,10 +2,10 @@
 #ifndef undine_tests_solid_scene_h
 #define undine_tests_solid_scene_h
 
-#include <undine/solid/solid_columns.h>
-#include <undine/solid/solid_model.h>
-#include <undine/solid/solid_point.h>
-#include <undine/solid/solid_step.h>
+#include <undine/solid/mesh/solid_model.h>
+#include <undine/solid/mesh/solid_point.h>
+#include <undine/solid/step/solid_columns.h>
+#include <undine/solid/step/solid_step.h>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_scene.h"
 
-#include <undine/solid/time_integrator.h>
+#include <undine/solid/time/time_integrator.h>
 
 #include <catch2/catch.hpp>
 

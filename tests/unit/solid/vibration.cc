@@ -2,7 +2,7 @@
 #include "reference_table.h"
 #include "solid_scene.h"
 
-#include <undine/solid/solid_equations.h>
+#include <undine/solid/step/solid_equations.h>
 
 #include <catch2/catch.hpp>
 

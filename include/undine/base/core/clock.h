@@ -16,6 +16,9 @@ namespace undine
     unsigned int maximum_steps    = std::numeric_limits<unsigned int>::max(); ///< stop after these
     double       landing_interval = 0; ///< [s]; 0: only the end is landed on
 
+    /// The next step is to be no longer, after one that had to be cut [s].
+    double longest_step = std::numeric_limits<double>::infinity();
+
     bool
     ended() const;
 

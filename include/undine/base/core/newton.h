@@ -29,6 +29,16 @@ namespace undine
     unsigned int        cuts              = 0; ///< halvings in the line search
     unsigned int        linear_iterations = 0;
     std::vector<double> residuals; ///< norm before the first and after every correction
+
+    /// `later` went on from here. The linear iterations are counted through.
+    void
+    append(const NewtonReport &later)
+    {
+      iterations += later.iterations;
+      cuts += later.cuts;
+      linear_iterations = later.linear_iterations;
+      residuals.insert(residuals.end(), later.residuals.begin(), later.residuals.end());
+    }
   };
 
   /// Newton's method for r(x) = 0 with a watchdog line search: a full correction is taken as long

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,10 +31,12 @@ namespace undine
       return registry;
     }
 
+    /// Throws std::logic_error if there is a part of that name.
     void
     add(const std::string &name, const std::string &help, Factory factory)
     {
-      entries[name] = {help, std::move(factory)};
+      if (!entries.emplace(name, Entry{help, std::move(factory)}).second)
+        throw std::logic_error("two parts of one kind are called '" + name + "'");
     }
 
     bool

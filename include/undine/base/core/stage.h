@@ -54,7 +54,7 @@ namespace undine
 
     /// The way of what the flow carries [s].
     double
-    way() const
+    duration() const
     {
       return end - begin;
     }

@@ -41,6 +41,11 @@ namespace undine
     const std::vector<std::string> &
     mistakes() const;
 
+    /// What users may want to know about lines of the file that are no mistakes, each with its
+    /// place: keys that have another name today.
+    const std::vector<std::string> &
+    remarks() const;
+
     /// `value` as a file must have it: the inverse of what reading does with `\`.
     static std::string
     escaped(const std::string &value);
@@ -105,6 +110,7 @@ namespace undine
     std::vector<std::filesystem::path> open_files; ///< being read: the scene and what it includes
     unsigned int                       n_included = 0;
     std::vector<std::string>           line_mistakes;
+    std::vector<std::string>           all_remarks;
   };
 } // namespace undine
 

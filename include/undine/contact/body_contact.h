@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_contact_body_contact_h
+#define undine_contact_body_contact_h
+
+#include <undine/contact/contact_pattern.h>
+#include <undine/contact/contact_potential.h>
+#include <undine/solid/assembly/contact.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// Frictionless contact of bodies with each other, with obstacles and with plane walls, by a
+  /// barrier: the potential of a node of area A at the distance d from another surface is
+  ///
+  ///     E = k A D b(d / D),   b(s) = -(s - 1)^2 ln s for s < 1, else 0                     (S16)
+  ///
+  /// with the gap D and the stiffness k of the scene [after Li, Ferguson, Schneider, Langlois,
+  /// Zorin, Panozzo, Jiang, Kaufman, ACM Trans. Graph. 39 (2020)]. d is the distance to the nearest
+  /// point of a facet, on whose nodes the opposite force is distributed by that point's weights:
+  /// forces and moments between bodies cancel, whatever the step. In 3D sharp edges meet sharp
+  /// edges too (SharpEdge), by (S17). A body does not meet itself.
+  template <int dim>
+  class BodyContact : public Contact<dim>
+  {
+  public:
+    using Vector = typename Contact<dim>::Vector;
+    using Matrix = typename Contact<dim>::Matrix;
+    using Place  = typename Contact<dim>::Place;
+
+    /// `fluid` and `obstacles`: nullptr if there are none. All references must outlive it.
+    /// Collective. Throws InputError.
+    BodyContact(const ContactSettings<dim> &settings,
+                const SolidModel<dim>      &solid,
+                const FluidModel<dim>      *fluid,
+                const Obstacles<dim>       *obstacles);
+
+    /// The same where only some bodies move, those of `solid`: `bodies` has been made from all of
+    /// them, and displacements are those of these bodies. Collective.
+    BodyContact(const BodyContact      &all,
+                const SolidModel<dim>  &solid,
+                const BodySurface<dim> &bodies);
+
+    /// D [m].
+    double
+    gap() const
+    {
+      return settings.gap;
+    }
+
+    double
+    energy(const Vector &displacement, double time) const override;
+    Vector
+    forces(const Vector &displacement, double time) const override;
+    std::vector<dealii::Tensor<1, dim>>
+    nodal_forces(const Vector &displacement, double time) const override;
+    void
+    add_stiffness(Matrix &A, double factor, const Vector &displacement, double time) const override;
+    void
+    begin_stage() const override;
+    double
+    free_part(const Place &from, const Place &to) const override;
+    void
+    check_start(const Vector &displacement, double time) const override;
+    Columns
+    columns(const Vector &displacement, double time) const override;
+
+  private:
+    using Places = typename ContactSurfaces<dim>::Places;
+    using Terms  = std::vector<ContactTerm<dim>>;
+    using Forces = std::vector<dealii::Tensor<1, dim>>;
+
+    Terms
+    terms(const Places &places) const;
+    double
+    energy(const Terms &terms, const Places &places) const;
+    Forces
+    nodal_forces(const Terms &terms, const Places &places) const;
+    ContactPotential<dim>
+    potential() const;
+
+    const SolidModel<dim>      &solid; ///< of the bodies that move
+    ContactSettings<dim>        settings;
+    const ContactSurfaces<dim>  surfaces;
+    mutable ContactPattern<dim> pattern;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_contact_contact_boxes_h
+#define undine_contact_contact_boxes_h
+
+#include <undine/contact/contact_surfaces.h>
+
+#include <functional>
+
+namespace undine
+{
+  /// Calls action(node, facet) for nodes and facets of surfaces that meet each other, whose boxes
+  /// around the straight ways `from` ... `to` come as near as `distance` [m]: in ascending order of
+  /// nodes, then facets. Surfaces whose boxes are far from all others cost nothing but these; in
+  /// what is left facets are found by an R-tree.
+  template <int dim>
+  void
+  for_each_near_pair(const ContactSurfaces<dim>                            &surfaces,
+                     const typename ContactSurfaces<dim>::Places           &from,
+                     const typename ContactSurfaces<dim>::Places           &to,
+                     double                                                 distance,
+                     const std::function<void(unsigned int, unsigned int)> &action);
+
+  /// The same for two sharp edges, by their numbers in ContactSurfaces::sharp_edges(); each pair
+  /// once, the lower number first.
+  template <int dim>
+  void
+  for_each_near_edges(const ContactSurfaces<dim>                            &surfaces,
+                      const typename ContactSurfaces<dim>::Places           &from,
+                      const typename ContactSurfaces<dim>::Places           &to,
+                      double                                                 distance,
+                      const std::function<void(unsigned int, unsigned int)> &action);
+} // namespace undine
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_contact_contact_potential_h
+#define undine_contact_contact_potential_h
+
+#include <undine/contact/contact_terms.h>
+
+#include <array>
+#include <vector>
+
+namespace undine
+{
+  /// Matrices between the nodes of a term: [i][j], i and j < n.
+  template <int dim>
+  using NodeMatrices = std::array<std::array<dealii::Tensor<2, dim>, dim + 1>, dim + 1>;
+
+  /// What a term of contact costs, and its derivatives by the places of its nodes:
+  ///
+  ///     E = k A D m(c) b(d / D)                                                       (S16), (S17)
+  template <int dim>
+  class ContactPotential
+  {
+  public:
+    using Term   = ContactTerm<dim>;
+    using Places = typename ContactSurfaces<dim>::Places;
+
+    /// D [m] and k [Pa].
+    ContactPotential(const double gap, const double stiffness)
+      : gap(gap)
+      , stiffness(stiffness)
+    {
+    }
+
+    /// E [J].
+    double
+    energy(const Term &term, const Places &places) const;
+
+    /// -dE/dx_i [N], for each node.
+    std::array<dealii::Tensor<1, dim>, dim + 1>
+    forces(const Term &term, const Places &places) const;
+
+    /// d^2E / dx_i dx_j [N/m].
+    NodeMatrices<dim>
+    second_derivatives(const Term &term, const Places &places) const;
+
+  private:
+    double gap;
+    double stiffness;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_contact_contact_surfaces_h
+#define undine_contact_contact_surfaces_h
+
+#include <undine/fluid/model/fluid_model.h>
+#include <undine/solid/assembly/contact_settings.h>
+#include <undine/surface/body_surface.h>
+#include <undine/surface/obstacles.h>
+#include <undine/surface/sharp_edges.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// One of several surfaces, by itself; nodes keep their numbers.
+  template <int dim>
+  Surface<dim>
+  one_surface(const Surface<dim> &all, unsigned int surface);
+
+
+  /// All that bodies may touch: the surfaces of bodies, then those of obstacles, and plane walls.
+  /// Replicated on all ranks, constant during a run.
+  template <int dim>
+  class ContactSurfaces
+  {
+  public:
+    using Places = std::vector<dealii::Point<dim>>;
+    using Vector = typename SolidModel<dim>::Vector;
+
+    /// `fluid` and `obstacles`: nullptr if there are none. Collective. Throws InputError.
+    ContactSurfaces(const ContactSettings<dim> &settings,
+                    const SolidModel<dim>      &solid,
+                    const FluidModel<dim>      *fluid,
+                    const Obstacles<dim>       *obstacles);
+
+    /// The same in which only some bodies move, or none: `bodies` has been made from all of them.
+    ContactSurfaces(const ContactSurfaces &all, const BodySurface<dim> &bodies);
+
+    /// Of all nodes [m]. Collective.
+    Places
+    places(const Vector &displacement, double time) const;
+
+    const BodySurface<dim> &
+    bodies() const
+    {
+      return body_surface;
+    }
+
+    /// Does a force on the node move a body?
+    bool
+    moves(const unsigned int node) const
+    {
+      return node < body_surface.n_nodes() && body_surface.moves(node);
+    }
+
+    unsigned int
+    n_bodies() const
+    {
+      return body_surface.surface().body_names().size();
+    }
+
+    bool
+    is_body(const unsigned int surface) const
+    {
+      return surface < n_bodies();
+    }
+
+    /// Of bodies and obstacles, as are all numbers of surfaces below.
+    const Surface<dim> &
+    surface() const
+    {
+      return all_facets;
+    }
+
+    const std::vector<ContactWall<dim>> &
+    walls() const
+    {
+      return all_walls;
+    }
+
+    /// The surface that a node belongs to.
+    unsigned int
+    surface_of_node(const unsigned int node) const
+    {
+      return surfaces_of_nodes[node];
+    }
+
+    /// Integral of its shape function over the boundary at rest [m^(dim-1)]; of obstacles its share
+    /// of the facets, no more than nodes of bodies have.
+    double
+    area(const unsigned int node) const
+    {
+      return areas[node];
+    }
+
+    const std::vector<SharpEdge> &
+    sharp_edges() const
+    {
+      return all_edges;
+    }
+
+    /// Does the body rest on the wall or reach through it, held there by a support? Then it does
+    /// not feel it.
+    bool
+    is_held_at(const unsigned int body, const unsigned int wall) const
+    {
+      return held[body][wall];
+    }
+
+    /// Do these surfaces feel each other? Not if both are obstacles, or if a support of one begins
+    /// in the other or on it.
+    bool
+    meet(const unsigned int a, const unsigned int b) const
+    {
+      return a != b && (is_body(a) || is_body(b)) && !grown_together[a][b];
+    }
+
+    /// Mean extent of the bodies' facets, of the body where it is least [m].
+    double
+    facet_size() const
+    {
+      return least_size;
+    }
+
+  private:
+    void
+    add_domain_walls(const FluidModel<dim> &fluid);
+    void
+    measure(const SolidModel<dim> &solid, const Places &rest);
+    void
+    find_held(const SolidModel<dim> &solid, const Places &rest);
+    void
+    find_grown_together(const std::vector<unsigned int> &fixed_nodes, const Places &rest);
+
+    const BodySurface<dim>         body_surface;
+    const Obstacles<dim> *const    obstacles;
+    const Surface<dim>             all_facets;
+    std::vector<ContactWall<dim>>  all_walls;
+    std::vector<unsigned int>      surfaces_of_nodes;
+    std::vector<double>            areas;
+    std::vector<SharpEdge>         all_edges;
+    std::vector<std::vector<bool>> held;           ///< [body][wall]
+    std::vector<std::vector<bool>> grown_together; ///< [surface][surface]
+    double                         least_size = 0;
+  };
+} // namespace undine
+
+#endif

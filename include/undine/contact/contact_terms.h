@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_contact_contact_terms_h
+#define undine_contact_contact_terms_h
+
+#include <undine/contact/contact_surfaces.h>
+#include <undine/surface/nearest_in_simplex.h>
+
+#include <array>
+#include <vector>
+
+namespace undine
+{
+  /// A node near a simplex of another surface or near a wall, or two sharp edges near each other.
+  template <int dim>
+  struct ContactTerm
+  {
+    static constexpr unsigned int no_wall = -1;
+
+    /// How a nearest point moves when nodes do: between two of these.
+    struct Way
+    {
+      unsigned int from, to; ///< positions in `nodes`
+      int          sign;     ///< 1 for what the direction leads to, -1 for what it comes from
+    };
+
+    unsigned int n = 1;                         ///< nodes: the node, then those of the simplex;
+                                                ///< or those of one edge, then of the other
+    std::array<unsigned int, dim + 1> nodes{};  ///< n of them are used
+    std::array<double, dim + 1>       shares{}; ///< of nodes in the nearest points, the second's
+                                                ///< negative: the sum of all is 0
+    unsigned int             n_ways = 0;
+    std::array<Way, dim - 1> ways;         ///< n_ways of them are used
+    dealii::Tensor<1, dim>   direction;    ///< from the second nearest point to the first
+    double                   distance = 0; ///< [m]
+    double                   area     = 0; ///< on which it acts, negative if it is taken
+                                           ///< off what others count twice [m^(dim-1)]
+    double       crossing = 0;             ///< of edges: e in (S17) [m^4]; 0: no edges
+    unsigned int wall     = no_wall;
+  };
+
+  /// All that are nearer than `gap` [m], in an order that the places alone decide; those of every
+  /// node with all facets less ridges plus corners (in 2D facets less ends), so that a flat or
+  /// convex surface counts once wherever the facets' rims are. Where the nodes of both surfaces are
+  /// asked, each counts half. Then pairs of sharp edges. With R-trees: the time grows with the
+  /// surfaces.
+  template <int dim>
+  std::vector<ContactTerm<dim>>
+  find_contact_terms(const ContactSurfaces<dim>                  &surfaces,
+                     const typename ContactSurfaces<dim>::Places &places,
+                     double                                       gap);
+} // namespace undine
+
+#endif

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_adaptivity_sleeping_bodies_h
+#define undine_coupled_adaptivity_sleeping_bodies_h
+
+#include <undine/coupled/budget/budget.h>
+#include <undine/coupled/step/physics.h>
+#include <undine/solid/mesh/part_of_bodies.h>
+#include <undine/solid/step/solid_step.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace undine
+{
+  /// The equations of a scene for those of its bodies that are awake. A body that sleeps is an
+  /// obstacle that stands still: fluid flows around it, others touch it, and nothing is assembled
+  /// or solved for it. Between steps the state holds all bodies.
+  ///
+  /// With V and T of SleepSettings, at the end of a step:
+  ///
+  ///  - a body falls asleep if no node has been faster than V for the time T; it keeps d, and what
+  ///    is left of its u is taken away when the next step begins (the budget's term `sleep`);
+  ///  - it wakes if sum_i |F_i - F_i'| > m V / T over the nodes of its surface (S18), F being the
+  ///    loads of fluid and contact and F' those with which it fell asleep; the step is then done
+  ///    again with it awake, so that none is accepted in which something that sleeps should not.
+  ///
+  /// Bodies with supports or loads that change in time never sleep.
+  template <int dim>
+  class SleepingBodies : public Physics<dim>
+  {
+  public:
+    /// Makes the equations for a choice of models.
+    using Make = std::function<std::unique_ptr<Physics<dim>>(const Models<dim> &)>;
+
+    /// `models` are those of all bodies, of which there are some. The references must outlive it.
+    /// Collective.
+    SleepingBodies(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing, Make make);
+
+    void
+    initialize(State<dim> &state, double dt, Report &report) override;
+
+    /// Until nobody wakes in the step: what does is awake from its begin. Where bodies that sleep
+    /// leave the step without a solution, as in a chamber that only they close, all wake.
+    void
+    advance(State<dim> &state, const Stages &stages, Report &report) override;
+
+    void
+    step(State<dim> &state, const Stage &stage, Report &report) override;
+
+  private:
+    using Vectors = std::vector<dealii::Tensor<1, dim>>;
+
+    /// What takes the place of all bodies where some sleep.
+    struct Part
+    {
+      std::unique_ptr<const SolidModel<dim>>   asleep;
+      std::unique_ptr<const PartOfBodies<dim>> of_asleep;
+      std::unique_ptr<const PartOfBodies<dim>> of_awake; ///< nullptr: none are
+      Models<dim>                              models;   ///< of those awake
+    };
+
+    void
+    choose(State<dim> &state);
+    void
+    make_part(const State<dim> &state);
+    void
+    keep_still(const State<dim> &state);
+    std::shared_ptr<const SolidMeasures<dim>>
+    measure_asleep(const State<dim> &state) const;
+    SolidAmounts<dim>
+    take_rest(State<dim> &state) const;
+    Vectors
+    loads_on_bodies(const State<dim> &state, double time) const;
+    void
+    change_sleep(State<dim> &state, double dt, double time) const;
+    bool
+    count_quiet_time(State<dim> &state, double dt) const;
+    void
+    complete(Report &report, const State<dim> &state, double time) const;
+    void
+    add_columns(Report &report, const State<dim> &state) const;
+
+    const Models<dim>                               &all;
+    Budget<dim>                                     &budget;
+    TimingTree                                      &timing;
+    const Make                                       make;
+    const SolidEnvironment<dim>                      environment; ///< of all bodies, but no contact
+    const SleepSettings                              settings;
+    const std::shared_ptr<const Contact<dim>>        contact;      ///< of all bodies; nullptr: none
+    const std::unique_ptr<const BodySurface<dim>>    surface;      ///< nullptr: nothing acts on it
+    const std::vector<unsigned int>                  body_of_node; ///< of that surface
+    const std::vector<bool>                          may_sleep;    ///< [body]
+    std::vector<double>                              masses;       ///< [body] [kg]
+    std::vector<bool>                                sleepers; ///< [body] for which `physics` is
+    std::unique_ptr<Part>                            part;     ///< nullptr: nobody sleeps
+    std::unique_ptr<Physics<dim>>                    physics;  ///< nullptr: nothing is left to do
+    std::vector<std::pair<std::string, std::string>> names;    ///< of its columns, with units
+
+    /// Within a step. @{
+    SolidState        whole; ///< all bodies at t^n
+    SolidAmounts<dim> rest;  ///< taken from those that have fallen asleep
+    /// @}
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_budget_budget_h
+#define undine_coupled_budget_budget_h
+
+#include <undine/base/core/column.h>
+#include <undine/coupled/model/models.h>
+#include <undine/fluid/grid/fluid_state.h>
+#include <undine/fluid/pressure/pressure_balance.h>
+#include <undine/solid/step/solid_balance.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace undine
+{
+  /// What fluid and surfaces did to each other in a step, in the nodes of all surfaces, those of
+  /// bodies first.
+  template <int dim>
+  struct SurfaceExchange
+  {
+    using Vectors = std::vector<dealii::Tensor<1, dim>>;
+
+    Vectors by_fluid;   ///< B^T p where the grid was cut, the p that accelerated the fluid [N]
+    Vectors pushed;     ///< the same with the B that follows [N]
+    Vectors velocities; ///< w, with which the surfaces pushed the fluid: B w [m/s]
+    Vectors on_bodies;  ///< J p that the bodies felt [N]
+    Vectors at_rest;    ///< what the fluid did to bodies besides: weight, void regions [N]
+    Vectors friction;   ///< what friction did to surfaces [N]; empty without
+    Vectors increment;  ///< d^{n+1} - d^n of bodies [m]
+  };
+
+
+  /// Where energy and momentum of a step come from and go to, each term from its own formula, and
+  /// what is missing in the sum. A budget that is not switched on does nothing and costs nothing.
+  template <int dim>
+  class Budget
+  {
+  public:
+    /// What changes the fluid's velocity before pressures do.
+    enum Phase
+    {
+      transport, ///< to the new place of surfaces, too
+      forces,
+      diffusion,
+      boundary_values ///< of inflows and walls
+    };
+
+    /// `models` must outlive it. `has_stages`: steps have stages that keep rates.
+    Budget(const Models<dim> &models, bool is_on, bool has_stages = false);
+
+    bool
+    is_on() const
+    {
+      return on;
+    }
+
+    /// From now on bodies that sleep are booked as obstacles; `surface`: with those that move.
+    void
+    follow(const ImmersedSurface<dim> *surface);
+
+    /// A step begins; with a fluid: with v^n, collective. @{
+    void
+    start();
+    void
+    start(const Velocity<dim> &velocity);
+    /// @}
+
+    /// Stages that keep rates (Stage): the last one is booked like a step, from its start. What
+    /// leads there, by the rates of earlier stages, is a term of its own for bodies, and part of
+    /// `transport` for the fluid. Tell of the bodies at t^n, then at the last stage's start. @{
+    void
+    start(const SolidAmounts<dim> &bodies);
+    void
+    add(const SolidAmounts<dim> &bodies);
+    /// @}
+
+    /// A phase has led to `velocity`, or an effect in it has, numbered as in `models`; what that
+    /// did is taken from `work` [J], of this rank, if given: the effect's own formula. Collective.
+    /// @{
+    void
+    add(Phase phase, const Velocity<dim> &velocity);
+    void
+    add(Phase                        phase,
+        unsigned int                 effect,
+        const Velocity<dim>         &velocity,
+        const std::optional<double> &work);
+    /// @}
+
+    /// What followed in a step of `dt` [s]; boundary_values are what pressures found changed.
+    /// @{
+    void
+    add(const PressureBalance<dim> &pressures, double dt);
+    void
+    add(const SurfaceExchange<dim> &surfaces, double dt);
+    void
+    add(const SolidBalance<dim> &solid, double dt);
+    /// @}
+
+    /// What bodies that fell asleep have lost.
+    void
+    add_rest(const SolidAmounts<dim> &rest);
+
+    /// The terms as gains of fluid and bodies, energies in J, momenta in kg m/s (in 2D per metre).
+    /// After them "energy by NAME" for every effect that is on: what of the terms is due to it.
+    /// "energy closure": |gain - sum of terms| over energy and |terms|. "momentum closure": the
+    /// same over h sum_i |(B^T p)_i| or, where surfaces feel nothing, over |terms|. None if off.
+    Columns
+    columns() const;
+
+  private:
+    enum Term
+    {
+      // fluid
+      by_transport,
+      by_forces,
+      by_diffusion,
+      by_boundary_values,
+      by_sides,    ///< where the velocity is given
+      by_openings, ///< where the pressure is given
+      by_projection,
+      // surfaces
+      by_obstacles,
+      by_interface, ///< what bodies get less what the fluid gives
+      by_fluid_at_rest,
+      by_friction, ///< what bodies get; the fluid gives it by diffusion
+                   // bodies
+      by_loads,
+      by_supports,
+      by_damping,
+      by_contact,    ///< in energy the integrator's: work and gain of the potential
+      by_inertia,    ///< of the integrator
+      by_elasticity, ///< of the integrator
+      by_stages,     ///< the earlier ones
+      by_sleep,      ///< taken from bodies that fall asleep
+      n_terms
+    };
+
+    static_assert(int(by_boundary_values) == int(boundary_values), "phases are the first terms");
+
+    struct Amount
+    {
+      double                 energy = 0;
+      dealii::Tensor<1, dim> momentum;
+    };
+
+    static const char *const names[n_terms];
+
+    bool
+    concerns(unsigned int term) const;
+    Amount
+    missing() const;
+    Amount
+    amount(const Velocity<dim> &velocity) const;
+    void
+    add_effects(Columns &columns) const;
+
+    const Models<dim>          &models;
+    const bool                  on;
+    const bool                  has_stages;
+    const bool                  has_contact;
+    const bool                  has_sleep;
+    const ImmersedSurface<dim> *surface; ///< nullptr: none
+    Amount                      fluid;   ///< what it has, as far as the step has come
+    Amount                      bodies;  ///< what they had at t^n
+    Amount                      gain;
+    std::array<Amount, n_terms> terms;
+    std::vector<double>         by_effect;            ///< [J]
+    double                      energy           = 0; ///< of fluid and bodies
+    double                      impulse_of_fluid = 0; ///< h sum_i |(B^T p)_i|
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_immersed_chamber_volumes_h
+#define undine_coupled_immersed_chamber_volumes_h
+
+#include <undine/base/core/stage.h>
+#include <undine/coupled/immersed/fluid_geometry.h>
+#include <undine/fluid/pressure/closed_regions.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// The volumes of the chambers that bodies close off: regions of fluid without an opening that a
+  /// body touches. B u at the end of a stage is what the surfaces push out per time, so that
+  /// volumes drift, in second order of h. They are kept to rounding if the chamber c pushes besides
+  ///
+  ///     ( S_c + sum_j w_j q_c(t_j) ) / g - (B u)_c    [m^dim/s],                             (C3)
+  ///
+  /// spread over the bodies' surface there. S: what the chamber gains from t^n to the end of
+  /// the stage, the difference of its volumes: that where the grid is cut for the stage
+  /// and that at t^n are exact, and from the former to the end is a way of second order in h, whose
+  /// fragments of facets sweep it; q: what leaves through sides with a given velocity, at the
+  /// earlier times t_j of which the stage is made, which count for w_j; g: length of the stage.
+  template <int dim>
+  class ChamberVolumes
+  {
+  public:
+    using Positions = typename FluidGeometry<dim>::Positions;
+    using Vectors   = typename FluidGeometry<dim>::Velocities;
+
+    /// For a stage of the step from `time` = t^n, at which the nodes of all surfaces were at
+    /// `before`. The references must outlive it. Collective.
+    ChamberVolumes(const Models<dim>          &models,
+                   const FluidGeometry<dim>   &geometry,
+                   const PressureNumbers<dim> &numbers,
+                   const Stage                &stage,
+                   double                      time,
+                   Positions                   before);
+
+    /// Are there chambers?
+    bool
+    empty() const
+    {
+      return chambers.size() == 0;
+    }
+
+    /// (C3) for surfaces that have come along `way` [m] since t^n, given `fluxes` B u of all
+    /// components [FluidTopology::cells]. Collective.
+    std::vector<double>
+    missing_fluxes(const std::vector<double> &fluxes, const Vectors &increment) const;
+
+  private:
+    /// S from t^n to where the grid is cut. Cuts it where the surfaces were at t^n, too.
+    std::vector<double>
+    gained_until_cut(const Models<dim> &models) const;
+
+    /// Swept out of each chamber along straight ways from a place [m^dim].
+    std::vector<double>
+    swept(const Positions &from, const Vectors &increment) const;
+
+    const Surface<dim>       &surface;
+    const FluidGeometry<dim> &geometry;
+    const ClosedRegions<dim>  chambers;
+    const double              length; ///< g [s]
+    const Positions           before;
+    std::vector<double>       areas;        ///< of bodies, around each component [m^(dim-1)]
+    std::vector<double>       region_areas; ///< of each chamber
+    std::vector<double>       earlier;      ///< sum_j w_j q(t_j) of each chamber [m^dim]
+    std::vector<double>       gained;       ///< S up to where the grid is cut [m^dim]
+  };
+} // namespace undine
+
+#endif

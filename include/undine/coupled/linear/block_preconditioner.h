@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_linear_block_preconditioner_h
+#define undine_coupled_linear_block_preconditioner_h
+
+#include <undine/base/options/options.h>
+#include <undine/coupled/linear/block_system.h>
+
+#include <functional>
+#include <memory>
+
+namespace undine
+{
+  /// Stands for the inverse of a BlockSystem. One preconditioner is one .cc file that registers
+  /// itself.
+  class BlockPreconditioner
+  {
+  public:
+    using Vector      = BlockSystem::Vector;
+    using BlockVector = BlockSystem::BlockVector;
+    using Matrix      = BlockSystem::Matrix;
+
+    /// apply(x, b): x = about A^{-1} b.
+    using ApplyInverse = std::function<void(Vector &, const Vector &)>;
+
+    virtual ~BlockPreconditioner() = default;
+
+    virtual void
+    add_options(const Options &options) = 0;
+
+    /// All that is given must outlive the calls of vmult(). As long as `schur`, approximating the
+    /// Schur complement, is the same object, what was made of it is kept. Collective.
+    virtual void
+    initialize(const BlockSystem                   &system,
+               const std::shared_ptr<const Matrix> &schur,
+               const ApplyInverse                  &tangent_inverse) = 0;
+
+    virtual void
+    vmult(BlockVector &result, const BlockVector &right_side) const = 0;
+  };
+} // namespace undine
+
+#endif

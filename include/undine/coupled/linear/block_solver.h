@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_linear_block_solver_h
+#define undine_coupled_linear_block_solver_h
+
+#include <undine/coupled/linear/block_preconditioner.h>
+#include <undine/solid/solvers/tangent_preconditioner.h>
+
+#include <string>
+
+namespace undine
+{
+  /// How the block systems of the simultaneous scheme are solved: the section `Coupling`.
+  struct BlockSolverSettings
+  {
+    /// Read the keys of the section.
+    void
+    add_options(const Options &options);
+
+    std::unique_ptr<BlockPreconditioner> preconditioner;
+    std::string                          solver             = "iterative"; ///< iterative | direct
+    double                               tolerance          = 1e-8;        ///< [1]
+    unsigned int                         maximum_iterations = 200;
+  };
+
+  /// Solves block systems by flexible GMRES. Residuals are measured after scaling by
+  /// |diag A|^-1/2 and diag(S)^-1/2, so that forces and fluxes weigh alike, whatever the units:
+  /// both become square roots of powers [W^1/2]. An iteration that does not converge gives way to
+  /// sparse factors of the whole matrix, with a note.
+  template <int dim>
+  class BlockSolver
+  {
+  public:
+    using Vector      = BlockSystem::Vector;
+    using BlockVector = BlockSystem::BlockVector;
+    using Matrix      = BlockSystem::Matrix;
+
+    /// The references must outlive it.
+    BlockSolver(const SolidModel<dim> &model, const BlockSolverSettings &settings);
+
+    /// A new grid: forget what approximates the Schur complement, iterations() and note().
+    void
+    start_step();
+
+    /// The solution up to `reduction` of the right side, at least the settings' tolerance.
+    /// `displacement` [m] says where the bodies are. Collective. Throws SolveError if the system is
+    /// singular or not a number.
+    BlockVector
+    solve(const BlockSystem &system,
+          const BlockVector &right_side,
+          const Vector      &displacement,
+          const double       reduction);
+
+    /// Of all solves since start_step(), and the most that one took. @{
+    unsigned int
+    iterations() const;
+    unsigned int
+    most_iterations() const;
+    /// @}
+
+    /// Of what approximates the Schur complement, on this rank [bytes]. Trilinos does not tell the
+    /// size of its factors and hierarchies.
+    std::size_t
+    memory_consumption() const;
+
+    /// What was unusual since start_step(); empty if nothing was.
+    const std::string &
+    note() const;
+
+  private:
+    /// False if the iteration does not converge.
+    bool
+    iterate(BlockVector       &solution,
+            const BlockSystem &system,
+            const BlockVector &right_side,
+            const double       reduction);
+
+    const BlockSolverSettings    &settings;
+    TangentPreconditioner<dim>    tangent_inverse;
+    std::shared_ptr<const Matrix> schur; ///< nullptr: of no system yet
+    unsigned int                  all_iterations = 0, largest_iterations = 0;
+    std::string                   all_notes;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_linear_joint_factorisation_h
+#define undine_coupled_linear_joint_factorisation_h
+
+#include <undine/coupled/linear/block_system.h>
+#include <undine/solid/solvers/factorisation.h>
+
+namespace undine
+{
+  /// Sparse factors of a BlockSystem restricted to all velocities of the bodies and some of the
+  /// pressures: a direct solver if these are all of them.
+  class JointFactorisation
+  {
+  public:
+    using BlockVector = BlockSystem::BlockVector;
+
+    /// `pressures`: those of this rank that take part. The system is not needed afterwards.
+    /// Collective. Throws SolveError if the matrix is singular or not a number.
+    JointFactorisation(const BlockSystem &system, const dealii::IndexSet &pressures);
+
+    /// The solution for the right side that takes part; other pressures are zero. Collective.
+    BlockVector
+    solve(const BlockVector &right_side);
+
+  private:
+    using Vector = BlockSystem::Vector;
+
+    dealii::IndexSet chosen; ///< pressures of this rank
+    dealii::IndexSet rows;   ///< of this rank: velocities, then chosen pressures, numbered anew
+    MPI_Comm         communicator;
+    Factorisation    factorisation;
+  };
+} // namespace undine
+
+#endif

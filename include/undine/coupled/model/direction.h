@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_model_direction_h
+#define undine_coupled_model_direction_h
+
+#include <undine/base/options/options.h>
+
+namespace undine
+{
+  /// Who feels whom where bodies stand in a fluid: `Coupling / Direction`.
+  enum class Direction
+  {
+    two_way,
+    fluid_to_body, ///< the fluid flows around the bodies as they were at the start
+    body_to_fluid  ///< the bodies move as if there were no fluid
+  };
+
+  /// Read the key. `couples`: the scene has a fluid and bodies. Throws InputError, also if the key
+  /// or others of the section contradict that or each other.
+  Direction
+  read_direction(const Options &scene, bool couples);
+} // namespace undine
+
+#endif

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_model_models_h
+#define undine_coupled_model_models_h
+
+#include <undine/contact/make_contact.h>
+#include <undine/coupled/model/direction.h>
+#include <undine/effects/effect.h>
+#include <undine/fluid/model/fluid_model.h>
+#include <undine/operators/void_regions.h>
+#include <undine/particle_model/particle_model.h>
+#include <undine/solid/mesh/solid_model.h>
+#include <undine/surface/immersed_surface.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+namespace undine
+{
+  /// What a scene is made of; constant during a run.
+  template <int dim>
+  struct Models
+  {
+    std::shared_ptr<const SolidModel<dim>> solid; ///< nullptr: no bodies
+    std::shared_ptr<const FluidModel<dim>> fluid; ///< nullptr: no fluid
+    Effects<dim>                           effects;
+    Direction                              direction = Direction::two_way;
+
+    /// Of fluid and bodies, in place of the two models above; nullptr: there are none.
+    std::unique_ptr<const ParticleModel<dim>> particles;
+
+    /// Of everything that stands in the fluid; nullptr: nothing does.
+    std::shared_ptr<const ImmersedSurface<dim>> surface;
+    std::shared_ptr<const VoidRegions<dim>>     void_regions; ///< nullptr: there are none
+
+    /// Where only some bodies are awake (SleepingBodies): what environment() returns.
+    std::optional<SolidEnvironment<dim>> for_awake;
+
+    /// All ranks that compute the scene.
+    MPI_Comm
+    communicator() const
+    {
+      if (particles)
+        return particles->communicator();
+      return solid ? solid->communicator() : fluid->grid().communicator();
+    }
+
+    /// Does the fluid stick to surfaces?
+    bool
+    has_friction() const
+    {
+      return std::any_of(effects.begin(), effects.end(), [](const auto &effect) {
+        return effect->needs_no_slip_surfaces();
+      });
+    }
+
+    /// What the effects do to the bodies. Collective.
+    SolidEnvironment<dim>
+    environment() const
+    {
+      if (for_awake)
+        return *for_awake;
+      auto result    = wishes_of_effects();
+      result.contact = contact_of_bodies();
+      return result;
+    }
+
+    /// The same without what is built for it.
+    SolidEnvironment<dim>
+    wishes_of_effects() const
+    {
+      SolidEnvironment<dim> result;
+      for (const auto &effect : effects)
+        effect->affect(result);
+      return result;
+    }
+
+    /// nullptr: bodies do not feel each other. Collective.
+    std::shared_ptr<const Contact<dim>>
+    contact_of_bodies() const
+    {
+      const auto settings = wishes_of_effects().contact_settings;
+      if (!solid || !settings)
+        return nullptr;
+      return make_contact<dim>(
+        *settings, *solid, fluid.get(), surface ? &surface->obstacles() : nullptr);
+    }
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_scheme_scheme_h
+#define undine_coupled_scheme_scheme_h
+
+#include <undine/base/core/timing.h>
+#include <undine/base/options/options.h>
+#include <undine/coupled/model/models.h>
+#include <undine/coupled/state/report.h>
+#include <undine/coupled/state/state.h>
+
+#include <functional>
+#include <string>
+
+namespace undine
+{
+  /// A way to take fluid and bodies from one time to the next. The only writer of State.
+  template <int dim>
+  class Scheme
+  {
+  public:
+    virtual ~Scheme() = default;
+
+    virtual void
+    add_options(const Options &options) = 0;
+
+    /// What fluid and bodies are made of: which models the scheme works with.
+    enum class Method
+    {
+      grid_and_elements,
+      particles
+    };
+
+    virtual Method
+    method() const
+    {
+      return Method::grid_and_elements;
+    }
+
+    /// Bring an empty state to t = 0; the report holds the columns of that state. The references
+    /// must outlive the scheme.
+    virtual Report
+    initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) = 0;
+
+    /// The step to try next [s]; lands on the clock's landing times.
+    virtual double
+    choose_dt(const State<dim> &state) const = 0;
+
+    /// Is told, in words, how far a step is; returns false if the step is to be abandoned.
+    using Follower = std::function<bool(const std::string &)>;
+
+    /// From now on tell `follower` of steps that take longer than a second, about every second.
+    /// Schemes whose steps nobody can look into tell nothing.
+    virtual void
+    follow(Follower)
+    {
+    }
+
+    /// Advance fluid and bodies (of the clock only Clock::longest_step) by at most `dt` [s]. Throws
+    /// SolveError if no step can be accepted; the state is then the one before the step.
+    virtual Report
+    step(State<dim> &state, double dt) = 0;
+  };
+} // namespace undine
+
+#endif

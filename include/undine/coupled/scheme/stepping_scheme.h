@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_scheme_stepping_scheme_h
+#define undine_coupled_scheme_stepping_scheme_h
+
+#include <undine/base/core/errors.h>
+#include <undine/coupled/adaptivity/step_error.h>
+#include <undine/coupled/budget/budget.h>
+#include <undine/coupled/scheme/scheme.h>
+#include <undine/coupled/step/physics.h>
+#include <undine/solid/time/time_integrator.h>
+
+#include <memory>
+#include <string>
+
+namespace undine
+{
+  /// What all schemes have in common: the length of steps.
+  ///
+  /// A step that fails is redone from the saved state with half its length, as long as that is not
+  /// below the shortest one, Time/Step halved `Maximum cuts` times. The next step has the length
+  /// that went well, and those after it double it up to the length asked for. The limit is one of
+  /// lengths, not of cuts of each step: short of a time that no step gets past, every accepted step
+  /// would allow yet shorter ones. Wrong input fails at once.
+  ///
+  /// With a tolerance Time/Step is the longest step, and StepError chooses: a step with too large
+  /// an error is redone like one that fails, but the shortest one is accepted. What it needs is
+  /// part of the state: a resumed run takes the steps that it would have taken.
+  template <int dim>
+  class SteppingScheme : public Scheme<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override;
+
+    Report
+    initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) override;
+
+    double
+    choose_dt(const State<dim> &state) const override;
+
+    Report
+    step(State<dim> &state, double asked) override;
+
+  protected:
+    /// Of the integrator that the scene chose.
+    bool
+    has_stages() const;
+
+    /// Fluid and bodies together.
+    virtual std::unique_ptr<Physics<dim>>
+    couple(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing) const = 0;
+
+  private:
+    void
+    judge_error(State<dim> &state, const State<dim> &saved, Report &report) const;
+    void
+    add_error(Report &report, const State<dim> &state) const;
+    double
+    shortest_step() const;
+    std::string
+    complaint(double asked, const Report &last, const SolveError &error) const;
+
+    std::unique_ptr<Physics<dim>>
+    make_physics(const Models<dim> &models, TimingTree &timing) const;
+
+    std::unique_ptr<TimeIntegrator> integrator;
+    double                          asked_step   = 0.01; // [s]
+    double                          tolerance    = 0;    // [1]
+    double                          displacement = 0;    // [m]
+    unsigned int                    maximum_cuts = 6;
+    bool                            keeps_budget = false;
+    std::unique_ptr<Budget<dim>>    budget;
+    std::unique_ptr<Physics<dim>>   physics;
+
+    std::unique_ptr<const StepError<dim>> step_error; // nullptr: constant steps
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_state_report_h
+#define undine_coupled_state_report_h
+
+#include <undine/base/core/column.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// How an accepted step went.
+  struct Report
+  {
+    double       dt                = 0; ///< the step that was accepted [s]
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0; ///< of all linear solves of the step
+    unsigned int cuts              = 0; ///< how often the asked step was cut and redone
+    unsigned int rejections        = 0; ///< those of the cuts that the error in time asked for
+    double       newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
+    std::string  note;                 ///< what the user may want to know; empty if nothing
+
+    /// Something unusual. Users are told once, as long as each step has one of the same subject.
+    struct Warning
+    {
+      std::string subject;
+      std::string text;
+    };
+    std::vector<Warning> warnings; ///< at most one a subject: that of the first stage that had one
+
+    /// Add a warning unless `text` is empty.
+    void
+    warn(const std::string &subject, const std::string &text);
+
+    /// Where steps are chosen by their error in time: that of all steps so far [1].
+    std::optional<double> error_in_time;
+
+    Columns columns; ///< energies, forces, fluxes, ... of the new state
+  };
+
+  /// The texts of those warnings of `now` of whose subjects there was none in `before`.
+  std::vector<std::string>
+  new_warnings(const std::vector<Report::Warning> &now, const std::vector<Report::Warning> &before);
+
+  /// Throws SolveError naming the first quantity that is no finite number.
+  void
+  assert_finite(const Columns &columns);
+} // namespace undine
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_state_sleep_state_h
+#define undine_coupled_state_sleep_state_h
+
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace undine
+{
+  /// Which bodies sleep (SleepingBodies), the same on all ranks. Empty where none may.
+  template <int dim>
+  struct SleepState
+  {
+    bool
+    in_use() const
+    {
+      return !asleep.empty();
+    }
+
+    bool
+    any_asleep() const
+    {
+      return std::find(asleep.begin(), asleep.end(), true) != asleep.end();
+    }
+
+    void
+    wake(const unsigned int body)
+    {
+      asleep[body] = false;
+      quiet[body]  = 0;
+    }
+
+    void
+    wake_all()
+    {
+      for (unsigned int body = 0; body < asleep.size(); ++body)
+        wake(body);
+    }
+
+    /// Wake those that are awake in `other`. False if all of them have been.
+    bool
+    wake_with(const SleepState &other)
+    {
+      bool any = false;
+      for (unsigned int body = 0; body < asleep.size(); ++body)
+        if (asleep[body] && !other.asleep[body])
+          {
+            wake(body);
+            any = true;
+          }
+      return any;
+    }
+
+    bool                settled = true; ///< false: some that sleep still have a velocity
+    std::vector<bool>   asleep;         ///< [body]
+    std::vector<double> quiet; ///< [body] for how long it has been slow without a break [s]
+
+    /// In the nodes of the bodies' surfaces what fluid and contact did to those that sleep when
+    /// they fell asleep [N]; empty where nothing acts on surfaces.
+    std::vector<dealii::Tensor<1, dim>> loads;
+  };
+} // namespace undine
+
+#endif

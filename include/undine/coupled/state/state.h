@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_state_state_h
+#define undine_coupled_state_state_h
+
+#include <undine/base/core/clock.h>
+#include <undine/coupled/state/sleep_state.h>
+#include <undine/coupled/state/step_history.h>
+#include <undine/fluid/grid/fluid_state.h>
+#include <undine/particles/model/particle_state.h>
+#include <undine/solid/assembly/contact.h>
+#include <undine/solid/mesh/solid_state.h>
+
+#include <deal.II/base/point.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// Everything that changes during a run, as plain data: a saved copy is a complete restart.
+  /// Only a Scheme writes to it. Parts that a scene does not have stay empty.
+  template <int dim>
+  struct State
+  {
+    Clock           clock;
+    SolidState      solid;
+    FluidState<dim> fluid;
+
+    particles::ParticleState<dim> particles;
+
+    /// What a stage of a step starts from (Stage).
+    struct StageStart
+    {
+      SolidState                            solid;
+      dealii::TrilinosWrappers::MPI::Vector increment; ///< of the bodies since t^n [m]
+    };
+
+    /// Only within a step. @{
+    StageStart                            next;       ///< of the stage that follows
+    FluidStageStart<dim>                  next_fluid; ///< the same for the fluid
+    dealii::TrilinosWrappers::MPI::Vector increment;  ///< of the bodies, t^n to this start [m]
+    ContactStart                          contact;    ///< of the bodies in this stage
+    /// @}
+
+    /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].
+    std::vector<dealii::Point<dim>> surface_positions;
+
+    /// What moved the nodes of bodies besides friction in the last stage (SurfaceFriction) [N].
+    std::vector<dealii::Tensor<1, dim>> other_forces;
+
+    StepHistory<dim> history;
+    SleepState<dim>  sleep;
+  };
+} // namespace undine
+
+#endif

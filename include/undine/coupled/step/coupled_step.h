@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_step_coupled_step_h
+#define undine_coupled_step_coupled_step_h
+
+#include <undine/coupled/budget/budget.h>
+#include <undine/coupled/state/state.h>
+#include <undine/coupled/step/coupled_equations.h>
+#include <undine/fluid/fluid_step.h>
+#include <undine/solid/solvers/tangent_solver.h>
+#include <undine/solid/step/solid_step.h>
+
+#include <memory>
+#include <string>
+
+namespace undine
+{
+  /// The part of one step in which bodies and fluid are solved together: everything that is set up
+  /// for it and given up after it.
+  template <int dim>
+  class CoupledStep
+  {
+  public:
+    using Vector = BlockSystem::Vector;
+
+    /// What it works with; all must outlive it.
+    struct Parts
+    {
+      const Models<dim>                      &models;
+      const typename SolidModel<dim>::Matrix &mass;
+      const SolidEnvironment<dim>            &environment;
+      const FluidGeometry<dim>               &geometry;
+      BlockSolver<dim>                       &solver;
+      TangentSolver<dim>                     &motion_solver; ///< for bodies alone
+      TimingTree                             &timing;
+    };
+
+    /// `state` holds u^n and, in the fluid, v*, which gets the velocities of inflows and walls.
+    /// `boundary_flux`: see make_surface_flux(). Collective. Throws InputError, SolveError.
+    CoupledStep(const Parts          &parts,
+                const FluidStep<dim> &fluid,
+                State<dim>           &state,
+                const std::string    &boundary_flux);
+
+    /// The state becomes that of t^{n+1}. Collective. Throws SolveError.
+    SolidReport<dim>
+    solve();
+
+    /// max |D v + B u| per face of a cell and speed [1].
+    double
+    divergence() const;
+
+    /// What solve() did, for the budget. Collective. @{
+    PressureBalance<dim>
+    pressure_balance() const;
+    SurfaceExchange<dim>
+    exchange() const;
+    SolidBalance<dim>
+    solid_balance(const SolidReport<dim> &report) const;
+    /// @}
+
+  private:
+    NewtonReport
+    solve_from(Vector velocity, Vector pressure);
+    void
+    end(SolidReport<dim> &report);
+    Vector
+    loads_besides_pressure();
+
+    const Parts                             parts;
+    const FluidStep<dim>                   &fluid;
+    State<dim>                             &state;
+    const NewtonOptions                    &newton;
+    const double                            end_time;
+    const SolidState                        old_solid;
+    SurfaceExchange<dim>                    surfaces; ///< only what is known beforehand
+    SolidEquations<dim>                     equations;
+    const PressureNumbers<dim>              numbers;
+    const std::unique_ptr<SurfaceFlux<dim>> surface;
+    PressureEquations<dim>                  pressures;
+    CoupledEquations<dim>                   problem;
+    BlockSystem::BlockVector                x;         ///< u^{n+1}, p
+    Velocity<dim>                           predicted; ///< v*
+    double                                  divergence_left = 0;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_step_fluid_side_h
+#define undine_coupled_step_fluid_side_h
+
+#include <undine/base/core/timing.h>
+#include <undine/coupled/budget/budget.h>
+#include <undine/coupled/immersed/fluid_geometry.h>
+#include <undine/coupled/immersed/surface_friction.h>
+#include <undine/coupled/model/models.h>
+#include <undine/coupled/state/report.h>
+#include <undine/coupled/state/state.h>
+#include <undine/fluid/fluid_step.h>
+#include <undine/fluid/pressure/projection.h>
+
+#include <memory>
+
+namespace undine
+{
+  /// What a step does to the fluid whatever is in it: all but the pressures.
+  template <int dim>
+  class FluidSide
+  {
+  public:
+    /// The references must outlive it. Collective.
+    FluidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing);
+
+    /// The fluid at the start; what stands in it is where `state` says. `dt` [s] is the length of
+    /// the first step. Collective. Throws SolveError.
+    void
+    initialize(State<dim> &state, Projection<dim> &projection, double dt, Report &report);
+
+    /// Cut the grid by what stands in the fluid, then transport, forces and implicit terms of every
+    /// effect that is on: v^n in `state` becomes v*. The bodies in `state` are those at the stage's
+    /// start. Collective. Throws SolveError.
+    std::unique_ptr<FluidStep<dim>>
+    predict(State<dim> &state, const Stage &stage);
+
+    /// The end of the stage that predict() began, after the velocity has been made divergence-free
+    /// up to `divergence` [1]. Collective.
+    void
+    finish(FluidStep<dim> &fluid, State<dim> &state, Report &report, double divergence);
+
+    /// What pressure, weight and friction do to the nodes of all surfaces after finish(), at `time`
+    /// [s] [N]; empty if nothing stands in the fluid. Collective.
+    std::vector<dealii::Tensor<1, dim>>
+    loads_on_surfaces(const State<dim> &state, double time) const;
+
+    /// Where surfaces cut the grid; nullptr if nothing stands in the fluid.
+    const FluidGeometry<dim> *
+    geometry() const
+    {
+      return cut.get();
+    }
+
+    const dealii::Tensor<1, dim> &
+    gravity() const
+    {
+      return environment.gravity;
+    }
+
+  private:
+    template <class Action>
+    void
+    run_phase(FluidStep<dim> &fluid, typename Budget<dim>::Phase phase, const Action &act);
+    void
+    count_memory(const FluidState<dim> &state);
+    typename FluidGeometry<dim>::Positions
+    expected_places(const State<dim> &state, const Stage &stage, double time) const;
+    void
+    place_surfaces(const State<dim> &state, const Stage &stage);
+    void
+    share_parts(FluidState<dim> &state) const;
+    typename CharacteristicTracer<dim>::Bodies
+    bodies() const;
+    typename CharacteristicTracer<dim>::Bodies
+    no_slip_bodies(const State<dim> &state, const Stage &stage);
+    void
+    add_columns(Report &report, const FluidState<dim> &state, double divergence, double time) const;
+
+    const Models<dim>                  &models;
+    const FluidModel<dim>              &model;
+    Budget<dim>                        &budget;
+    TimingTree                         &timing;
+    const SolidEnvironment<dim>         environment;
+    std::unique_ptr<FluidGeometry<dim>> cut;
+    SurfaceFriction<dim>                surface_friction;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_step_solid_side_h
+#define undine_coupled_step_solid_side_h
+
+#include <undine/base/core/stage.h>
+#include <undine/coupled/budget/budget.h>
+#include <undine/coupled/state/report.h>
+#include <undine/coupled/state/state.h>
+#include <undine/solid/step/solid_step.h>
+
+namespace undine
+{
+  /// What a stage does to the bodies whatever surrounds them: all but the loads on them. The
+  /// counterpart of FluidSide.
+  template <int dim>
+  class SolidSide
+  {
+  public:
+    using Vector = typename SolidModel<dim>::Vector;
+
+    /// The references must outlive it. Collective.
+    SolidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing);
+
+    /// The bodies at the time of the state's clock. `dt` [s] is the length of the first step.
+    /// Collective.
+    void
+    initialize(State<dim> &state, double dt) const;
+
+    /// The bodies of `state` become those from which the stage of the step from t^n starts, and
+    /// what its step needs of them for the stage that follows is put aside; the budget, if it is
+    /// on, learns of it. Nothing if the stage keeps no rates. Collective.
+    void
+    start(State<dim> &state, const Stage &stage) const;
+
+    /// Solve for the bodies alone under nodal `forces` [N] (empty: none), from start() to end().
+    /// Collective. Throws SolveError.
+    SolidReport<dim>
+    advance(State<dim> &state, const Stage &stage, const Vector &forces = {});
+
+    /// The bodies of `state` are those at the end of the stage, as `solid` says: add their rates,
+    /// and what contact did, to the start of the stage that follows.
+    void
+    end(State<dim> &state, const Stage &stage, const SolidReport<dim> &solid) const;
+
+    /// Add to the report how the stage went and, after the last one, the columns of the bodies.
+    /// Collective.
+    void
+    finish(const State<dim>       &state,
+           const Stage            &stage,
+           const SolidReport<dim> &solid,
+           Report                 &report) const;
+
+    /// Energies, momentum and so on at `time` [s], see solid_columns(); after a step, or at the
+    /// start of a run. Collective. @{
+    void
+    add_columns(Report                 &report,
+                const State<dim>       &state,
+                double                  time,
+                const SolidReport<dim> &solid) const;
+    void
+    add_columns(Report &report, const State<dim> &state, double time) const;
+    /// @}
+
+    const SolidEnvironment<dim> &
+    environment() const
+    {
+      return surroundings;
+    }
+
+    const typename SolidModel<dim>::Matrix &
+    mass() const
+    {
+      return solid_step.mass();
+    }
+
+  private:
+    void
+    start_contact(State<dim> &state, const Stage &stage) const;
+
+    const SolidModel<dim>      &model;
+    Budget<dim>                &budget;
+    TimingTree                 &timing;
+    const SolidEnvironment<dim> surroundings;
+    SolidStep<dim>              solid_step;
+  };
+} // namespace undine
+
+#endif

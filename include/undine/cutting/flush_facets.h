@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_cutting_flush_facets_h
+#define undine_cutting_flush_facets_h
+
+#include <undine/cutting/grid_planes.h>
+#include <undine/surface/surface.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// How near a facet must lie to a plane of the grid to count as lying in it, in units of the
+  /// narrower cell beside the plane.
+  constexpr double flush_reach = 1e-3;
+
+  /// Where to cut the grid, for nodes at `positions` [m]: facets that lie along a plane inside the
+  /// grid, on the fluid's side of it or in it, are moved to where the solid reaches just beyond the
+  /// plane. What is between them and the plane would be components as thin as nothing, each with a
+  /// pressure of its own, through which fluid goes around the corners of bodies; two sides of a
+  /// body, one on either side of a plane, would differ. Facets stay where two of them face each
+  /// other at the same plane: the fluid between them must keep its way.
+  template <int dim>
+  std::vector<dealii::Point<dim>>
+  beyond_planes(const GridPlanes<dim>                 &planes,
+                const Surface<dim>                    &surface,
+                const std::vector<dealii::Point<dim>> &positions);
+} // namespace undine
+
+#endif

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_advection_advection_h
+#define undine_fluid_advection_advection_h
+
+#include <undine/fluid/advection/characteristic_tracer.h>
+#include <undine/fluid/advection/uniform_regions.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace undine
+{
+  /// How a field is carried with the flow for one step: ds/dt + v.grad s = 0. The same code serves
+  /// scalars in cells and velocities on faces.
+  template <int dim>
+  class Advection
+  {
+  public:
+    virtual ~Advection() = default;
+
+    virtual void
+    add_options(const Options &options) = 0;
+
+    /// In a few words: "MacCormack, limited".
+    virtual std::string
+    summary() const = 0;
+
+    /// Fields at t + h from fields at t, on what bodies leave of the grid now. All of them live on
+    /// the same points and parts, with the same ghost layers so far, and have the same boundary
+    /// condition: every path is followed once. Collective.
+    virtual std::vector<Field<dim>>
+    advect(const CharacteristicTracer<dim> &tracer,
+           std::vector<Field<dim>>          fields,
+           const BoundaryCondition<dim>    &condition) const = 0;
+
+    /// The same of one field.
+    Field<dim>
+    advect(const CharacteristicTracer<dim> &tracer,
+           const Field<dim>                &field,
+           const BoundaryCondition<dim>    &condition) const
+    {
+      return std::move(advect(tracer, std::vector<Field<dim>>(1, field), condition).front());
+    }
+  };
+
+  /// `fields` with the ghost layers and boundary points that the flow asks for.
+  template <int dim>
+  std::vector<Field<dim>>
+  completed(const CharacteristicTracer<dim> &tracer,
+            std::vector<Field<dim>>          fields,
+            const BoundaryCondition<dim>    &condition);
+
+  /// The same of one field.
+  template <int dim>
+  Field<dim>
+  completed(const CharacteristicTracer<dim> &tracer,
+            Field<dim>                       field,
+            const BoundaryCondition<dim>    &condition);
+
+  /// What is seen from the feet of paths that come near a body.
+  template <int dim>
+  class NearBodies
+  {
+  public:
+    using Place = typename BodyVicinity<dim>::Place;
+
+    /// `source` is what completed() returned. The references must outlive it. Collective.
+    NearBodies(const CharacteristicTracer<dim> &tracer, const Field<dim> &source);
+
+    /// The value that the path from `foot` brings to the point `index` or a part of it, which is at
+    /// `place`; NaN if nothing could be seen there, of scalars only.
+    double
+    value_at(const GridIndex<dim> &index, const dealii::Point<dim> &place, const Place &foot) const;
+
+    /// Cells and components to which nothing was brought are filled, see fill_unknown(); divided
+    /// points take the mean of their parts. Collective.
+    void
+    finish(Field<dim> &carried, const BoundaryCondition<dim> &condition) const;
+
+  private:
+    const CharacteristicTracer<dim>           &tracer;
+    const Lattice<dim>                        &lattice;
+    unsigned int                               axis; ///< of a velocity; no_axis: scalar
+    std::unique_ptr<const VisibleSamples<dim>> samples;
+  };
+
+  /// The same field on what bodies leave of the grid now. Collective.
+  template <int dim>
+  Field<dim>
+  remapped(const CharacteristicTracer<dim> &tracer,
+           const Field<dim>                &field,
+           const BoundaryCondition<dim>    &condition);
+
+  /// Fields at t + h on what bodies leave of the grid now: `far(trace, index, k)` is that of field
+  /// k at the end of a path that keeps away from bodies; near them all methods are alike, see
+  /// NearBodies; places that are quiet in all fields keep what they have. `sources` are what
+  /// completed() returned with the same condition; `far` looks no further than `reach` points away.
+  /// Collective.
+  template <int dim, class Far>
+  std::vector<Field<dim>>
+  carry(const CharacteristicTracer<dim> &tracer,
+        const std::vector<Field<dim>>   &sources,
+        const BoundaryCondition<dim>    &condition,
+        const GridIndex<dim>            &reach,
+        Far                            &&far)
+  {
+    for (const auto &source : sources)
+      AssertThrow(source.shared_lattice() == sources.front().shared_lattice() &&
+                    source.topology() == sources.front().topology() &&
+                    source.stored() == sources.front().stored(),
+                  dealii::ExcMessage("fields that are carried together must be alike"));
+    const auto                  &lattice = sources.front().lattice();
+    std::vector<NearBodies<dim>> near;
+    std::vector<Field<dim>>      carried;
+    near.reserve(sources.size());
+    for (const auto &source : sources)
+      {
+        near.emplace_back(tracer, source);
+        carried.emplace_back(source.shared_lattice(), tracer.bodies().topology);
+      }
+    const auto *divided   = carried.front().divided();
+    const auto  carry_one = [&](const GridIndex<dim> &index) {
+      if (divided && divided->kind(index) != SubLattice<dim>::Kind::whole)
+        return;
+      const auto place = lattice.point(index);
+      const auto trace = tracer.trace(place, -tracer.dt());
+      for (std::size_t k = 0; k < sources.size(); ++k)
+        carried[k](index) =
+          trace.near_body ? near[k].value_at(index, place, trace.foot) : far(trace, index, k);
+    };
+    if (condition.neglected_variation() == 0)
+      for_each(lattice.owned(), carry_one);
+    else
+      {
+        const UniformRegions<dim> places(sources, reach, condition.neglected_variation(), divided);
+        places.for_each_run(true, [&](const GridIndex<dim> &first, const int n) {
+          for (std::size_t k = 0; k < sources.size(); ++k)
+            std::copy_n(sources[k].data(first), n, &carried[k](first));
+        });
+        places.for_each_run(false, [&](GridIndex<dim> index, const int n) {
+          for (int i = 0; i < n; ++i, ++index[0])
+            carry_one(index);
+        });
+      }
+    for_each_owned_part(divided, [&](const unsigned int part, const auto &of_part) {
+      const auto trace = tracer.trace(of_part.place, -tracer.dt());
+      for (std::size_t k = 0; k < sources.size(); ++k)
+        carried[k].parts()[part] = near[k].value_at(of_part.index, of_part.place, trace.foot);
+    });
+    for (std::size_t k = 0; k < sources.size(); ++k)
+      near[k].finish(carried[k], condition);
+    return carried;
+  }
+} // namespace undine
+
+#endif

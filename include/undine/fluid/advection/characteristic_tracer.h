@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_advection_characteristic_tracer_h
+#define undine_fluid_advection_characteristic_tracer_h
+
+#include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/boundary/no_slip_surfaces.h>
+#include <undine/fluid/model/fluid_model.h>
+#include <undine/fluid/visibility/visible_samples.h>
+
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace undine
+{
+  /// The velocity at one time, frozen, as that which carries fields during a step: knows where the
+  /// fluid that arrives at a place has come from.
+  template <int dim>
+  class CharacteristicTracer
+  {
+  public:
+    using Place = typename BodyVicinity<dim>::Place;
+
+    /// Where a particle is at the other end of its path.
+    struct Trace
+    {
+      Place foot;
+      bool  left_domain; ///< it met an opening or an inflow there before its time was up
+      bool  near_body;   ///< it came near one, see BodyVicinity
+    };
+
+    /// The bodies among which the fluid moves.
+    struct Bodies
+    {
+      /// Their surfaces at the time of the step; nullptr: none.
+      const Obstruction<dim> *obstruction = nullptr;
+      /// What they leave of the grid now, and of the fields that are carried; nullptr: everything.
+      std::shared_ptr<const FluidTopology<dim>> topology;
+      /// What the fluid sticks to, and how the nodes there move [m/s]; nullptr: nothing.
+      std::shared_ptr<const NoSlipSurfaces<dim>> walls           = nullptr;
+      std::vector<dealii::Tensor<1, dim>>        wall_velocities = {};
+    };
+
+    /// `velocity` at `time` [s], for steps of length dt [s]. It may belong to an earlier place of
+    /// the bodies. Collective. Throws SolveError if the velocity is not finite.
+    CharacteristicTracer(const FluidModel<dim> &model,
+                         const Velocity<dim>   &velocity,
+                         const double           time,
+                         const double           dt,
+                         const Bodies          &bodies = {});
+    CharacteristicTracer(const CharacteristicTracer &) = delete;
+    CharacteristicTracer &
+    operator=(const CharacteristicTracer &) = delete;
+
+    const FluidModel<dim> &
+    model() const;
+
+    /// [s]
+    double
+    time() const;
+
+    /// [s]
+    double
+    dt() const;
+
+    /// With ghost layers and boundary points.
+    const Velocity<dim> &
+    velocity() const;
+
+    const Bodies &
+    bodies() const;
+
+    const BodyVicinity<dim> &
+    vicinity() const;
+
+    /// Of fields like this one, which has what completed() gives it, between bodies; made once for
+    /// all that are alike. Collective.
+    const std::shared_ptr<VisibilityStencils<dim>> &
+    stencils(const Field<dim> &like) const;
+
+    /// Ghost layers that a field needs to be known at every foot.
+    const GridIndex<dim> &
+    width() const;
+
+    /// How far from a point of a lattice the points around the foot of its path can be: the two
+    /// between which the foot lies and `beyond` more on either side.
+    GridIndex<dim>
+    reach(const int beyond) const;
+
+    /// Follow the particle at `place` for a time (negative: back to where it came from), by the
+    /// midpoint rule: x' = x + dt v(x + dt v(x) / 2). The path ends at inflows and openings, and
+    /// just before surfaces of bodies; at walls it goes on along the wall; periodic sides are
+    /// passed.
+    Trace
+    trace(const dealii::Point<dim> &place, const double dt) const;
+
+  private:
+    /// [m/s] Near bodies from what can be seen, or the velocity of the nearest surface.
+    dealii::Tensor<1, dim>
+    velocity_at(const Place &place) const;
+
+    struct Walk
+    {
+      Place end;
+      bool  left_domain;
+    };
+
+    /// The end of a straight way from a place in the domain, kept in the domain.
+    Walk
+    walk(const Place &place, const dealii::Tensor<1, dim> &path) const;
+
+    /// The same where no bodies are, and if it left the domain.
+    std::pair<dealii::Point<dim>, bool>
+    kept_in_domain(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &path) const;
+
+    const FluidModel<dim>                                        &fluid_model;
+    Bodies                                                        among;
+    Velocity<dim>                                                 frozen_velocity;
+    double                                                        start_time;
+    double                                                        step;
+    GridIndex<dim>                                                ghost_width;
+    BodyVicinity<dim>                                             body_vicinity;
+    mutable std::vector<std::shared_ptr<VisibilityStencils<dim>>> stencils_made;
+    std::array<std::unique_ptr<VisibleSamples<dim>>, dim>         samples; ///< nullptr: no bodies
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_advection_uniform_regions_h
+#define undine_fluid_advection_uniform_regions_h
+
+#include <undine/fluid/grid/field.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace undine
+{
+  /// Where nothing happens to fields that are carried: within reach of a point all values of each
+  /// are the same but for a share of its range. What the flow brings there is what is there.
+  /// To be safe and fast, neighbours are compared: they differ by less than would add up to that
+  /// share on the longest way between two of these values.
+  template <int dim>
+  class UniformRegions
+  {
+  public:
+    /// `sources`: with the same points, parts and stored values, `reach` ghost layers at least;
+    /// `share` of a field's range that differences may have, from 0 to 1. Points next to which
+    /// bodies divide others, in the sources or `now`, are never quiet; nullptr: bodies leave
+    /// everything. Collective.
+    UniformRegions(const std::vector<Field<dim>> &sources,
+                   const GridIndex<dim>          &reach,
+                   const double                   share,
+                   const SubLattice<dim>         *now = nullptr);
+
+    /// Of an owned point.
+    bool
+    contains(const GridIndex<dim> &index) const
+    {
+      return is_quiet[owned.position(index)] != 0;
+    }
+
+    /// Call `action(index, n)` for every run along the first direction of owned points that are all
+    /// quiet, or none of them: the first one and how many.
+    template <class Action>
+    void
+    for_each_run(const bool quiet, Action &&action) const
+    {
+      auto      row_starts = owned;
+      const int points     = owned.upper[0] - owned.lower[0];
+      row_starts.upper[0]  = owned.lower[0] + (points > 0);
+      for_each(row_starts, [&](GridIndex<dim> index) {
+        const char *begin = is_quiet.data() + owned.position(index), *end = begin + points;
+        for (const char *run = begin; run != end;)
+          {
+            const char *stop = std::find(run, end, char(*run == 0));
+            index[0]         = owned.lower[0] + int(run - begin);
+            if ((*run != 0) == quiet)
+              action(index, int(stop - run));
+            run = stop;
+          }
+      });
+    }
+
+  private:
+    IndexBox<dim>     owned;
+    std::vector<char> is_quiet;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_boundary_boundary_condition_h
+#define undine_fluid_boundary_boundary_condition_h
+
+#include <undine/fluid/boundary/boundary_map.h>
+#include <undine/fluid/grid/fluid_state.h>
+
+namespace undine
+{
+  /// What a field that is carried and diffused does on the domain's boundary: it is held at a
+  /// value, or its normal derivative vanishes. Where the flow enters through an opening, the
+  /// entering fluid brings a value with it.
+  template <int dim>
+  class BoundaryCondition
+  {
+  public:
+    virtual ~BoundaryCondition() = default;
+
+    /// Whether the field is held on `boundary`.
+    virtual bool
+    holds(const Boundary<dim> &boundary) const = 0;
+
+    /// The value at a place on a held boundary that is normal to `normal_axis`.
+    virtual double
+    held_value(const Boundary<dim>      &boundary,
+               const unsigned int        normal_axis,
+               const dealii::Point<dim> &place,
+               const double              time) const = 0;
+
+    /// The value that comes in through an opening.
+    virtual double
+    entering_value(const dealii::Point<dim> &place, const double time) const = 0;
+
+    /// True if the flow never carries a value beyond those around it, so that an advection must not
+    /// create new extrema. That costs accuracy at smooth ones.
+    virtual bool
+    obeys_maximum_principle() const = 0;
+
+    /// Differences between neighbours that need not be carried, as a share of the field's range
+    /// (UniformRegions); 0: all are.
+    virtual double
+    neglected_variation() const
+    {
+      return 0;
+    }
+  };
+
+  /// The velocity along one axis, on sides parallel to that axis.
+  template <int dim>
+  class VelocityCondition : public BoundaryCondition<dim>
+  {
+  public:
+    explicit VelocityCondition(const unsigned int axis);
+
+    bool
+    holds(const Boundary<dim> &boundary) const override;
+
+    double
+    held_value(const Boundary<dim>      &boundary,
+               const unsigned int        normal_axis,
+               const dealii::Point<dim> &place,
+               const double              time) const override;
+
+    /// Zero: fluid enters at right angles.
+    double
+    entering_value(const dealii::Point<dim> &place, const double time) const override;
+
+    /// False: pressure changes the components of the velocity.
+    bool
+    obeys_maximum_principle() const override;
+
+  private:
+    unsigned int axis;
+  };
+
+  /// Call `action(boundary, fraction, cell)` for the boundary faces around the boundary point
+  /// `index` of a lattice on `side`, with the cell that touches the face; the fractions of the
+  /// point's share add up to one. A tangential face has half of its share on either of two boundary
+  /// faces.
+  template <int dim, class Action>
+  void
+  for_each_boundary_around(const BoundaryMap<dim> &boundaries,
+                           const Lattice<dim>     &lattice,
+                           const Side              side,
+                           const GridIndex<dim>   &index,
+                           Action                &&action)
+  {
+    const auto     cells = boundaries.grid().cells_along();
+    GridIndex<dim> cell  = index;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!boundaries.grid().periodic(d))
+        cell[d] = std::clamp(cell[d], 0, cells[d] - 1);
+    const unsigned int axis = lattice.normal_axis();
+    if (axis == Lattice<dim>::no_axis || boundaries.grid().at_boundary(axis, index))
+      {
+        action(boundaries.at(side, cell), 1., cell);
+        return;
+      }
+    const auto   before = moved<dim>(cell, axis, -1);
+    const double above  = boundaries.grid().cell_width(axis, index[axis]) / 2;
+    const double below  = boundaries.grid().cell_width(axis, index[axis] - 1) / 2;
+    action(boundaries.at(side, before), below / (below + above), before);
+    action(boundaries.at(side, cell), above / (below + above), cell);
+  }
+
+  /// Give the stored boundary points of `field` their values at `time`: held, entering with the
+  /// flow `velocity` (whose faces on the boundary must be stored there), or equal to the nearest
+  /// point inside. The ghost layers of `field` must be up to date.
+  template <int dim>
+  void
+  fill_boundary_points(Field<dim>                   &field,
+                       const BoundaryMap<dim>       &boundaries,
+                       const BoundaryCondition<dim> &condition,
+                       const Velocity<dim>          &velocity,
+                       const double                  time);
+
+  /// Set the faces on walls and inflows to their normal velocity at `time`.
+  template <int dim>
+  void
+  set_boundary_velocity(Velocity<dim>          &velocity,
+                        const BoundaryMap<dim> &boundaries,
+                        const double            time);
+} // namespace undine
+
+#endif

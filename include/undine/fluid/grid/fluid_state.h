@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_grid_fluid_state_h
+#define undine_fluid_grid_fluid_state_h
+
+#include <undine/fluid/grid/field.h>
+
+#include <array>
+#include <map>
+#include <string>
+
+namespace undine
+{
+  /// The normal velocities on the faces, [m/s]; component `axis` on the faces normal to it.
+  template <int dim>
+  struct Velocity
+  {
+    std::array<Field<dim>, dim> components;
+
+    Field<dim> &
+    operator[](const unsigned int axis)
+    {
+      return components[axis];
+    }
+
+    const Field<dim> &
+    operator[](const unsigned int axis) const
+    {
+      return components[axis];
+    }
+
+    /// What bodies leave of the grid; nullptr: everything.
+    const FluidTopology<dim> *
+    topology() const
+    {
+      return components[0].topology().get();
+    }
+  };
+
+  /// Of the values on this rank [bytes].
+  template <int dim>
+  std::size_t
+  memory_consumption(const Velocity<dim> &velocity)
+  {
+    std::size_t sum = 0;
+    for (const auto &component : velocity.components)
+      sum += component.memory_consumption();
+    return sum;
+  }
+
+  /// The fluid at one time, on the staggered grid: normal velocities on cell faces, the rest in
+  /// cell centres. Fields carry ghost layers; owned values are the truth.
+  template <int dim>
+  struct FluidState
+  {
+    Velocity<dim>                     velocity;     ///< [m/s]
+    Velocity<dim>                     acceleration; ///< Dv/Dt of the last stage (FluidStep) [m/s^2]
+    Velocity<dim>                     change;       ///< dv/dt of the last stage [m/s^2]
+    Field<dim>                        pressure;     ///< reduced pressure p - rho g.x [Pa]
+    std::map<std::string, Field<dim>> scalars;      ///< by name, e.g. "smoke", "temperature"
+    std::map<std::string, Field<dim>> scalar_rates; ///< Ds/Dt of the last stage, of those that have
+  };
+
+  /// What the stage that follows starts from (Stage); only within a step.
+  template <int dim>
+  struct FluidStageStart
+  {
+    Velocity<dim>                     velocity; ///< [m/s]
+    std::map<std::string, Field<dim>> scalars;  ///< those that change besides by the flow
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_grid_interpolation_h
+#define undine_fluid_grid_interpolation_h
+
+#include <undine/fluid/grid/fluid_state.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+namespace undine
+{
+  /// A value and the bounds of the samples around its place.
+  struct BoundedValue
+  {
+    double value;
+    double smallest;
+    double largest;
+  };
+
+  /// Multilinear interpolation at a place whose surrounding points are stored; exact for
+  /// multilinear functions on graded lattices too. Places outside the domain count as the nearest
+  /// inside.
+  template <int dim>
+  double
+  interpolate(const Field<dim> &field, const dealii::Point<dim> &place);
+
+  /// The same of all components of a velocity.
+  template <int dim>
+  dealii::Tensor<1, dim>
+  interpolate(const Velocity<dim> &velocity, const dealii::Point<dim> &place);
+
+  /// That of one field, with the smallest and the largest of the 2^dim samples.
+  template <int dim>
+  BoundedValue
+  interpolate_with_bounds(const Field<dim> &field, const dealii::Point<dim> &place);
+
+  /// Interpolation by the cubic polynomials through four points in each direction; `limited`: to
+  /// the bounds of the 2^dim samples around the place.
+  template <int dim>
+  double
+  interpolate_cubic(const Field<dim> &field, const dealii::Point<dim> &place, const bool limited);
+} // namespace undine
+
+#endif

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_pressure_closed_regions_h
+#define undine_fluid_pressure_closed_regions_h
+
+#include <undine/base/core/errors.h>
+#include <undine/fluid/grid/pressure_numbers.h>
+#include <undine/fluid/model/fluid_model.h>
+#include <undine/fluid/pressure/swept_volume_flux.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// More fluid flows into a region without outlet than out of it.
+  class NoOutletError : public InputError
+  {
+  public:
+    using InputError::InputError;
+  };
+
+
+  /// The regions of the fluid on whose boundary the pressure is given nowhere and nothing gives
+  /// way: there it is known up to a constant, and what flows in must flow out.
+  template <int dim>
+  class ClosedRegions
+  {
+  public:
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    using Number = typename PressureNumbers<dim>::Number;
+
+    /// `yielding`: owned pressures at surfaces of bodies that move as pressure makes them. The
+    /// references must outlive it. Collective.
+    ClosedRegions(const FluidModel<dim>      &model,
+                  const PressureNumbers<dim> &numbers,
+                  const std::vector<Number>  &yielding = {});
+
+    /// One pressure of each closed region, if this rank owns it.
+    const std::vector<Number> &
+    pinned() const
+    {
+      return pins;
+    }
+
+    /// The fluxes pushed by bodies, changed within their uncertainties so that the volume of each
+    /// closed region is kept; where surfaces yield, they move as far as that takes. Throws
+    /// InputError if more enters or leaves a region: through held faces of `velocity`, or pushed by
+    /// bodies. Collective.
+    std::vector<double>
+    balanced_fluxes(const Velocity<dim>   &velocity,
+                    const SweptVolumeFlux &pushed,
+                    const double           time) const;
+
+    /// Shift the pressures of each closed region so that its pinned one is zero. Corrections of
+    /// balanced residuals leave that so: pinning then changes nothing. Collective.
+    void
+    fix_pressure_level(Vector &pressure) const;
+
+    /// Make the entries of each closed region sum to zero, by changes in proportion to volume.
+    void
+    balance(Vector &right_side) const;
+
+    /// Make the mean of the pressure over each closed region zero.
+    void
+    remove_means(Field<dim> &pressure) const;
+
+    /// How many there are.
+    std::size_t
+    size() const
+    {
+      return region_volumes.size();
+    }
+
+    /// Of each of them [m^dim].
+    const std::vector<double> &
+    volumes_of_regions() const
+    {
+      return region_volumes;
+    }
+
+    /// The middle of the largest cell or component of each of them. Collective.
+    std::vector<dealii::Point<dim>>
+    places_within() const;
+
+    /// What leaves each of them through walls and inflows at `time` [m^dim/s]. Collective.
+    std::vector<double>
+    held_outflow(const double time) const;
+
+    /// Sums over each of them of values in FluidTopology::cells. Collective.
+    std::vector<double>
+    sums_on_components(const std::vector<double> &values) const;
+
+    /// The closed region of each of FluidTopology::cells; negative: none.
+    std::vector<int>
+    of_components() const;
+
+  private:
+    Field<dim>
+    held_fluxes(const double time) const;
+
+    static constexpr int open_region = -1;
+
+    /// The closed region of each pressure of this rank.
+    Field<dim>
+    regions_of_pressures() const;
+
+    /// Sum over the closed regions of what each pressure of this rank contributes, in the order of
+    /// PressureNumbers.
+    template <class Contribution>
+    std::vector<double>
+    sums(const Contribution &contribution) const;
+
+    /// The same of a function of the field's values.
+    template <class Function>
+    std::vector<double>
+    sums_of(const Field<dim> &field, const Function &function) const;
+
+    /// What flows out of a region through the surface of each body, and through boundaries, and
+    /// where it lies. Collective.
+    std::string
+    describe(const int              region,
+             const SweptVolumeFlux &pushed,
+             const double           through_boundaries) const;
+
+    const FluidModel<dim>      &model;
+    const PressureNumbers<dim> &numbers;
+    std::vector<int>            regions; ///< closed one of each pressure
+    std::vector<double>         volumes; ///< of each pressure [m^dim]
+    std::vector<double>         region_volumes;
+    std::vector<Number>         pins;
+  };
+} // namespace undine
+
+#endif

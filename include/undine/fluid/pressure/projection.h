@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_pressure_projection_h
+#define undine_fluid_pressure_projection_h
+
+#include <undine/base/parallel/algebraic_multigrid.h>
+#include <undine/fluid/grid/pressure_numbers.h>
+#include <undine/fluid/model/fluid_model.h>
+#include <undine/fluid/pressure/backflow_stabilisation.h>
+#include <undine/fluid/pressure/closed_regions.h>
+#include <undine/fluid/pressure/pressure_balance.h>
+#include <undine/fluid/pressure/pressure_gradient.h>
+#include <undine/fluid/pressure/swept_volume_flux.h>
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <memory>
+#include <vector>
+
+namespace undine
+{
+  /// Makes a velocity divergence-free:
+  ///
+  ///     v^{n+1} = v* + h (rho V)^-1 D^T p,    D v^{n+1} = 0,    i.e.  h L p = -D v*
+  ///
+  /// with L = D (rho V)^-1 D^T (see pressure_matrix()). p acts as one impulse h p; the unknown is
+  /// h p, so that matrix and multigrid hierarchy serve all step sizes. Conjugate gradients with
+  /// smoothed-aggregation multigrid (Trilinos ML), started from the last pressure; repeated on the
+  /// remaining divergence until that is below the tolerance in every single cell.
+  template <int dim>
+  class Projection
+  {
+  public:
+    struct Report
+    {
+      unsigned int iterations = 0;
+      double       divergence = 0; ///< max |div v| dx / max |v| afterwards [1]
+
+      /// Of a step: v* with the velocity on walls and inflows, and the openings with the pressures
+      /// that have acted.
+      Velocity<dim>              before;
+      std::vector<OpenFace<dim>> openings;
+
+      /// Of that step, which led to `state`. Collective.
+      PressureBalance<dim>
+      balance(const FluidModel<dim> &model, const FluidState<dim> &state) const;
+    };
+
+    /// The model must outlive the projection. Nothing is assembled before the first use.
+    explicit Projection(const FluidModel<dim> &model);
+
+    /// v* in `state` becomes v^{n+1} at `time` = t^{n+1}, its pressure p. Sets the velocity on
+    /// walls and inflows first. Throws InputError if a region without opening has a net inflow,
+    /// SolveError if the solver does not converge. Collective.
+    ///
+    /// `carrying` = v^n is a first guess of how fast fluid enters through outflows; v* is none:
+    /// friction adds h grad p^n / rho to it, which may point inwards in a steady outflow. `pushed`:
+    /// by surfaces of bodies.
+    Report
+    project(FluidState<dim>       &state,
+            const Velocity<dim>   &carrying,
+            const double           time,
+            const double           dt,
+            const SweptVolumeFlux &pushed = {});
+
+    /// The same with v* in the place of v^n.
+    Report
+    project(FluidState<dim> &state, const double time, const double dt);
+
+    /// The divergence-free velocity nearest to the one given, for a start at `time`; the state's
+    /// pressure becomes zero.
+    Report
+    make_divergence_free(FluidState<dim>       &state,
+                         const double           time,
+                         const SweptVolumeFlux &pushed = {});
+
+  private:
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    /// Matrix and multigrid hierarchy, unless they are there, for what bodies leave of the grid.
+    void
+    prepare(const std::shared_ptr<const FluidTopology<dim>> &topology);
+
+    /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm, L held back where fluid
+    /// enters.
+    unsigned int
+    solve(Vector               &impulse,
+          const Vector         &right_side,
+          const BackflowMatrix &held_back,
+          const double          tolerance) const;
+
+    /// Add impulses h p to the velocity until its divergence vanishes, beginning with those in
+    /// `impulse`, which becomes the sum of all [Pa s]. The openings hold impulses in the place of
+    /// pressures; they are used up.
+    Report
+    remove_divergence(Velocity<dim>              &velocity,
+                      Field<dim>                 &impulse,
+                      std::vector<OpenFace<dim>> &openings,
+                      const std::vector<double>  &body_fluxes);
+
+    /// The same at the end of a step dt, with openings that hold pressures. Fluid enters outflows
+    /// against its dynamic pressure, see stabilise_backflow().
+    Report
+    remove_divergence_with_openings(Velocity<dim>             &velocity,
+                                    Field<dim>                &impulse,
+                                    std::vector<OpenFace<dim>> openings,
+                                    const double               dt,
+                                    const std::vector<double> &body_fluxes);
+
+    const FluidModel<dim>                                  &model;
+    std::unique_ptr<const PressureNumbers<dim>>             numbers;
+    std::unique_ptr<const ClosedRegions<dim>>               closed_regions;
+    std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix> matrix; ///< none without fluid
+    std::unique_ptr<AlgebraicMultigrid>                     multigrid;
+    double                                                  smallest_area = 0; ///< [m^(dim-1)]
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_pressure_swept_volume_flux_h
+#define undine_fluid_pressure_swept_volume_flux_h
+
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// What surfaces of bodies do to the volume of the fluid. Components are those of
+  /// FluidTopology::cells.
+  struct SweptVolumeFlux
+  {
+    /// A part of the flux out of a component.
+    struct Part
+    {
+      int          component;
+      unsigned int body;
+      double       flux; ///< [m^dim/s]
+    };
+
+    std::vector<double>      fluxes; ///< (B u)_c out of each component [m^dim/s]; empty: none
+    std::vector<double>      uncertainties; ///< of these, by rounding [m^dim/s]
+    std::vector<Part>        parts;         ///< of which they are the sums
+    std::vector<std::string> bodies;        ///< what messages call them
+
+    /// Of the surfaces around each component those that will yield to pressure [m^(dim-1)]; empty:
+    /// none will.
+    std::vector<double> yielding_areas;
+
+    std::string scene; ///< name of the file
+  };
+} // namespace undine
+
+#endif

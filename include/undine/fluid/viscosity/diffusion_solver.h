@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_viscosity_diffusion_solver_h
+#define undine_fluid_viscosity_diffusion_solver_h
+
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <memory>
+
+namespace undine
+{
+  /// Conjugate gradients for the symmetric positive definite matrices of implicit diffusion.
+  class DiffusionSolver
+  {
+  public:
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    /// To be filled; then call set_up().
+    dealii::TrilinosWrappers::SparseMatrix matrix;
+
+    /// `reach`: the largest h nu / dx^2, the same on all ranks. Relaxation, or multigrid where a
+    /// step reaches over many cells.
+    void
+    set_up(double reach);
+
+    /// Returns the number of iterations. Throws SolveError. Collective.
+    unsigned int
+    solve(Vector &solution, const Vector &load) const;
+
+    /// Of matrix and hierarchy on this rank [bytes].
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionBase> preconditioner;
+  };
+} // namespace undine
+
+#endif

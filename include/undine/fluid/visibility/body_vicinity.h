@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_visibility_body_vicinity_h
+#define undine_fluid_visibility_body_vicinity_h
+
+#include <undine/fluid/grid/cell_counts.h>
+#include <undine/fluid/grid/field.h>
+#include <undine/fluid/grid/mac_grid.h>
+#include <undine/fluid/visibility/facets_of_cells.h>
+#include <undine/fluid/visibility/obstruction.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace undine
+{
+  /// Which cells have to do with bodies, now or at the time of the last velocity: a cheap answer
+  /// for the many places that have not.
+  template <int dim>
+  class BodyVicinity
+  {
+  public:
+    /// So many cells around a place take part in interpolation there.
+    static constexpr int margin = 3;
+
+    /// A place and the cell that it is in, or that cell's image beyond a periodic side.
+    struct Place
+    {
+      dealii::Point<dim> point;
+      GridIndex<dim>     cell;
+    };
+
+    /// No bodies.
+    BodyVicinity() = default;
+
+    /// `before` and `now`: what bodies leave of the grid, nullptr: everything; their surfaces,
+    /// which must outlive this, nullptr: none. Answers for cells of this rank and `width` layers
+    /// around them. Collective.
+    BodyVicinity(const MacGrid<dim>                              &grid,
+                 const std::shared_ptr<const FluidTopology<dim>> &before,
+                 const std::shared_ptr<const FluidTopology<dim>> &now,
+                 const Obstruction<dim>                          *obstruction,
+                 const GridIndex<dim>                            &width);
+
+    /// In no cell if there are no bodies.
+    Place
+    place(const dealii::Point<dim> &point) const;
+
+    /// True unless all cells on the straight way and `margin` cells around them are fluid, before,
+    /// now and in between.
+    bool
+    is_near(const Place &from, const Place &to) const;
+
+    /// True unless the cell at a place and those around it are: then multilinear interpolation
+    /// there sees all its samples. (All around: a face between a whole cell and a body that ends in
+    /// its plane has no sample, wherever in the cell the place is.)
+    bool
+    is_next_to_body(const Place &place) const;
+
+    /// True if all cells of the box with two corners in these cells are fluid all over: nothing can
+    /// hide one place in it from another.
+    bool
+    is_clear(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
+
+    /// The facets in the cells that bodies touch.
+    const FacetsOfCells<dim> &
+    facets_of_cells() const
+    {
+      return facets;
+    }
+
+    /// Does a surface hide one place from the other?
+    bool
+    is_hidden(const Place &from, const Place &to) const;
+
+    /// The share of the way at which a surface is met, see Obstruction.
+    double
+    first_hit(const Place &from, const Place &to) const;
+
+  private:
+    void
+    mark_freshly_cleared_cells();
+
+    void
+    measure_layers();
+
+    /// The cell at a place; beyond a periodic side the image there, which this rank may know though
+    /// it does not know the cell.
+    GridIndex<dim>
+    cell_or_image_at(const dealii::Point<dim> &place) const;
+
+    const MacGrid<dim>          *grid     = nullptr; ///< nullptr: no bodies
+    const Obstruction<dim>      *surfaces = nullptr;
+    std::array<const Row *, dim> planes{};
+    IndexBox<dim>                box;
+    std::vector<std::uint8_t> layers;  ///< 0: a body is in the cell, 1: beside that, ... margin + 1
+    CellCounts<dim>           touched; ///< those with a body
+    FacetsOfCells<dim>        facets;
+  };
+} // namespace undine
+
+#endif

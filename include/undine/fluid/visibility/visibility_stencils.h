@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_visibility_visibility_stencils_h
+#define undine_fluid_visibility_visibility_stencils_h
+
+#include <undine/fluid/visibility/facets_of_cells.h>
+#include <undine/fluid/visibility/sampled_points.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace undine
+{
+  /// What can be seen of the corners of a cube between points of a lattice, from eyes in it, where
+  /// surfaces are about. Which samples lie on which side of each facet is found once for all eyes;
+  /// an eye then looks at the facets between it and what is on their other side, and at none where
+  /// a surface parts the cube like a wall.
+  template <int dim>
+  class VisibilityStencils
+  {
+  public:
+    static constexpr unsigned int n_corners = 1 << dim;
+
+    using Values = typename SampledPoints<dim>::Values;
+
+    /// Of the cubes between stored points of fields like this one, see SampledPoints. Keeps
+    /// references to the surfaces and the vicinity. Collective.
+    VisibilityStencils(const Field<dim>        &like,
+                       const GridIndex<dim>    &width,
+                       const Obstruction<dim>  &obstruction,
+                       const BodyVicinity<dim> &vicinity);
+
+    /// What is looked at.
+    const SampledPoints<dim> &
+    points() const
+    {
+      return sampled;
+    }
+
+    /// The corners that are seen: of each the mean, by measure, of its samples that are.
+    struct VisibilityStencil
+    {
+      std::array<double, n_corners> values;  ///< zero of the others
+      unsigned int                  corners; ///< bit by bit
+    };
+
+    /// Is `eye` in a cube, that above point `lower`, without facets and with corners that are
+    /// whole? Remembers the cube.
+    bool
+    is_clear(const GridIndex<dim> &lower, const dealii::Point<dim> &query);
+
+    /// What `eye` sees of the `values` at these `corners` of a cube that is not clear; of its own
+    /// point, if it has one, only the nearest sample. Nothing if the eye is not in the cells of
+    /// the cube, or so close to a surface that it takes a closer look.
+    std::optional<VisibilityStencil>
+    stencil(const Values             &values,
+            const GridIndex<dim>     &lower,
+            const dealii::Point<dim> &query,
+            const unsigned int        corners,
+            const GridIndex<dim>     *own);
+
+  private:
+    using Mask = std::uint64_t; ///< a bit for each sample of a cube
+
+    static constexpr unsigned int n_bits = 64;
+
+    struct Sample
+    {
+      dealii::Point<dim> place;
+      std::size_t        number; ///< in Values
+      double             measure;
+    };
+
+    using Slab  = typename Obstruction<dim>::Slab;
+    using Facet = typename FacetsOfCells<dim>::Facet;
+
+    /// Facets nearly in one plane, or a wall, and what of the cube's samples is on either side of
+    /// the slab around them.
+    struct Occluder
+    {
+      Slab        slab;
+      std::size_t facets, facets_end;
+      Mask        above, below;
+
+      dealii::Point<dim> lower, upper; ///< corners of a box around the facets
+    };
+
+    struct Cube
+    {
+      dealii::Point<dim>                  lower, upper; ///< of its cells
+      std::size_t                         samples;      ///< where they begin
+      std::array<Mask, n_corners>         of_corner{};  ///< which of them
+      std::array<std::uint8_t, n_corners> first{};      ///< of a corner's, which follow each other
+      std::size_t                         occluders, occluders_end;
+      bool                                is_wall  = false;
+      bool                                is_clear = false; ///< no facets, all corners whole
+    };
+
+    /// The number of the cube above a point, found or made; 0: not to be used.
+    unsigned int
+    number_of(const GridIndex<dim> &lower);
+
+    unsigned int
+    make(const GridIndex<dim> &lower);
+
+    /// Has it no facets in these cells, and are all its corners whole?
+    bool
+    has_nothing(const GridIndex<dim> &lower, const IndexBox<dim> &cells) const;
+
+    /// Samples and occluders; false if it is not to be used.
+    bool
+    add_to(Cube &cube, const GridIndex<dim> &lower, const IndexBox<dim> &cells);
+
+    /// Also says if all of them are in the cube's cells, and not too many.
+    bool
+    add_samples(Cube &cube, const GridIndex<dim> &lower);
+
+    /// As a wall, if it is one that leaves no sample inside.
+    void
+    add_wall(Cube &cube, const Slab &slab);
+
+    void
+    add_screens(Cube &cube, const IndexBox<dim> &cells);
+
+    /// Tell the occluder which samples of the cube are on which side of it.
+    void
+    part(const Cube &cube, Occluder &occluder) const;
+
+    /// Those of the samples `wanted` that an eye sees; nothing if it takes a closer look.
+    std::optional<Mask>
+    visible(const Cube &cube, const dealii::Point<dim> &query, Mask wanted) const;
+
+    /// Is one of an occluder's facets between two places, not both on the same side of it?
+    bool
+    hides(const Occluder           &occluder,
+          const dealii::Point<dim> &query,
+          const dealii::Point<dim> &place) const;
+
+    /// Call action(sample) for those of a corner that are among `seen`.
+    template <class Action>
+    void
+    for_each_sample(const Cube        &cube,
+                    const unsigned int corner,
+                    const Mask         seen,
+                    const Action      &action) const
+    {
+      Mask rest = (seen & cube.of_corner[corner]) >> cube.first[corner];
+      for (auto k = cube.samples + cube.first[corner]; rest != 0; ++k, rest >>= 1)
+        if (rest & 1)
+          action(samples[k]);
+    }
+
+    /// Over what is seen of a corner. @{
+    double
+    mean(const Values &values, const Cube &cube, const unsigned int corner, const Mask seen) const;
+
+    double
+    nearest(const Values             &values,
+            const Cube               &cube,
+            const unsigned int        corner,
+            const Mask                seen,
+            const dealii::Point<dim> &query) const;
+    /// @}
+
+    static constexpr unsigned int unknown = -1;
+
+    SampledPoints<dim>         sampled;
+    const Obstruction<dim>    &obstruction;
+    const FacetsOfCells<dim>  &facets;
+    IndexBox<dim>              box;
+    std::vector<unsigned int>  cube_above; ///< each point, in `cubes`, or unknown
+    std::vector<Cube>          cubes;      ///< the first is none
+    std::vector<Sample>        samples;
+    std::vector<Occluder>      occluders;
+    std::vector<const Facet *> facets_of_screens;
+  };
+} // namespace undine
+
+#endif

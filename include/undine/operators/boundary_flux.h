@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_operators_boundary_flux_h
+#define undine_operators_boundary_flux_h
+
+#include <undine/cutting/cut_cells.h>
+#include <undine/fluid/pressure/swept_volume_flux.h>
+#include <undine/operators/cut_topology.h>
+#include <undine/surface/surface.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// The operator B between the surfaces of bodies and the components of cut cells:
+  ///
+  ///     (B u)_c = int_{Gamma_c} u.n dGamma   [m^dim/s],    n out of the fluid into the solid,
+  ///
+  /// the flux that the surface's velocity carries out of component c, for u linear on every facet,
+  /// exactly; and its transpose J = B^T, the forces of the components' pressures in the nodes
+  /// (Chentanez, Goktekin, Feldman & O'Brien, equations 1-4). Work is balanced to rounding: both
+  /// use the same entries.
+  ///
+  /// Fragments that no fluid touches (CutCells::no_component) take no part.
+  template <int dim>
+  class BoundaryFlux
+  {
+  public:
+    /// Row of B: a component of an owned cell, number in CutCells::components. Columns: all axes of
+    /// a node.
+    struct Entry
+    {
+      int                    component;
+      unsigned int           node;
+      dealii::Tensor<1, dim> value; ///< int_{Gamma_c} N_node n dGamma [m^(dim-1)]
+    };
+
+    BoundaryFlux(const CutCells<dim> &cut, const Surface<dim> &surface);
+
+    /// The mean of B over a motion in which all nodes go straight on from `before`, where the
+    /// surface was cut, to `after`, each fragment with its facet: with w = (after - before) / h,
+    /// h B w is the volume that the surface sweeps, exactly.
+    BoundaryFlux(const CutCells<dim>                   &cut,
+                 const Surface<dim>                    &surface,
+                 const std::vector<dealii::Point<dim>> &before,
+                 const std::vector<dealii::Point<dim>> &after);
+
+    /// One for each pair of component and node, sorted by component, then node.
+    const std::vector<Entry> &
+    entries() const
+    {
+      return all_entries;
+    }
+
+    /// B u of the components of owned cells; zero for the others [CutCells::components].
+    std::vector<double>
+    flux(const std::vector<dealii::Tensor<1, dim>> &velocities) const;
+
+    /// This rank's part of B^T p in all nodes, given a number for each component. [N] for pressures
+    /// [Pa].
+    std::vector<dealii::Tensor<1, dim>>
+    local_forces(const std::vector<double> &pressures) const;
+
+  private:
+    /// The entries of all fragments that fluid touches; `area_vector(fragment)`: the integral of n.
+    template <class AreaVector>
+    void
+    add_entries(const CutCells<dim> &cut,
+                const Surface<dim>  &surface,
+                const AreaVector    &area_vector);
+
+    std::size_t        n_components;
+    std::size_t        n_nodes;
+    std::vector<Entry> all_entries;
+  };
+
+
+  /// The volume that the surface, cut where its nodes are at `place`, sweeps out of each component
+  /// while they go straight on along `way` from where they were at `before`, each fragment with its
+  /// facet, exactly [m^dim], [CutCells::components].
+  template <int dim>
+  std::vector<double>
+  swept_volumes(const CutCells<dim>                       &cut,
+                const Surface<dim>                        &surface,
+                const std::vector<dealii::Point<dim>>     &place,
+                const std::vector<dealii::Point<dim>>     &before,
+                const std::vector<dealii::Tensor<1, dim>> &increment);
+
+  /// What limits the accuracy of velocities in the nodes of a surface.
+  struct StepAccuracy
+  {
+    double dt;                 ///< of the step from whose ends they have been computed [s]
+    double largest_coordinate; ///< [m]
+  };
+
+  /// B u on the components of `parts`, with the names of the bodies as in the surface. Uncertain
+  /// is 1e-8 of area times speed, and what the rounding of positions makes of either.
+  template <int dim>
+  SweptVolumeFlux
+  swept_volume_flux(const BoundaryFlux<dim>                   &boundary_flux,
+                    const CutCells<dim>                       &cut,
+                    const CutTopology<dim>                    &parts,
+                    const Surface<dim>                        &surface,
+                    const std::vector<dealii::Tensor<1, dim>> &velocities,
+                    const StepAccuracy                        &accuracy);
+
+  /// Of the surface around each component of the cut cells the area of facets of the first
+  /// `n_nodes` nodes [m^(dim-1)].
+  template <int dim>
+  std::vector<double>
+  wetted_areas(const CutCells<dim> &cut, const Surface<dim> &surface, const std::size_t n_nodes);
+
+  /// B^T p in all nodes of the surface, on all ranks, given a number for each of cut.components.
+  /// Collective.
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  nodal_forces(const BoundaryFlux<dim>   &boundary_flux,
+               const std::vector<double> &pressures,
+               MPI_Comm                   communicator);
+
+  /// Forces in all nodes of the weight that reduced pressure leaves out, on all ranks [N]:
+  ///
+  ///     f_i = int rho (g.x) N_i n dGamma,    p + rho g.x being the pressure if p is the reduced
+  ///     one,
+  ///
+  /// with g.x = 0 at the origin; exact by the second moments of the fragments. `densities` [kg/m^3]
+  /// of what fills each of cut.components: zero where the pressure is no reduced one. Collective.
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  gravity_loads(const CutCells<dim>                   &cut,
+                const Surface<dim>                    &surface,
+                const std::vector<dealii::Point<dim>> &positions,
+                const std::vector<double>             &densities,
+                const dealii::Tensor<1, dim>          &gravity,
+                MPI_Comm                               communicator);
+} // namespace undine
+
+#endif

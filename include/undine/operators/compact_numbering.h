@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_operators_compact_numbering_h
+#define undine_operators_compact_numbering_h
+
+#include <deal.II/base/array_view.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// Those of the numbers 0, 1, ... that are kept.
+  class CompactNumbering
+  {
+  public:
+    template <class Predicate>
+    CompactNumbering(const int n, const Predicate &is_kept)
+    {
+      for (int number = 0; number < n; ++number)
+        {
+          n_below.push_back(kept.size());
+          if (is_kept(number))
+            kept.push_back(number);
+        }
+      n_below.push_back(kept.size());
+    }
+
+    /// Those from `begin` to before `end`.
+    dealii::ArrayView<const int>
+    between(const int begin, const int end) const
+    {
+      return {kept.data() + n_below[begin], std::size_t(n_below[end] - n_below[begin])};
+    }
+
+  private:
+    std::vector<int> kept, n_below;
+  };
+} // namespace undine
+
+#endif

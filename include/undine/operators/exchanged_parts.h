@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_operators_exchanged_parts_h
+#define undine_operators_exchanged_parts_h
+
+#include <undine/fluid/grid/field.h>
+#include <undine/fluid/grid/sub_lattice.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+namespace undine
+{
+  /// How many parts a point has, as a number in a field: 0, 1, 2, ... or one of these. @{
+  constexpr int count_whole  = -1;
+  constexpr int count_closed = -2;
+  /// @}
+
+  /// Call action(index of the first point, number of points) for every row of points of a box along
+  /// the first direction: within it, the values of fields lie side by side.
+  template <int dim, class Action>
+  void
+  for_each_row(IndexBox<dim> box, const Action &action)
+  {
+    const int n  = box.upper[0] - box.lower[0];
+    box.upper[0] = box.lower[0] + std::min(1, n);
+    for_each(box, [&](const GridIndex<dim> &first) { action(first, n); });
+  }
+
+  /// The parts of a lattice's points, from those of the points that each rank owns: their counts,
+  /// and part(index, number in its point). Images lie where their points have images. Collective.
+  template <int dim>
+  SubLattice<dim>
+  make_exchanged_parts(
+    const std::shared_ptr<const Lattice<dim>>                                        &lattice,
+    Field<dim>                                                                        counts,
+    const std::function<typename SubLattice<dim>::Part(const GridIndex<dim> &, int)> &part);
+} // namespace undine
+
+#endif

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_operators_sampled_pockets_h
+#define undine_operators_sampled_pockets_h
+
+#include <undine/operators/cut_topology.h>
+
+namespace undine
+{
+  /// Mark as VoidMask::pocket, among the fluid that `voids` leaves, the connected parts that lie
+  /// in sampled cells alone: what bodies that overlap seem to enclose between them is no larger
+  /// than what samples can tell, and what moving bodies press out of it could go nowhere. `parts`
+  /// comes from make_fluid_topology(grid, cut, voids) and must be made anew afterwards. Collective.
+  template <int dim>
+  void
+  close_sampled_pockets(VoidMask               &voids,
+                        const MacGrid<dim>     &grid,
+                        const CutCells<dim>    &cut,
+                        const CutTopology<dim> &parts);
+} // namespace undine
+
+#endif

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_elasticity_elastic_step_h
+#define undine_particles_elasticity_elastic_step_h
+
+#include <undine/particles/elasticity/contact.h>
+#include <undine/particles/elasticity/elastic_bodies.h>
+#include <undine/particles/elasticity/explicit_steps.h>
+#include <undine/particles/elasticity/implicit_elasticity.h>
+#include <undine/particles/execution/sums.h>
+#include <undine/particles/model/body_force.h>
+
+namespace undine::particles
+{
+  /// What a run of ElasticStep is for.
+  enum class ElasticRun
+  {
+    alone,   ///< no fluid: all of elasticity, in explicit steps
+    attempt, ///< without the fluid's pressure; tells the pressure equation where bodies want to go
+    final    ///< again from the same start, with the acceleration by pressures held constant
+  };
+
+  /// Takes the elastic bodies over a sub-step in smaller explicit steps (symplectic Euler), all in
+  /// one launch.
+  template <int dim, class Real>
+  struct ElasticStep
+  {
+    ElasticRun                 purpose;
+    Elasticity<dim, Real>      elasticity;
+    Contact<dim, Real>         contact;
+    BodyForce<dim, Real>       force;
+    Vector<dim, Real>         *x_start;     ///< [m]
+    const Vector<dim, Real>   *v_start;     ///< [m/s]
+    ElasticPoint<dim, Real>   *points_next; ///< while others still read the points
+    ImplicitVectors<dim, Real> implicit_vectors;
+    const Vector<dim, Real>   *pressure_accelerations; ///< [m/s^2]
+    int                        n_bodies;
+    Real                      *carried;     ///< of ElasticBodies [Pa]
+    Real                       carry_share; ///< of the difference, in a sub-step [1]
+    Place<dim, Real>          *places;      ///< of the sorted particles; receives the result
+    Motion<dim, Real>         *motions;
+    StepBounds                 bounds;
+    StepControl               *control;
+
+    using Response = typename Contact<dim, Real>::Response;
+
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    void
+    operator()(Team &team) const
+    {
+      if (control->done())
+        return;
+      ElasticStep now = *this; // its points and points_next change places
+      const int   n   = elasticity.bodies.n;
+      team.for_each_by_lanes(n, [&](const int i, const auto &lanes) { now.begin(i, lanes); });
+      if (team.is_first())
+        control->elastic_rates[0] = control->elastic_rates[1] = 0;
+      team.sync();
+      const int steps = is_stiff() ? now.move_implicitly(team) : now.move_explicitly(team);
+      if (team.is_first())
+        count(steps);
+      team.for_each(n, [&](const int i) { end(i, now.bodies().points[i]); });
+      carry_pressure(team);
+    }
+
+    /// Would it take too many explicit steps?
+    UNDINE_HOST_DEVICE
+    bool
+    is_stiff() const
+    {
+      return bounds.most_elastic_steps > 0 &&
+             ExplicitSteps(control->dt, bounds).number(0) > bounds.most_elastic_steps;
+    }
+
+    /// Where and how fast a particle starts.
+    UNDINE_HOST_DEVICE
+    ElasticPoint<dim, Real>
+    start_of(const int i) const
+    {
+      return {purpose == ElasticRun::final ? x_start[i] : elasticity.bodies.points[i].x,
+              v_start[i]};
+    }
+
+    /// Symplectic Euler.
+    UNDINE_HOST_DEVICE
+    static ElasticPoint<dim, Real>
+    moved(const ElasticPoint<dim, Real> &point,
+          const bool                     is_held,
+          const Real                     h,
+          const Vector<dim, Real>       &a)
+    {
+      const auto v = is_held ? Vector<dim, Real>::zero() : point.v + h * a;
+      return {point.x + h * v, v};
+    }
+
+    /// By the fluid's pressure [m/s^2].
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    pressure_acceleration(const int i) const
+    {
+      return purpose == ElasticRun::final ? pressure_accelerations[i] : Vector<dim, Real>::zero();
+    }
+
+    /// How fast the fastest waves, the hardest and the fastest contacts of a particle are, as in
+    /// StepBounds [1/s]; 0: not faster than those of bodies at rest.
+    UNDINE_HOST_DEVICE
+    float
+    rate_of(const ElasticMaterial<Real> &material,
+            const Matrix<dim, Real>     &F,
+            const Response              &contacts) const
+    {
+      const Real square =
+        elasticity.sound_square(material, F) / (elasticity.spacing * elasticity.spacing) +
+        contacts.frequency_square / lattice_frequency_square +
+        contacts.closing_square * closing_factor * closing_factor;
+      return square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate)
+               ? static_cast<float>(sqrt(square))
+               : 0.f;
+    }
+
+    /// By one worker.
+    UNDINE_HOST_DEVICE
+    void
+    count(const int steps) const
+    {
+      if (purpose != ElasticRun::attempt)
+        control->elastic_steps_total += steps;
+    }
+
+    UNDINE_HOST_DEVICE
+    void
+    fail() const
+    {
+      atomic_or(&control->failures, static_cast<unsigned int>(Failure::crushed));
+    }
+
+    /// Hand over where a particle ends.
+    UNDINE_HOST_DEVICE
+    void
+    end(const int i, const ElasticPoint<dim, Real> &point) const
+    {
+      const auto x = point.x, v = point.v;
+      const int  slot = contact.where[i];
+      places[slot].x  = elasticity.grid.wrapped(x);
+      if (!elasticity.grid.contains(places[slot].x))
+        atomic_or(&control->failures, static_cast<unsigned int>(Failure::outside));
+      if (purpose == ElasticRun::attempt)
+        {
+          // The mean velocity: what matters to the fluid is how far the surface comes, not in which
+          // phase of an unresolved vibration it arrives.
+          motions[slot].v = static_cast<Real>(1 / control->dt) * (x - x_start[i]);
+          return;
+        }
+      motions[slot].v             = v;
+      elasticity.bodies.points[i] = point;
+      atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(v))));
+    }
+
+    /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
+    /// swing with their own sound. What it carries beyond twice the pressure is given back
+    /// `release` times as fast: after an impact it would squeeze on, and nothing would do that
+    /// work.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    void
+    carry_pressure(Team &team) const
+    {
+      if (purpose != ElasticRun::final || !(carry_share > 0))
+        return;
+      for (int body = 0; body < n_bodies; ++body)
+        {
+          const auto sums =
+            team.template sum<2>(elasticity.bodies.n, [&](const int i, Sums<2> &add) {
+              if (elasticity.bodies.bodies[i] != body)
+                return;
+              add[0] += motions[contact.where[i]].pressure;
+              add[1] += 1;
+            });
+          if (team.is_first())
+            {
+              const Real pressure = static_cast<Real>(sums[0] / sums[1]);
+              const Real gone     = maximum(Real(0), carried[body] - 2 * pressure);
+              carried[body] += carry_share * (pressure - carried[body]) -
+                               minimum(release * carry_share, Real(1)) * gone;
+            }
+        }
+    }
+
+  private:
+    static constexpr Real release = 10;
+
+    /// Square of the highest frequency of a lattice of particles over c_p / l0: explicit steps are
+    /// stable up to about 0.95 l0 / c_p.
+    static constexpr Real lattice_frequency_square = Real(4.4);
+
+    /// In a step two may come closer by elastic_share over this of their distance.
+    static constexpr Real closing_factor = Real(4);
+
+    UNDINE_HOST_DEVICE
+    ElasticBodies<dim, Real> &
+    bodies()
+    {
+      return elasticity.bodies;
+    }
+
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    void
+    begin(const int i, const Lanes &lanes)
+    {
+      contact.list_partners(i, lanes);
+      if (lanes.rank() != 0)
+        return;
+      const auto start   = start_of(i);
+      x_start[i]         = start.x;
+      bodies().points[i] = start;
+    }
+
+    /// Steps follow what the rate is at their beginning. Returns how many they were.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    int
+    move_explicitly(Team &team)
+    {
+      const int     n = bodies().n;
+      ExplicitSteps steps(control->dt, bounds);
+      while (steps.goes_on)
+        {
+          std::uint32_t *const measured = &control->elastic_rates[steps.taken % 2];
+          std::uint32_t *const later    = &control->elastic_rates[(steps.taken + 1) % 2];
+          team.for_each_by_lanes(n, [&](const int i, const auto &lanes) {
+            elasticity.deform(i, lanes);
+            measure_rate(i, lanes, measured);
+          });
+          team.sync();
+          const Real h = static_cast<Real>(steps.next(number_of_bits(*measured)));
+          team.for_each_by_lanes(n, [&](const int i, const auto &lanes) { move(i, h, lanes); });
+          if (team.is_first())
+            *later = 0;
+          team.sync();
+          swap();
+        }
+      if (steps.failed && team.is_first())
+        fail();
+      return steps.taken;
+    }
+
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    void
+    measure_rate(const int i, const Lanes &lanes, std::uint32_t *measured) const
+    {
+      const auto contacts = contact.response(i, lanes);
+      if (lanes.rank() != 0)
+        return;
+      const auto &bodies = elasticity.bodies;
+      const float rate =
+        rate_of(bodies.materials[bodies.bodies[i]], bodies.deformations[i], contacts);
+      if (rate > 0)
+        atomic_maximum(measured, rate);
+    }
+
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    void
+    move(const int i, const Real h, const Lanes &lanes)
+    {
+      const auto point = bodies().points[i];
+      const auto a     = acceleration(i, lanes);
+      if (lanes.rank() == 0)
+        points_next[i] = moved(point, elasticity.bodies.held[i], h, a);
+    }
+
+    /// One step of backward Euler; what contacts and pressures do is held constant.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    int
+    move_implicitly(Team &team)
+    {
+      const int  n         = bodies().n;
+      const Real h         = static_cast<Real>(control->dt);
+      elasticity.is_damped = false;
+      team.for_each_by_lanes(n,
+                             [&](const int i, const auto &lanes) { elasticity.deform(i, lanes); });
+      team.sync();
+      ImplicitElasticity<dim, Real>{elasticity, implicit_vectors, h}.step(
+        team, v_start, [&](const int i) { return acceleration(i, OneLane()); });
+      team.sync();
+      team.for_each(n, [&](const int i) {
+        ElasticPoint<dim, Real> point = bodies().points[i];
+        point.v =
+          bodies().held[i] ? Vector<dim, Real>::zero() : point.v + implicit_vectors.change[i];
+        point.x += h * point.v;
+        points_next[i] = point;
+      });
+      team.sync();
+      swap();
+      return 1;
+    }
+
+    template <class Lanes>
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    acceleration(const int i, const Lanes &lanes) const
+    {
+      auto result = force.acceleration(elasticity.bodies.points[i].x) + pressure_acceleration(i);
+      result += contact.response(i, lanes).acceleration;
+      return result += elasticity.acceleration(i, lanes);
+    }
+
+    UNDINE_HOST_DEVICE
+    void
+    swap()
+    {
+      auto *const last = bodies().points;
+      bodies().points = contact.bodies.points = points_next;
+      points_next                             = last;
+    }
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_elasticity_reference_lattice_h
+#define undine_particles_elasticity_reference_lattice_h
+
+#include <undine/particles/elasticity/elastic_bodies.h>
+#include <undine/particles/setup/setup.h>
+
+#include <vector>
+
+namespace undine::particles
+{
+  /// What never changes of the elastic bodies, by identity; computed on the host once.
+  template <int dim, class Real>
+  struct ReferenceLattice
+  {
+    explicit ReferenceLattice(const Setup<dim> &setup);
+
+    std::vector<ReferencePoint<dim, Real>> points;
+    std::vector<int>                       bodies;
+    std::vector<ElasticMaterial<Real>>     materials;
+    std::vector<unsigned char>             held;
+    std::vector<unsigned char>     inside; ///< has nearly as many neighbours as in a full lattice
+    int                            capacity;
+    std::vector<int>               counts, indices;
+    std::vector<Matrix<dim, Real>> inverse_moments;
+
+    /// c_p / l0 of the fastest body [1/s]; 0 without bodies.
+    double
+    rate() const;
+
+  private:
+    void
+    find_neighbours(double reach, const std::vector<Vector<dim, double>> &reference);
+
+    double spacing;
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_engine_measure_balance_h
+#define undine_particles_engine_measure_balance_h
+
+#include <undine/particles/elasticity/elastic_bodies.h>
+#include <undine/particles/engine/engine.h>
+#include <undine/particles/execution/buffer.h>
+#include <undine/particles/execution/sums.h>
+#include <undine/particles/fluid/fluid_in_bodies.h>
+#include <undine/particles/model/constants.h>
+#include <undine/particles/model/step_control.h>
+#include <undine/particles/setup/make_constants.h>
+
+namespace undine::particles
+{
+  /// Raises control->largest_speed to that of the free particles.
+  template <int dim, class Real>
+  struct MeasureSpeed
+  {
+    Particles<dim, Real> particles;
+    StepControl         *control;
+
+    UNDINE_HOST_DEVICE
+    void
+    operator()(const int i) const
+    {
+      if (particles.places[i].tag.is_free())
+        atomic_maximum(&control->largest_speed,
+                       static_cast<float>(sqrt(norm_square(particles.motions[i].v))));
+    }
+  };
+
+
+  /// Kinetic energies of fluid and bodies [J], potential energy [J] and momentum [kg m/s], all in
+  /// the plane per m of thickness.
+  template <int dim, class Real>
+  struct MeasureBalance
+  {
+    static constexpr int count = 3 + dim;
+
+    Constants<dim, Real> constants;
+    Particles<dim, Real> particles;
+    Sums<count>         *result;
+
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    void
+    operator()(Team &team) const
+    {
+      const auto sums = team.template sum<count>(particles.n, [&](const int i, Sums<count> &sums) {
+        const auto place = particles.places[i];
+        if (!place.tag.is_free())
+          return;
+        const double mass =
+          static_cast<double>(constants.densities[place.tag.material()]) * constants.volume;
+        const auto v      = particles.motions[i].v;
+        double     square = 0;
+        for (int axis = 0; axis < dim; ++axis)
+          {
+            square += static_cast<double>(v[axis]) * v[axis];
+            sums[3 + axis] += mass * v[axis];
+          }
+        sums[place.tag.kind() == Kind::fluid ? 0 : 1] += mass * square / 2;
+        sums[2] += mass * constants.force.potential(place.x);
+      });
+      if (team.is_first())
+        *result = sums;
+    }
+  };
+
+
+  /// Elasticity::deform() of a particle.
+  template <int dim, class Real>
+  struct DeformBodies
+  {
+    Elasticity<dim, Real> elasticity;
+
+    UNDINE_HOST_DEVICE
+    void
+    operator()(const int i) const
+    {
+      elasticity.deform(i, OneLane());
+    }
+  };
+
+
+  /// Volume over that at rest, density of elastic energy, place and velocity, all summed over the
+  /// particles of one body, after deform() of all.
+  template <int dim, class Real>
+  struct MeasureBody
+  {
+    static constexpr int count = 2 + 2 * dim;
+
+    Elasticity<dim, Real> elasticity;
+    int                   body;
+    Sums<count>          *result;
+
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    void
+    operator()(Team &team) const
+    {
+      const auto &bodies = elasticity.bodies;
+      const auto  sums   = team.template sum<count>(bodies.n, [&](const int i, Sums<count> &sums) {
+        if (bodies.bodies[i] != body)
+          return;
+        sums[0] += determinant(bodies.deformations[i]);
+        sums[1] += elasticity.energy_density(i);
+        for (int axis = 0; axis < dim; ++axis)
+          {
+            sums[2 + axis] += bodies.points[i].x[axis];
+            sums[2 + dim + axis] += bodies.points[i].v[axis];
+          }
+      });
+      if (team.is_first())
+        *result = sums;
+    }
+  };
+
+
+  /// All of it, for the particles of a scene.
+  template <class Executor, int dim, class Real>
+  class BalanceSheet
+  {
+  public:
+    BalanceSheet(Executor &executor, const Setup<dim> &setup)
+      : executor(executor)
+      , constants(make_constants<dim, Real>(setup))
+      , body_sizes(setup.bodies.size())
+    {
+      for (const int body : setup.body_of)
+        ++body_sizes[body];
+    }
+
+    Balance<dim>
+    operator()(const Particles<dim, Real> &particles, const ElasticBodies<dim, Real> &bodies)
+    {
+      Balance<dim> result;
+      const auto   sums =
+        measured(MeasureBalance<dim, Real>{constants, particles, nullptr}, particles.n);
+      result.kinetic_fluid = sums[0];
+      result.kinetic_solid = sums[1];
+      result.potential     = sums[2];
+      for (int axis = 0; axis < dim; ++axis)
+        result.momentum[axis] = sums[3 + axis];
+      const Elasticity<dim, Real> elasticity{
+        constants.grid, constants.spacing, constants.reach, bodies, false};
+      executor.for_each(bodies.n, DeformBodies<dim, Real>{elasticity});
+      for (std::size_t b = 0; b < body_sizes.size(); ++b)
+        add_body(result, b, elasticity);
+      return result;
+    }
+
+    int
+    count_fluid_in_bodies(const Neighbours<dim, Real> &neighbours, const int n)
+    {
+      if (body_sizes.empty())
+        return 0;
+      Buffer<Executor, int> count(executor, 1);
+      executor.for_each(n, CountFluidInBodies<dim, Real>{constants, neighbours, count.data()});
+      return count.values()[0];
+    }
+
+  private:
+    void
+    add_body(Balance<dim> &result, const std::size_t b, const Elasticity<dim, Real> &elasticity)
+    {
+      const auto   sums = measured(MeasureBody<dim, Real>{elasticity, static_cast<int>(b), nullptr},
+                                 elasticity.bodies.n);
+      const double share = 1. / body_sizes[b];
+      Vector<dim, double> centre, velocity;
+      for (int axis = 0; axis < dim; ++axis)
+        {
+          centre[axis]   = share * sums[2 + axis];
+          velocity[axis] = share * sums[2 + dim + axis];
+        }
+      result.elastic += constants.volume * sums[1];
+      result.body_volumes.push_back(share * sums[0]);
+      result.body_centres.push_back(centre);
+      result.body_velocities.push_back(velocity);
+    }
+
+    /// By a pass over n.
+    template <class Measure>
+    Sums<Measure::count>
+    measured(Measure measure, const int n)
+    {
+      Buffer<Executor, Sums<Measure::count>> sums(executor, 1);
+      measure.result = sums.data();
+      executor.run(n, measure);
+      return sums.values()[0];
+    }
+
+    Executor            &executor;
+    Constants<dim, Real> constants;
+    std::vector<int>     body_sizes; ///< in particles
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_engine_particle_engine_h
+#define undine_particles_engine_particle_engine_h
+
+#include <undine/particles/engine/engine.h>
+#include <undine/particles/engine/failures.h>
+#include <undine/particles/engine/measure_balance.h>
+#include <undine/particles/engine/pace.h>
+#include <undine/particles/engine/particle_system.h>
+#include <undine/particles/engine/state_transfer.h>
+#include <undine/particles/execution/phases.h>
+#include <undine/particles/setup/check_state.h>
+
+#include <algorithm>
+#include <type_traits>
+
+namespace undine::particles
+{
+  /// The engine over an executor. Matrix entries are `Entry`; if neighbours turn out to be too far
+  /// apart in memory for them, they are WideEntry from then on.
+  template <class Executor, int dim, class Real, class Entry>
+  class ParticleEngine : public Engine<dim>
+  {
+  public:
+    explicit ParticleEngine(std::unique_ptr<Executor> executor)
+      : executor(std::move(executor))
+    {
+    }
+
+    void
+    load(const Setup<dim> &new_setup, const ParticleState<dim> &state) override
+    {
+      check_state(new_setup, state);
+      setup = new_setup;
+      paths.clear();
+      measure_inflows(state);
+      load(state, frames_in_reserve * entering(0));
+    }
+
+    void
+    move_walls(const WallPaths<dim> &paths_of_frame) override
+    {
+      if (static_cast<int>(paths_of_frame.size()) != setup.n_moving)
+        throw InputError("paths are for another number of moving particles than the scene has.");
+      paths = paths_of_frame;
+    }
+
+    void
+    watch(Look look_, const double pause) override
+    {
+      look = std::move(look_);
+      pace.set_pause(look ? pause : 0);
+    }
+
+    StepControl
+    advance(const double length) override
+    {
+      make_room(length);
+      if (system != nullptr)
+        {
+          snapshot->save(system->arrays(), system->elastic());
+          const StepControl control = attempt(*system, length);
+          if (!failed_for_indices(control))
+            return succeeded(*system, control);
+          system.reset();
+          wide = std::make_unique<System<Wide>>(*executor, setup, lattice(), n);
+          snapshot->restore(wide->arrays(), wide->elastic());
+        }
+      snapshot->save(wide->arrays(), wide->elastic());
+      return succeeded(*wide, attempt(*wide, length));
+    }
+
+    void
+    fetch(ParticleState<dim> &state) const override
+    {
+      with_system([&](auto &present) { give_state(state, present.arrays(), present.elastic()); });
+    }
+
+    Balance<dim>
+    balance() const override
+    {
+      Balance<dim> result;
+      with_system([&](auto &present) {
+        BalanceSheet<Executor, dim, Real> sheet(*executor, setup);
+
+        result                 = sheet(present.arrays().view(), present.elastic().view());
+        result.fluid_in_bodies = sheet.count_fluid_in_bodies(present.neighbours(), n);
+      });
+      return result;
+    }
+
+    std::vector<PassResult>
+    pass_results() const override
+    {
+      std::vector<PassResult> results;
+      with_system([&](auto &present) { results = present.pass_results(); });
+      return results;
+    }
+
+    Throughput
+    throughput() override
+    {
+      Throughput result;
+      with_system([&](auto &present) { result = present.throughput(); });
+      return result;
+    }
+
+    std::string
+    describe() const override
+    {
+      return executor->describe() + (sizeof(Real) == 4 ? ", single" : ", double") + " precision";
+    }
+
+    void
+    time_phases() override
+    {
+      executor->time_phases();
+    }
+
+    std::vector<std::pair<std::string, double>>
+    seconds() const override
+    {
+      std::vector<std::pair<std::string, double>> result;
+      for (int k = 0; k < static_cast<int>(Phase::count); ++k)
+        result.emplace_back(name_of(static_cast<Phase>(k)),
+                            executor->seconds(static_cast<Phase>(k)));
+      return result;
+    }
+
+  private:
+    using Wide = WideEntry<Real>;
+
+    template <class AnyEntry>
+    using System = ParticleSystem<Executor, dim, Real, AnyEntry>;
+
+    template <class Function>
+    void
+    with_system(const Function &f) const
+    {
+      if (system != nullptr)
+        f(*system);
+      else if (wide != nullptr)
+        f(*wide);
+    }
+
+    ReferenceLattice<dim, Real>
+    lattice() const
+    {
+      return ReferenceLattice<dim, Real>(setup);
+    }
+
+    /// Take up a state and park `n_parked` particles.
+    void
+    load(const ParticleState<dim> &state, const int n_parked)
+    {
+      executor->set_threads(setup.numerics.threads);
+      n = static_cast<int>(state.positions.size()) + n_parked;
+      snapshot.reset();
+      system.reset();
+      wide.reset();
+      system   = std::make_unique<System<Entry>>(*executor, setup, lattice(), n);
+      snapshot = std::make_unique<Snapshot<Executor, dim, Real>>(
+        *executor, n, system->elastic().n, static_cast<int>(setup.bodies.size()));
+      take_state(system->arrays(), system->elastic(), state);
+    }
+
+    /// How many particles can flow in during a frame, at most.
+    int
+    entering(const double frame) const
+    {
+      double depth = 0;
+      for (const auto &side : setup.open_sides)
+        if (side.is_inflow)
+          depth = depth > 0 ? std::min(depth, side.depth) : side.depth;
+      return n_waiting == 0 ? 0 : static_cast<int>(n_waiting * (2 + inflow_speed * frame / depth));
+    }
+
+    /// Look at the layers behind inflows.
+    void
+    measure_inflows(const ParticleState<dim> &state)
+    {
+      n_waiting    = 0;
+      inflow_speed = 0;
+      for (std::size_t i = 0; i < state.tags.size(); ++i)
+        if (state.tags[i].material() == inflow_material)
+          {
+            ++n_waiting;
+            inflow_speed = std::max(inflow_speed, std::sqrt(norm_square(state.velocities[i])));
+          }
+    }
+
+    /// Park more particles if those that wait might not last for a frame.
+    void
+    make_room(const double frame)
+    {
+      if (n_waiting == 0)
+        return;
+      int parked = 0;
+      with_system([&](auto &present) { parked = present.count_parked(); });
+      if (parked >= entering(frame))
+        return;
+      ParticleState<dim> state;
+      fetch(state);
+      load(state, frames_in_reserve * entering(frame));
+    }
+
+    static bool
+    failed_for_indices(const StepControl &control)
+    {
+      return (control.failures & static_cast<unsigned int>(Failure::matrix_indices)) != 0;
+    }
+
+    /// What it does depends on the particles only, so that a saved state continues as the run that
+    /// saved it.
+    template <class AnySystem>
+    void
+    begin(AnySystem &present, const double length)
+    {
+      StepControl fresh;
+      fresh.frame = length;
+      if (static_cast<int>(paths.size()) != setup.n_moving)
+        throw InputError("it is not said how walls move in this frame.");
+      atomic_maximum(&fresh.largest_speed, static_cast<float>(fastest(paths, length)));
+      StepControl *control = present.begin_frame(fresh, paths);
+      executor->for_each(n, MeasureSpeed<dim, Real>{present.arrays().view(), control});
+      present.prepare();
+    }
+
+    /// Sub-steps are enqueued in batches of as many as the last one lets expect, or, if somebody
+    /// looks, as fit between two looks. What is enqueued beyond the end of the frame does nothing:
+    /// how they are cut into batches does not matter.
+    template <class AnySystem>
+    StepControl
+    attempt(AnySystem &present, const double length)
+    {
+      begin(present, length);
+      StepControl control;
+      int         batch = expected;
+      do
+        {
+          batch = pace.at_most(batch);
+          pace.start();
+          for (int k = 0; k < batch; ++k)
+            present.sub_step();
+          executor->enter(Phase::other);
+          control = present.read_control();
+          pace.stop(batch);
+          batch = control.sub_steps_left(most_in_a_batch);
+          if (batch > 0 && control.failures == 0 && look && pace.is_due() && !look(control))
+            abandon(present);
+        }
+      while (batch > 0 && control.failures == 0);
+      ChooseStep{&control, {}}(0); // looks at the last speed, too
+      expected = std::clamp(static_cast<int>(control.sub_steps), 1, most_in_a_batch);
+      return control;
+    }
+
+    template <class AnySystem>
+    [[noreturn]] void
+    abandon(AnySystem &present)
+    {
+      snapshot->restore(present.arrays(), present.elastic());
+      throw FrameAbandoned("the frame was abandoned.");
+    }
+
+    template <class AnySystem>
+    StepControl
+    succeeded(AnySystem &present, const StepControl &control)
+    {
+      if (control.failures == 0)
+        {
+          paths.clear();
+          return control;
+        }
+      snapshot->restore(present.arrays(), present.elastic());
+      throw SolveError(reason_of_failure(control));
+    }
+
+    static constexpr int most_in_a_batch   = 64;
+    static constexpr int frames_in_reserve = 8;
+
+    std::unique_ptr<Executor>      executor;
+    Setup<dim>                     setup;
+    int                            n        = 0;
+    int                            expected = 1; ///< sub-steps of the next frame
+    Look                           look;         ///< empty: nobody does
+    Pace                           pace;
+    int                            n_waiting    = 0; ///< particles behind inflows
+    double                         inflow_speed = 0; ///< of the fastest of them [m/s]
+    WallPaths<dim>                 paths;            ///< of this frame
+    std::unique_ptr<System<Entry>> system;
+    std::unique_ptr<System<Wide>>  wide; ///< instead of `system`
+    std::unique_ptr<Snapshot<Executor, dim, Real>> snapshot;
+  };
+
+
+  /// An engine in a precision; single precision packs its matrices.
+  template <class Executor, int dim, class Real>
+  std::unique_ptr<Engine<dim>>
+  make_particle_engine(std::unique_ptr<Executor> executor)
+  {
+    using Entry = std::conditional_t<sizeof(Real) == 4, PackedEntry, WideEntry<Real>>;
+    return std::make_unique<ParticleEngine<Executor, dim, Real, Entry>>(std::move(executor));
+  }
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_model_particle_state_h
+#define undine_particles_model_particle_state_h
+
+#include <undine/particles/model/particle.h>
+
+#include <vector>
+
+namespace undine::particles
+{
+  /// All particles as plain data, in the order of the last sort; a saved copy restarts a run.
+  template <int dim>
+  struct ParticleState
+  {
+    std::vector<Vector<dim, double>> positions;  ///< [m]
+    std::vector<Vector<dim, double>> velocities; ///< [m/s]
+    std::vector<double>              pressures;  ///< [Pa]
+    std::vector<Tag>                 tags;
+    /// Unique; 0 ... n_solid - 1 belong to elastic bodies. Material k + 1 is body k, 0 the fluid
+    /// and the walls.
+    std::vector<int> identities;
+
+    /// What the method remembers besides, in an order of its own: guesses for its solvers, and what
+    /// elastic bodies carry. May be empty.
+    std::vector<double> guesses;
+  };
+} // namespace undine::particles
+
+#endif

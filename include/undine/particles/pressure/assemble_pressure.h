@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_pressure_assemble_pressure_h
+#define undine_particles_pressure_assemble_pressure_h
+
+#include <undine/particles/execution/atomics.h>
+#include <undine/particles/fluid/neighbourhood.h>
+#include <undine/particles/pressure/pressure_matrix.h>
+#include <undine/particles/pressure/virtual_faces.h>
+
+namespace undine::particles
+{
+  /// rho_f lambda n0 / (2 dim): what div(grad P / rho) is multiplied with in the pressure equation
+  /// [kg/m^(dim-2)].
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE
+  Real
+  pressure_scale(const Constants<dim, Real> &constants)
+  {
+    return constants.densities[0] * constants.spread * constants.number_density / (2 * dim);
+  }
+
+  /// The pair's coefficient in the pressure equation, k_ij [1].
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE
+  Real
+  pressure_coefficient(const Constants<dim, Real> &constants,
+                       const Tag                   tag,
+                       const Pair<dim, Real>      &pair)
+  {
+    if (tag.material() == 0 && pair.tag.material() == 0) // mostly, and a quotient takes long
+      return pair.weight;
+    return pair.weight * constants.densities[0] / constants.mean_density(tag, pair.tag);
+  }
+
+
+  /// The largest of them: that of the largest weight that a collision leaves, at the smallest mean
+  /// density.
+  template <int dim, class Real>
+  Real
+  largest_coefficient(const Constants<dim, Real> &constants)
+  {
+    Real lightest = constants.densities[0];
+    for (const Real density : constants.densities)
+      if (density > 0)
+        lightest = minimum(lightest, density);
+    const Real closest = constants.collision_distance / 2;
+    return (constants.reach / closest - 1) * constants.densities[0] / lightest;
+  }
+
+
+  /// Fills the matrix of the pressure equation, its diagonal and that of the equation for the
+  /// potentials of the virtual faces,
+  ///     sum_j k_ij (L_i - L_j) = -sum_j a_ij of L = 0,
+  /// with its right-hand side. Neighbours whose pressure is zero count in the diagonal; so does the
+  /// missing part of the neighbourhood at a free surface, as air.
+  template <int dim, class Real, class Entry>
+  struct AssemblePressure
+  {
+    Constants<dim, Real>        constants;
+    Neighbours<dim, Real>       neighbours;
+    Neighbourhood<dim, Real>    neighbourhood;
+    VirtualFaces<dim, Real>     faces;
+    PressureMatrix<Real, Entry> matrix;
+    Real                       *diagonal;
+    Real                       *faces_diagonal; ///< nullptr: faces are left open
+    StoredVector<dim, Real>    *gaps;           ///< right-hand side of the potentials
+    const Motion<dim, Real>    *motions;
+    Real                       *divergences; ///< of velocities, by faces without potentials [1/s]
+    StepControl                *control;
+
+    UNDINE_HOST_DEVICE
+    void
+    operator()(const int i) const
+    {
+      matrix.counts[i] = 0;
+      diagonal[i]      = 1;
+      divergences[i]   = 0;
+      if (faces_diagonal != nullptr)
+        {
+          faces_diagonal[i] = 1;
+          gaps[i]           = Vector<dim, Real>::zero();
+        }
+      if (neighbourhood.is_unknown[i])
+        fill_row(i);
+    }
+
+  private:
+    UNDINE_HOST_DEVICE
+    void
+    fill_row(const int i) const
+    {
+      const Tag  tag      = neighbours.places[i].tag;
+      const auto M        = neighbourhood.corrections[i].matrix();
+      const auto v        = motions[i].v;
+      const bool closes   = faces_diagonal != nullptr;
+      const Real coverage = closes && tag.is_free() ? neighbourhood.coverages[i] : Real(0);
+      auto       gap      = Vector<dim, Real>::zero();
+      int        count    = 0;
+      Real       sum = 0, flow = 0;
+      bool       reached = true, has_given = false;
+      struct Other
+      {
+        StoredCorrection<dim, Real> M;
+        Vector<dim, Real>           v;
+      };
+      const auto fetch = [&](const int j) {
+        return Other{neighbourhood.corrections[j], motions[j].v};
+      };
+      neighbours.for_each(
+        i, fetch, [&](const int j, const Pair<dim, Real> &pair, const Other &other) {
+          const auto plain = (faces.factor * pair.weight_over_square()) * pair.r;
+          if (pair.tag.kind() == Kind::dummy)
+            {
+              flow += (other.v - v) * plain;
+              return;
+            }
+          // In this order fewer registers are needed than with VirtualFaces::open().
+          const auto open =
+            (1 - coverage) * plain + (coverage / 2) * (M * plain + other.M.matrix() * plain);
+          flow += (other.v - v) * open;
+          gap -= open;
+          const Entry entry =
+            Entry::of(j - i, pressure_coefficient(constants, tag, pair), matrix.scale);
+          sum += entry.coefficient(matrix.scale);
+          has_given = has_given || !other.M.has_unknown();
+          if (!other.M.has_unknown())
+            return;
+          reached                                              = reached && Entry::can_reach(j - i);
+          matrix.entries[list_slot(i, count, matrix.capacity)] = entry;
+          ++count;
+        });
+      if (!reached)
+        atomic_or(&control->failures, static_cast<unsigned int>(Failure::matrix_indices));
+      sum += air(i, tag);
+      matrix.fill_last_group(i, count);
+      diagonal[i]    = maximum(sum + compressibility(tag), Real(1e-6));
+      divergences[i] = flow;
+      if (closes)
+        {
+          faces_diagonal[i] = maximum(sum, Real(1e-6));
+          gaps[i]           = coverage * gap;
+        }
+      neighbourhood.is_beside_given[i] = has_given ? 1 : 0;
+    }
+
+    UNDINE_HOST_DEVICE
+    Real
+    air(const int i, const Tag tag) const
+    {
+      if (tag.kind() == Kind::solid)
+        return 0;
+      return (1 - neighbourhood.coverages[i]) * constants.air *
+             maximum(Real(0), constants.number_density - neighbourhood.densities[i]);
+    }
+
+    UNDINE_HOST_DEVICE
+    Real
+    compressibility(const Tag tag) const
+    {
+      const Real dt = static_cast<Real>(control->dt);
+      return pressure_scale(constants) * constants.compressibilities[tag.material()] / (dt * dt);
+    }
+  };
+
+
+  /// The right-hand side of the pressure equation, rho_f lambda n0 / (2 dim) s; runs after the
+  /// potentials are known. In the fluid
+  ///     s = -div v* / dt + gamma e / dt^2  [1/s^2]
+  /// with the error e of the volume, Neighbourhood::fillings - 1 (P3b), or by one of the other
+  /// sources that of the number density, (n* - n0) / (n0 dt^2), or a share of it; none in bodies:
+  /// pressure takes them along as if they were fluid of another density, and elasticity keeps their
+  /// volume.
+  template <int dim, class Real, class Entry>
+  struct MeasureSource
+  {
+    Constants<dim, Real>        constants;
+    Neighbours<dim, Real>       neighbours;
+    Neighbourhood<dim, Real>    neighbourhood;
+    VirtualFaces<dim, Real>     faces;
+    PressureMatrix<Real, Entry> matrix;
+    const Motion<dim, Real>    *motions;
+    Real                       *right_hand_side; ///< first the divergences of AssemblePressure
+    Real                       *guess;           ///< of the pressures
+    const StepControl          *control;
+
+    UNDINE_HOST_DEVICE
+    void
+    operator()(const int i) const
+    {
+      const bool is_unknown = neighbourhood.is_unknown[i] != 0;
+      const Tag  tag        = neighbours.places[i].tag;
+      guess[i]              = is_unknown ? motions[i].pressure : Real(0);
+      if (!is_unknown || tag.kind() == Kind::solid)
+        right_hand_side[i] = 0;
+      else
+        right_hand_side[i] =
+          given_pressures(i, tag) +
+          pressure_scale(constants) * fluid_source(i, tag, static_cast<Real>(control->dt));
+    }
+
+  private:
+    /// What neighbours contribute whose pressure is given, sum k_ij P_j: bodies, in one of the ways
+    /// to couple them.
+    UNDINE_HOST_DEVICE
+    Real
+    given_pressures(const int i, const Tag tag) const
+    {
+      if (constants.coupling == Coupling::simultaneous)
+        return 0;
+      Real sum = 0;
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        if (pair.tag.kind() == Kind::solid)
+          sum += pressure_coefficient(constants, tag, pair) * motions[j].pressure;
+      });
+      return sum;
+    }
+
+    UNDINE_HOST_DEVICE
+    Real
+    fluid_source(const int i, const Tag tag, const Real dt) const
+    {
+      const Real error = (neighbourhood.densities[i] / constants.number_density - 1) / (dt * dt);
+      switch (constants.source)
+        {
+          case Source::density:
+            return error;
+          case Source::relaxed:
+            return constants.density_share * error;
+          default:
+            return (share(dt) * (neighbourhood.fillings[i] - 1) + crowding(i, dt)) / (dt * dt) -
+                   divergence(i, tag) / dt;
+        }
+    }
+
+    /// Where particles crowd, as between a body and a wall, much more of the error is removed at
+    /// once, but in time, not by sub-steps: the shorter they are, the faster would what is pushed
+    /// apart become, and the shorter the next one.
+    UNDINE_HOST_DEVICE
+    Real
+    crowding(const int i, const Real dt) const
+    {
+      const Real excess = neighbourhood.densities[i] / constants.number_density - 1;
+      const Real share  = constants.crowd_rate > 0
+                            ? minimum(constants.crowd_share, constants.crowd_rate * dt)
+                            : constants.crowd_share;
+      return share * maximum(Real(0), excess - constants.crowd_excess);
+    }
+
+    /// gamma
+    UNDINE_HOST_DEVICE
+    Real
+    share(const Real dt) const
+    {
+      return constants.relaxation_time > 0 ? minimum(Real(1), dt / constants.relaxation_time)
+                                           : constants.density_share;
+    }
+
+    /// What a neighbour contributes to the divergence.
+    struct Other
+    {
+      Vector<dim, Real> v, L;
+    };
+
+    struct Others
+    {
+      const Motion<dim, Real>       *motions;
+      const StoredVector<dim, Real> *potentials;
+
+      UNDINE_HOST_DEVICE
+      Other
+      operator[](const int j) const
+      {
+        return {motions[j].v, potentials[j]};
+      }
+    };
+
+    /// By the same faces as the forces of pressures, as far as they close: at the free surface by
+    /// those faces water at rest swirls with twice the energy.
+    UNDINE_HOST_DEVICE
+    Real
+    divergence(const int i, const Tag tag) const
+    {
+      const Real coverage = neighbourhood.coverages[i];
+      if (faces.potentials == nullptr || !tag.is_free() || !(coverage > 0))
+        return right_hand_side[i];
+      Real         sum = 0;
+      const Others others{motions, faces.potentials};
+      const Other  own = others[i];
+      matrix.template for_each_in_row<Other>(i, others, [&](const Entry entry, const Other &other) {
+        sum += entry.coefficient(matrix.scale) * ((other.v - own.v) * (own.L - other.L));
+      });
+      if (neighbourhood.is_beside_given[i])
+        sum += beside_given(i, tag, own);
+      return right_hand_side[i] + coverage * sum;
+    }
+
+    /// The same for neighbours whose pressure is given, which have no entries.
+    UNDINE_HOST_DEVICE
+    Real
+    beside_given(const int i, const Tag tag, const Other &own) const
+    {
+      Real sum = 0;
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        if (pair.tag.kind() == Kind::dummy || neighbourhood.is_unknown[j])
+          return;
+        const Entry entry = Entry::of(0, pressure_coefficient(constants, tag, pair), matrix.scale);
+        sum += entry.coefficient(matrix.scale) * ((motions[j].v - own.v) * own.L);
+      });
+      return sum;
+    }
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_assembly_contact_h
+#define undine_solid_assembly_contact_h
+
+#include <undine/base/core/column.h>
+#include <undine/solid/mesh/solid_model.h>
+
+#include <optional>
+#include <vector>
+
+namespace undine
+{
+  /// What keeps bodies apart, from each other and from walls: a potential E(d, t) [J] of the places
+  /// of their surfaces, zero where everything is further apart than a given gap, beyond all bounds
+  /// where a gap closes, and the ways on which no gap closes. All functions are collective; they
+  /// give the same on any number of ranks, up to rounding of the displacement.
+  template <int dim>
+  class Contact
+  {
+  public:
+    using Vector = typename SolidModel<dim>::Vector;
+    using Matrix = typename SolidModel<dim>::Matrix;
+
+    virtual ~Contact() = default;
+
+    /// E [J].
+    virtual double
+    energy(const Vector &displacement, double time) const = 0;
+
+    /// -dE/dd [N], at fixed degrees of freedom too; empty if nothing touches.
+    virtual Vector
+    forces(const Vector &displacement, double time) const = 0;
+
+    /// -dE/dd in all nodes of the bodies' surfaces, those of bodies that sleep included [N].
+    virtual std::vector<dealii::Tensor<1, dim>>
+    nodal_forces(const Vector &displacement, double time) const = 0;
+
+    /// A += factor d^2E/dd^2, with places in A for all entries that this needs.
+    virtual void
+    add_stiffness(Matrix &A, double factor, const Vector &displacement, double time) const = 0;
+
+    /// A place of all bodies at a time.
+    struct Place
+    {
+      const Vector &displacement; ///< [m]
+      double        time;         ///< [s]
+    };
+
+    /// Places that earlier stages have needed are not kept for this one: what is solved follows
+    /// from the state alone, whether a run was resumed or not.
+    virtual void
+    begin_stage() const = 0;
+
+    /// The largest part of the straight way on which no gap closes to less than a fifth [1]: 1 if
+    /// the whole way is free.
+    virtual double
+    free_part(const Place &from, const Place &to) const = 0;
+
+    /// Throws InputError, with a hint, if something overlaps.
+    virtual void
+    check_start(const Vector &displacement, double time) const = 0;
+
+    /// For the file `statistics`: energy, least gap, number of contacts, force on every body.
+    virtual Columns
+    columns(const Vector &displacement, double time) const = 0;
+  };
+
+
+  /// What a stage of a step (Stage) has to know for contact. Forces of contact count for the whole
+  /// way of the stage, by its end alone, and are no rates that later stages take up: the
+  /// trapezoidal rule would make energy of them when bodies part.
+  struct ContactStart
+  {
+    /// Where the bodies were last, apart from each other [m]; empty: where the stage starts.
+    dealii::TrilinosWrappers::MPI::Vector place;
+    double                                time        = 0; ///< of that [s]
+    double                                weight      = 1; ///< way over length of the stage [1]
+    bool                                  keeps_rates = false;
+
+    /// E at t^n [J], if somebody has asked for it.
+    std::optional<double> old_energy;
+  };
+} // namespace undine
+
+#endif

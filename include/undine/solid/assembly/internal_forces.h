@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_assembly_internal_forces_h
+#define undine_solid_assembly_internal_forces_h
+
+#include <undine/solid/mesh/solid_model.h>
+
+namespace undine
+{
+  /// What the material of all bodies answers to a displacement over the locally owned degrees of
+  /// freedom. Rows of fixed degrees of freedom are as full as any other: reactions are read there.
+  /// Collective. Throws SolveError on all ranks, naming body and place, where a point is inverted.
+  /// @{
+
+  /// K_i(d) = int P(I + grad d) : grad N_i dX [N].
+  template <int dim>
+  dealii::TrilinosWrappers::MPI::Vector
+  internal_forces(const SolidModel<dim>                       &model,
+                  const dealii::TrilinosWrappers::MPI::Vector &displacement);
+
+  /// K'(d) = dK/dd [N/m], exact and symmetric.
+  template <int dim>
+  dealii::TrilinosWrappers::SparseMatrix
+  internal_stiffness(const SolidModel<dim>                       &model,
+                     const dealii::TrilinosWrappers::MPI::Vector &displacement);
+
+  /// int W dX [J].
+  template <int dim>
+  double
+  elastic_energy(const SolidModel<dim>                       &model,
+                 const dealii::TrilinosWrappers::MPI::Vector &displacement);
+  /// @}
+
+  /// The norm [N] that rounding leaves of forces K(d) in balance, |d| being at most `size` [m]:
+  /// strains are exact to the rounding of d / (cell width) and of 1, stresses to that times the
+  /// material's p-wave modulus.
+  template <int dim>
+  double
+  rounding_of_forces(const SolidModel<dim> &model, double size);
+} // namespace undine
+
+#endif

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_mesh_solid_state_h
+#define undine_solid_mesh_solid_state_h
+
+#include <deal.II/lac/trilinos_vector.h>
+
+namespace undine
+{
+  /// The bodies at one time: nodal vectors over the locally owned degrees of freedom (no ghosts).
+  struct SolidState
+  {
+    dealii::TrilinosWrappers::MPI::Vector displacement; ///< d [m]
+    dealii::TrilinosWrappers::MPI::Vector velocity;     ///< u [m/s]
+    dealii::TrilinosWrappers::MPI::Vector acceleration; ///< a [m/s^2]; not used by all integrators
+  };
+} // namespace undine
+
+#endif

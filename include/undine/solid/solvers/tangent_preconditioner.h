@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_solvers_tangent_preconditioner_h
+#define undine_solid_solvers_tangent_preconditioner_h
+
+#include <undine/solid/mesh/solid_model.h>
+#include <undine/solid/solvers/factorisation.h>
+#include <undine/solid/solvers/tangent_multigrid.h>
+
+#include <memory>
+#include <string>
+
+namespace undine
+{
+  /// What stands for A^{-1}, A being a Jacobian of the bodies' equations, in a preconditioner: its
+  /// factors where solves_directly(), otherwise some steps of conjugate gradients with multigrid,
+  /// not always the same: outer iterations must be flexible. The factors do not mind a tangent that
+  /// is indefinite (a body that buckles); conjugate gradients that meet a direction in which it is
+  /// not positive, and do not converge, give way to them until the next matrix comes.
+  template <int dim>
+  class TangentPreconditioner
+  {
+  public:
+    using Vector = typename SolidModel<dim>::Vector;
+    using Matrix = typename SolidModel<dim>::Matrix;
+
+    /// `model` must outlive it.
+    explicit TangentPreconditioner(const SolidModel<dim> &model);
+
+    /// A is kept as a copy. Collective. Throws SolveError if it is singular or not a number.
+    void
+    initialize(const Matrix &A, const Vector &displacement);
+
+    /// x = about A^{-1} b. Collective. Throws as initialize() does.
+    void
+    vmult(Vector &x, const Vector &b);
+
+    /// What was unusual since initialize(); empty if nothing was.
+    const std::string &
+    note() const;
+
+  private:
+    /// Replace the multigrid of a matrix by factors of it.
+    void
+    give_way(const Matrix &A);
+
+    /// False, on all ranks, if x is of no use.
+    bool
+    iterate(Vector &x, const Vector &b) const;
+
+    const SolidModel<dim>            &model;
+    const bool                        direct;
+    Factorisation                     factorisation;
+    std::unique_ptr<TangentMultigrid> multigrid; ///< nullptr: there are factors
+    std::string                       last_note;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_solvers_tangent_solver_h
+#define undine_solid_solvers_tangent_solver_h
+
+#include <undine/solid/mesh/solid_model.h>
+#include <undine/solid/solvers/factorisation.h>
+#include <undine/solid/solvers/tangent_multigrid.h>
+
+#include <memory>
+#include <string>
+
+namespace undine
+{
+  /// Solves linear systems with the Jacobian of the bodies' equations, as `Linear solver` says: by
+  /// factorisation, or by conjugate gradients with smoothed aggregation (ML) that knows the
+  /// rigid-body motions. Where follower pressures make the tangent unsymmetric, GMRES takes the
+  /// place of conjugate gradients. An iteration that does not converge, as when the tangent is not
+  /// positive definite, gives way to the factorisation, with `auto` for all of the stage. The
+  /// analysis of the sparsity pattern is kept from one system to the next, the multigrid hierarchy
+  /// in a stage until the number of iterations has grown by half.
+  template <int dim>
+  class TangentSolver
+  {
+  public:
+    using Vector = typename SolidModel<dim>::Vector;
+    using Matrix = typename SolidModel<dim>::Matrix;
+
+    /// `model` must outlive it.
+    explicit TangentSolver(const SolidModel<dim> &model);
+
+    /// A^{-1} b, or if A is solved iteratively, up to a residual |A x - b| that is `negligible`
+    /// [N]. `displacement` [m] says where the bodies are. Collective. Throws SolveError on all
+    /// ranks if A is singular or not a number.
+    Vector
+    solve(const Matrix &A, const Vector &b, const Vector &displacement, double negligible = 0);
+
+    /// Forget iterations(), note() and the hierarchy: what is solved follows from the state alone,
+    /// whether a run was resumed or not.
+    void
+    begin_stage();
+
+    /// Of the iterative solver, since begin_stage().
+    unsigned int
+    iterations() const;
+
+    /// What was unusual since then; empty if nothing was.
+    const std::string &
+    note() const;
+
+  private:
+    bool
+    is_direct() const;
+    /// Improve x. False, on all ranks, if the iteration does not converge.
+    bool
+    iterate(Vector &x, const Matrix &A, const Vector &b, double negligible);
+
+    const SolidModel<dim>            &model;
+    const bool                        direct;
+    const bool                        symmetric;
+    Factorisation                     factorisation;
+    std::unique_ptr<TangentMultigrid> multigrid;
+    unsigned int first_iterations = 0;     ///< with that hierarchy when it was new; 0: it is new
+    bool         gave_up          = false; ///< the iteration did not converge once
+    unsigned int all_iterations   = 0;
+    std::string  all_notes;
+  };
+} // namespace undine
+
+#endif

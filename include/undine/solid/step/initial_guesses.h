@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_step_initial_guesses_h
+#define undine_solid_step_initial_guesses_h
+
+#include <undine/base/core/newton.h>
+#include <undine/base/core/timing.h>
+#include <undine/solid/solvers/tangent_solver.h>
+#include <undine/solid/step/solid_equations.h>
+
+namespace undine
+{
+  /// u [m/s] that keeps d^n, but for what supports that have moved draw along: bodies follow
+  /// prescribed motions by a linear prediction, which `solver` solves. Collective. Throws
+  /// SolveError.
+  template <int dim>
+  typename SolidModel<dim>::Vector
+  resting_guess(const SolidEquations<dim> &equations,
+                TangentSolver<dim>        &solver,
+                TimingTree                &timing)
+  {
+    auto velocity = equations.guess_at_rest();
+    if (equations.has_motion())
+      {
+        const auto system = equations.motion_predictor();
+        const auto timed  = timing.section("solve linear system");
+        velocity.add(
+          1., solver.solve(system.matrix, system.right_side, equations.displacement(velocity)));
+      }
+    return velocity;
+  }
+
+
+  /// The result of solve(u), Newton's method from the guess u: from that of `equations`, and if it
+  /// fails from rest(). In the other order without inertia, where an extrapolated equilibrium
+  /// changes the volume of what is nearly incompressible, and with a given number of corrections,
+  /// which are not tried twice. Throws what the last solve() throws.
+  template <int dim, class Rest, class Solve>
+  NewtonReport
+  solve_from_guesses(const SolidEquations<dim> &equations,
+                     const NewtonOptions       &options,
+                     const Rest                &rest,
+                     const Solve               &solve)
+  {
+    const bool only_once  = options.fixed_iterations > 0;
+    const bool rest_first = equations.is_static() || only_once;
+    try
+      {
+        return solve(rest_first ? rest() : equations.guess());
+      }
+    catch (const SolveError &)
+      {
+        if (only_once)
+          throw;
+      }
+    return solve(rest_first ? equations.guess() : rest());
+  }
+} // namespace undine
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_step_solid_balance_h
+#define undine_solid_step_solid_balance_h
+
+#include <deal.II/base/tensor.h>
+
+#include <map>
+#include <string>
+
+namespace undine
+{
+  /// What became of the bodies' energy and momentum in a step, each term from its own formula. With
+  /// dd = d^{n+1} - d^n, the terms of StepCoefficients and W = sum_e w_e,
+  ///
+  ///     kinetic + elastic = loads + nodal + supports + contact - damping - inertia_loss -
+  ///     elastic_loss momentum = h (loads_force + damping_force + supports_force + contact_force +
+  ///     nodal forces)
+  ///                - inertia_gap
+  ///
+  /// up to the tolerance of Newton's method and to rounding. Where an integrator averages forces
+  /// over other times (W < 1) the rest of them is in inertia_loss and inertia_gap.
+  template <int dim>
+  struct SolidBalance
+  {
+    double kinetic      = 0; ///< gain of u.M u/2 [J]
+    double elastic      = 0; ///< gain of int W dX [J]
+    double loads        = 0; ///< dead loads and follower pressures / W times dd [J]
+    double nodal        = 0; ///< given nodal forces times dd [J]
+    double supports     = 0; ///< forces at fixed degrees of freedom times dd [J]
+    double damping      = 0; ///< C (c u + c_u u^n) / W times dd [J]
+    double contact      = 0; ///< forces of contact times dd [J]
+    double inertia_loss = 0; ///< the integrator's: M (m u + ...).dd - kinetic [J], and the rest
+    double elastic_loss = 0; ///< the integrator's: sum_e w_e K(d_e).dd - int K(d).dd [J]
+
+    /// What of the loads is due to which effect, by its own force [J].
+    std::map<std::string, double> loads_by_effect;
+
+    double contact_energy = 0; ///< gain of the potential of contact, over all stages [J]
+
+    dealii::Tensor<1, dim> momentum;    ///< gain of sum M u [kg m/s]
+    dealii::Tensor<1, dim> inertia_gap; ///< h sum M (m u + ...) - momentum, and the rest [kg m/s]
+    dealii::Tensor<1, dim> loads_force; ///< [N]
+    dealii::Tensor<1, dim> supports_force; ///< [N]
+    dealii::Tensor<1, dim> damping_force;  ///< [N]
+    dealii::Tensor<1, dim> contact_force;  ///< [N]
+  };
+
+  /// What bodies have.
+  template <int dim>
+  struct SolidAmounts
+  {
+    double                 energy = 0; ///< u.M u/2 + int W dX [J]
+    dealii::Tensor<1, dim> momentum;   ///< sum M u [kg m/s]
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_step_solid_equations_h
+#define undine_solid_step_solid_equations_h
+
+#include <undine/base/core/timing.h>
+#include <undine/solid/assembly/contact.h>
+#include <undine/solid/assembly/solid_environment.h>
+#include <undine/solid/mesh/solid_model.h>
+#include <undine/solid/mesh/solid_state.h>
+#include <undine/solid/step/solid_balance.h>
+
+#include <vector>
+
+namespace undine
+{
+  /// The balance of momentum over one step (StepCoefficients) as equations for the end velocity
+  /// u = u^{n+1}: residual, Jacobian and what u makes of the state. Fixed degrees of freedom have a
+  /// zero residual and a diagonal Jacobian; u has to carry the prescribed velocity there, which
+  /// guess() does, and d^{n+1} is the prescribed displacement exactly.
+  template <int dim>
+  class SolidEquations
+  {
+  public:
+    using Vector = typename SolidModel<dim>::Vector;
+    using Matrix = typename SolidModel<dim>::Matrix;
+
+    /// From `old_state` at `time` [s] over `dt` [s]. `mass` is mass_matrix(model). `nodal_forces`
+    /// [N] act during the whole step and enter the momentum once, as J p does; empty: none. Forces
+    /// of contact (`environment`), at the end of the step, count alike, `contact.weight` times. The
+    /// references to model, mass, state, environment and timing must outlive the equations.
+    /// Collective. Throws SolveError.
+    SolidEquations(const SolidModel<dim>       &model,
+                   const Matrix                &mass,
+                   const SolidState            &old_state,
+                   const SolidEnvironment<dim> &environment,
+                   double                       time,
+                   double                       dt,
+                   TimingTree                  &timing,
+                   const Vector                &nodal_forces = {},
+                   const ContactStart          &contact      = {});
+
+    /// A first u [m/s]: u^n with prescribed velocities in place.
+    Vector
+    guess() const;
+
+    /// A first u [m/s] that keeps d^{n+1} = d^n, the point at which one Newton correction is a
+    /// linearisation at d^n. Fixed degrees of freedom have moved, so that this is admissible only
+    /// with the change of u that motion_predictor() gives.
+    Vector
+    guess_at_rest() const;
+
+    /// The u nearest to `guess` on the way from the last place of the bodies at which nothing
+    /// closes a gap (Contact). Throws SolveError if supports or obstacles alone close one.
+    Vector
+    kept_apart(const Vector &guess) const;
+
+    /// The part of `correction` that can be added to u without closing a gap [1].
+    double
+    free_part(const Vector &velocity, const Vector &correction) const;
+
+    struct LinearSystem
+    {
+      Matrix matrix;
+      Vector right_side;
+    };
+
+    /// Do fixed degrees of freedom move during the step?
+    bool
+    has_motion() const
+    {
+      return prescribed_increment().linfty_norm() > 0;
+    }
+
+    /// Linearised at d^n: the change of u at free degrees of freedom by which the bodies follow the
+    /// prescribed motions, A_ff du_f = -A_fg dd_g / (d d^{n+1} / du).
+    LinearSystem
+    motion_predictor() const;
+
+    /// More nodal forces [N] that act during the whole step.
+    void
+    add_forces(const Vector &more);
+
+    /// The left side of the balance for u [N], zero at fixed degrees of freedom. Throws SolveError.
+    Vector
+    residual(const Vector &velocity);
+
+    /// The same with the fixed degrees of freedom, where it is the force of the supports, divided
+    /// by the sum of the stages' weights [N].
+    Vector
+    reactions(const Vector &velocity);
+
+    /// For each body |sum over its degrees of freedom of M (m u + m_u u^n + m_a a^n) +
+    /// alpha M (c u + c_u u^n) - loads - contact - supports| / scale [1]: the balance of linear
+    /// momentum, in which inner forces cancel. `reactions` are those of the same u.
+    std::vector<double>
+    momentum_residuals(const Vector &velocity, const Vector &reactions) const;
+
+    /// Energy and momentum of the step that ends with `velocity`, for the `reactions` of the same.
+    /// Costs several evaluations of internal forces. Collective.
+    SolidBalance<dim>
+    balance(const Vector &velocity, const Vector &reactions) const;
+
+    /// d residual / du [kg/s], with a diagonal of its own size at fixed degrees of freedom.
+    Matrix
+    jacobian(const Vector &velocity) const;
+
+    /// d^{n+1} [m].
+    Vector
+    displacement(const Vector &velocity) const;
+
+    /// d^{n+1} - d^n [m], without what rounding leaves of the difference of both.
+    Vector
+    increment(const Vector &velocity) const;
+
+    /// d d^{n+1} / du at free degrees of freedom [s].
+    double
+    displacement_factor() const
+    {
+      return coefficients.displacement;
+    }
+
+    /// What forces of contact add to the velocity in the step [m/s]; empty if there are none or if
+    /// nobody needs it. Collective.
+    Vector
+    contact_velocity(const Vector &velocity) const;
+
+    /// The state at the end of the step, given contact_velocity(), which is no part of the
+    /// acceleration.
+    SolidState
+    end_state(const Vector &velocity, const Vector &contact_velocity) const;
+
+    /// Does the step leave out inertia?
+    bool
+    is_static() const;
+
+    /// Size of the terms of the residual evaluated last [N], and the norm that rounding gives their
+    /// sum [N]. @{
+    double
+    scale() const;
+    double
+    rounding() const;
+    /// @}
+
+  private:
+    Vector
+    full_residual(const Vector &velocity);
+    Vector
+    weighted(const Vector &reactions) const;
+    Vector
+    free_increment(const Vector &velocity) const;
+    Vector
+    stage_displacement(const Vector &end_displacement, double position) const;
+    Vector
+    inertia(const Vector &velocity) const;
+    void
+    add_damping(Vector &forces, const Vector &velocity, double factor) const;
+    void
+    add_stage(Vector &forces, const StepCoefficients::Stage &stage, const Vector &displacement);
+    void
+    balance_inertia(SolidBalance<dim> &result,
+                    const Vector      &velocity,
+                    const Vector      &displacement_increment) const;
+    void
+    balance_elasticity(SolidBalance<dim> &result,
+                       const Vector      &end,
+                       const Vector      &displacement_increment) const;
+    void
+    balance_contact(SolidBalance<dim> &result,
+                    const Vector      &end,
+                    const Vector      &displacement_increment) const;
+    Matrix
+    full_jacobian(const Vector &end_displacement, const Vector &in_contact) const;
+    Vector
+    contact_forces(const Vector &end_displacement) const;
+    const Vector &
+    last_place() const;
+    double
+    last_time() const;
+    Vector
+    prescribed_increment() const;
+    void
+    find_known_forces();
+    void
+    find_damping_stiffness();
+    void
+    note_size(const Vector &term, double factor);
+
+    const SolidModel<dim>       &model;
+    const Matrix                &mass;
+    const SolidState            &old_state;
+    const SolidEnvironment<dim> &environment;
+    const double                 time;
+    const double                 dt;
+    TimingTree                  &timing;
+    Vector                       nodal_forces;
+    const Contact<dim> *const    contact; ///< nullptr: none
+    const ContactStart           contact_start;
+    const StepCoefficients       coefficients;
+    const bool                   has_pressure;
+    Matrix                       damping_stiffness; ///< K'(d^n + r h u^n); empty without damping
+    double                       largest_known = 0; ///< size of the terms without u [N]
+    double                       largest_term  = 0; ///< of all terms [N]
+    double                       own_rounding;      ///< [N]
+    Vector                       dead;              ///< loads that do not depend on u, weighted [N]
+    Vector                       known; ///< terms of the residual without u, but for inertia [N]
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_time_time_integrator_h
+#define undine_solid_time_time_integrator_h
+
+#include <undine/base/core/stage.h>
+#include <undine/base/options/options.h>
+
+#include <memory>
+#include <vector>
+
+namespace undine
+{
+  /// A time step of h [s] from t^n, written for the one unknown u = u^{n+1} [m/s]:
+  ///
+  ///     M (m u + m_u u^n + m_a a^n) + C (c u + c_u u^n)
+  ///       + sum_e w_e [ K(d_e) - f(d_e, t_e) ] - J p = 0                                       [N]
+  ///     d_e = (1 - s_e) d^n + s_e d^{n+1},   t_e = t^n + s_e h
+  ///     d^{n+1} = d^n + e_u u^n + e_a a^n + e u
+  ///     a^{n+1} = b u + b_u u^n + b_a a^n
+  ///
+  /// where f are gravity, dead loads and follower pressures. Unless the step is static, m = 1/h and
+  /// m_u = -1/h: the impulse h J p of a fluid's pressure enters the momentum once and un-averaged,
+  /// whatever the integrator. C = alpha M + eta K'(d^n + r h u^n).
+  struct StepCoefficients
+  {
+    /// Internal forces and loads between t^n (position 0) and t^{n+1} (position 1).
+    struct Stage
+    {
+      double weight;   ///< w_e [1]
+      double position; ///< s_e [1]
+    };
+
+    double             mass                  = 0; ///< m [1/s]
+    double             mass_old_velocity     = 0; ///< m_u [1/s]
+    double             mass_old_acceleration = 0; ///< m_a [1]
+    double             damping               = 0; ///< c [1]
+    double             damping_old_velocity  = 0; ///< c_u [1]
+    double             damping_position      = 0; ///< r [1]
+    std::vector<Stage> stages;
+    double             displacement              = 0; ///< e [s]
+    double             displacement_velocity     = 0; ///< e_u [s]
+    double             displacement_acceleration = 0; ///< e_a [s^2]
+    double             acceleration              = 0; ///< b [1/s]
+    double             acceleration_velocity     = 0; ///< b_u [1/s]
+    double             acceleration_acceleration = 0; ///< b_a [1]
+
+    /// Of the stages [1]: reactions and the pressure's share of the acceleration are divided by it.
+    double
+    sum_of_weights() const;
+  };
+
+  /// How exact a method is: of a free oscillation exp(i w t) it makes exp(i w (1 + e) t) with
+  /// |e| = C (w h)^p to the leading order. The error of one step is C h^(p+1) |y^(p+1)|.
+  struct TimeAccuracy
+  {
+    unsigned int order;    ///< p
+    double       constant; ///< C [1]
+  };
+
+  /// A way to advance the bodies in time. One integrator is one .cc file that registers itself.
+  class TimeIntegrator
+  {
+  public:
+    virtual ~TimeIntegrator() = default;
+
+    virtual void
+    add_options(const Options &options) = 0;
+
+    /// The parts of a step of `dt` [s]; `knows_rates`: those at its begin are known.
+    virtual Stages
+    stages(double dt, bool knows_rates) const;
+
+    /// The numbers of a stage of length `dt` [s].
+    virtual StepCoefficients
+    coefficients(double dt) const = 0;
+
+    virtual TimeAccuracy
+    accuracy() const = 0;
+
+    /// True if a^0 has to be the acceleration that the loads at t = 0 give.
+    virtual bool
+    uses_acceleration() const;
+
+    /// Prescribed motions know their acceleration; the integrator's own is that of the time
+    /// t^{n+1} + shift h [1].
+    virtual double
+    acceleration_shift() const;
+  };
+
+  /// The one that section `Time` of the scene chooses.
+  std::unique_ptr<TimeIntegrator>
+  choose_time_integrator(const Options &scene);
+} // namespace undine
+
+#endif

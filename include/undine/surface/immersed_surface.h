@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_surface_immersed_surface_h
+#define undine_surface_immersed_surface_h
+
+#include <undine/fluid/grid/mac_grid.h>
+#include <undine/solid/mesh/solid_state.h>
+#include <undine/surface/body_surface.h>
+#include <undine/surface/obstacles.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace undine
+{
+  /// The surface of everything in the fluid: first the nodes and facets of deformable bodies, then
+  /// those of obstacles. Replicated on all ranks.
+  ///
+  /// Bodies may reach out of the domain, also over a whole side, but not to a periodic side.
+  template <int dim>
+  class ImmersedSurface
+  {
+  public:
+    /// `solid`: nullptr if there are no bodies. The grid must outlive this. Throws InputError if a
+    /// surface is not closed or reaches a periodic side at rest, or if a body and an obstacle have
+    /// the same name. Collective.
+    ImmersedSurface(const Options &scene, const SolidModel<dim> *solid, const MacGrid<dim> &grid);
+
+    /// The same in which only some bodies move, or none: `bodies` has been made from all of them.
+    ImmersedSurface(const ImmersedSurface &all, const BodySurface<dim> &bodies);
+
+    const Surface<dim> &
+    surface() const
+    {
+      return *all_facets;
+    }
+
+    /// nullptr if there are none.
+    const BodySurface<dim> *
+    bodies() const
+    {
+      return body_surface ? &*body_surface : nullptr;
+    }
+
+    const Obstacles<dim> &
+    obstacles() const
+    {
+      return *all_obstacles;
+    }
+
+    /// The sections of the scene that describe them, in the order of surface().body_names().
+    std::vector<std::string>
+    section_names() const;
+
+    /// The name of the scene's file.
+    const std::string &
+    scene_name() const
+    {
+      return file_name;
+    }
+
+    /// The nodes of bodies are the first ones.
+    unsigned int
+    n_body_nodes() const
+    {
+      return body_surface ? body_surface->n_nodes() : 0;
+    }
+
+    /// Is it a node of a body that moves? The fluid sees others as those of obstacles.
+    bool
+    moves(const unsigned int node) const
+    {
+      return node < n_body_nodes() && body_surface->moves(node);
+    }
+
+    /// Where the nodes are, given the bodies' displacement and the time for the obstacles [m];
+    /// bodies are taken on from there with their velocity for `ahead` [s].
+    /// Throws SolveError as check() does; InputError if it is an obstacle, since no smaller step
+    /// keeps it from going where its motion is prescribed to go. Collective.
+    std::vector<dealii::Point<dim>>
+    positions(const SolidState &state, const double time, const double ahead = 0) const;
+
+    /// How they move, bodies by their velocity, obstacles in a step of `dt` from `time` on [m/s].
+    /// Throws as positions() does, also if obstacles cannot be at its end. Collective.
+    std::vector<dealii::Tensor<1, dim>>
+    velocities(const SolidState &state, const double time, const double dt) const;
+
+    /// The same with what obstacles do just at `time`, `dt` being a time in which that changes
+    /// little.
+    std::vector<dealii::Tensor<1, dim>>
+    velocities_at(const SolidState &state, const double time, const double dt) const;
+
+    /// `values` in all nodes, but in those of bodies what a vector over their owned degrees of
+    /// freedom says. Collective.
+    std::vector<dealii::Tensor<1, dim>>
+    with_bodies(const typename SolidModel<dim>::Vector &vector,
+                std::vector<dealii::Tensor<1, dim>>     values) const;
+
+    /// Throws SolveError, naming the body, if a position is not finite, a body inside out or at a
+    /// periodic side.
+    void
+    check(const std::vector<dealii::Point<dim>> &positions) const;
+
+    /// Add values in the nodes, the same on all ranks, to a vector of the bodies' owned degrees of
+    /// freedom; obstacles do not feel them.
+    void
+    add_to_bodies(typename SolidModel<dim>::Vector          &vector,
+                  const std::vector<dealii::Tensor<1, dim>> &values) const;
+
+  private:
+    void
+    check_motion(const std::vector<dealii::Point<dim>> &positions, const double time) const;
+
+    const MacGrid<dim>                         &grid;
+    const std::string                           file_name;
+    std::optional<const BodySurface<dim>>       body_surface;
+    const std::shared_ptr<const Obstacles<dim>> all_obstacles;
+    std::shared_ptr<const Surface<dim>>         all_facets;
+  };
+} // namespace undine
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_surface_surface_queries_h
+#define undine_surface_surface_queries_h
+
+#include <undine/fluid/grid/mac_grid.h>
+#include <undine/fluid/visibility/obstruction.h>
+#include <undine/surface/facet_geometry.h>
+#include <undine/surface/surface.h>
+
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace undine
+{
+  /// A surface and its motion during the last step.
+  template <int dim>
+  struct MovedSurface
+  {
+    const Surface<dim>                 *surface;
+    std::vector<dealii::Point<dim>>     old_positions; ///< of the nodes, before the step [m]
+    std::vector<dealii::Point<dim>>     positions;     ///< after it [m]
+    std::vector<dealii::Tensor<1, dim>> velocities;    ///< [m/s]
+  };
+
+  /// Answers where a surface lies, in a time that grows with the logarithm of its facets (R-tree of
+  /// their boxes).
+  ///
+  /// Facets are taken as thick as rounding: `tolerance` times the size of the domain, and as much
+  /// wider. No way slips through between facets that share an edge or a node.
+  ///
+  /// In periodic directions the surface repeats.
+  template <int dim>
+  class SurfaceQueries : public Obstruction<dim>
+  {
+  public:
+    static constexpr double tolerance = 1e-13;
+
+    /// Keeps the positions, not the surface's copy: that must outlive it.
+    SurfaceQueries(const MacGrid<dim> &grid, MovedSurface<dim> moved);
+
+    ~SurfaceQueries();
+
+    using FacetImage = typename Obstruction<dim>::FacetImage;
+
+    double
+    first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const override;
+
+    std::vector<FacetImage>
+    facets_near(const dealii::BoundingBox<dim> &box) const override;
+
+    using Slab = typename Obstruction<dim>::Slab;
+
+    typename Obstruction<dim>::Patch
+    patch(const std::vector<FacetImage> &images) const override;
+
+    bool
+    is_wall(const std::vector<FacetImage>  &images,
+            const Slab                     &slab,
+            const dealii::BoundingBox<dim> &box) const override;
+
+    double
+    first_hit(const FacetImage         &image,
+              const dealii::Point<dim> &from,
+              const dealii::Point<dim> &to) const override;
+
+    bool
+    is_freshly_cleared(const dealii::Point<dim> &place) const override;
+
+    void
+    for_each_freshly_cleared(
+      const Lattice<dim>                                &lattice,
+      const IndexBox<dim>                               &box,
+      const std::function<void(const GridIndex<dim> &)> &action) const override;
+
+    dealii::Tensor<1, dim>
+    nearest_velocity(const dealii::Point<dim> &place) const override;
+
+  private:
+    struct Trees;
+
+    void
+    find_neighbours();
+
+    /// Has a facet whose normal is less than 90 degrees away from `normal` a ridge near `box`
+    /// beyond which there is none such?
+    bool
+    has_rim(const FacetImage               &image,
+            const dealii::Tensor<1, dim>   &normal,
+            const dealii::BoundingBox<dim> &box) const;
+
+    std::array<dealii::Point<dim>, dim>
+    nodes(const unsigned int facet) const;
+
+    std::array<dealii::Point<dim>, dim>
+    old_nodes(const unsigned int facet) const;
+
+    /// Does the way of a facet lead over `place`?
+    bool
+    passes_over(const unsigned int facet, const dealii::Point<dim> &place) const;
+
+    MovedSurface<dim>            moved;
+    std::array<double, dim>      periods; ///< [m]; 0: not periodic
+    double                       thickness;
+    std::vector<ThickFacet<dim>> thick_facets;
+
+    static constexpr unsigned int no_facet = -1;
+
+    std::vector<dealii::Tensor<1, dim>>      normals;         ///< of facets, unit or zero
+    std::vector<std::array<unsigned int, 2>> facets_of_ridge; ///< or no_facet
+    std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>>
+                                 swept_boxes; ///< around the ways of those that moved
+    std::unique_ptr<const Trees> trees;
+  };
+} // namespace undine
+
+#endif

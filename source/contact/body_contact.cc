@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/contact/body_contact.h>
+#include <undine/contact/make_contact.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+
+namespace undine
+{
+  namespace
+  {
+    /// A tenth of the facets' size: bodies seem larger by half of it.
+    constexpr double share_of_facet = 0.1;
+
+
+    template <int dim>
+    double
+    least_modulus(const SolidModel<dim> &solid)
+    {
+      double result = std::numeric_limits<double>::infinity();
+      for (const auto &body : solid.bodies())
+        result = std::min(result, body.material->p_wave_modulus());
+      return result;
+    }
+
+
+    /// Pairs of nodes of different bodies that terms couple.
+    template <int dim>
+    typename ContactPattern<dim>::Pairs
+    coupled_pairs(const std::vector<ContactTerm<dim>> &terms, const ContactSurfaces<dim> &surfaces)
+    {
+      typename ContactPattern<dim>::Pairs result;
+      for (const auto &term : terms)
+        for (unsigned int i = 0; i < term.n; ++i)
+          for (unsigned int j = i + 1; j < term.n; ++j)
+            if (surfaces.moves(term.nodes[i]) && surfaces.moves(term.nodes[j]) &&
+                surfaces.surface_of_node(term.nodes[i]) != surfaces.surface_of_node(term.nodes[j]))
+              result.insert({term.nodes[i], term.nodes[j]});
+      return result;
+    }
+
+
+    /// The rows that this rank owns.
+    template <int dim>
+    void
+    add_to_rows(dealii::TrilinosWrappers::SparseMatrix &A,
+                const double                            factor,
+                const NodeMatrices<dim>                &of_nodes,
+                const ContactTerm<dim>                 &term,
+                const ContactSurfaces<dim>             &surfaces,
+                const dealii::IndexSet                 &owned)
+    {
+      std::array<dealii::types::global_dof_index, dim *(dim + 1)> columns;
+      std::array<double, dim *(dim + 1)>                          values;
+      for (unsigned int i = 0; i < term.n; ++i)
+        for (unsigned int a = 0; a < dim && surfaces.moves(term.nodes[i]); ++a)
+          {
+            const auto row = surfaces.bodies().dofs_of_node(term.nodes[i])[a];
+            if (!owned.is_element(row))
+              continue;
+            unsigned int n = 0;
+            for (unsigned int j = 0; j < term.n; ++j)
+              for (unsigned int b = 0; b < dim && surfaces.moves(term.nodes[j]); ++b, ++n)
+                {
+                  columns[n] = surfaces.bodies().dofs_of_node(term.nodes[j])[b];
+                  values[n]  = factor * of_nodes[i][j][a][b];
+                }
+            A.add(row, n, columns.data(), values.data(), false);
+          }
+    }
+  } // namespace
+
+
+  template <int dim>
+  BodyContact<dim>::BodyContact(const ContactSettings<dim> &given,
+                                const SolidModel<dim>      &solid,
+                                const FluidModel<dim>      *fluid,
+                                const Obstacles<dim>       *obstacles)
+    : solid(solid)
+    , settings(given)
+    , surfaces(given, solid, fluid, obstacles)
+    , pattern(solid, surfaces.bodies())
+  {
+    if (settings.gap == 0)
+      settings.gap = share_of_facet * surfaces.facet_size();
+    if (settings.stiffness == 0)
+      settings.stiffness = least_modulus(solid);
+  }
+
+
+  template <int dim>
+  BodyContact<dim>::BodyContact(const BodyContact      &all,
+                                const SolidModel<dim>  &solid,
+                                const BodySurface<dim> &bodies)
+    : solid(solid)
+    , settings(all.settings)
+    , surfaces(all.surfaces, bodies)
+    , pattern(solid, surfaces.bodies())
+  {
+  }
+
+
+  /// Throws SolveError where a gap is closed.
+  template <int dim>
+  typename BodyContact<dim>::Terms
+  BodyContact<dim>::terms(const Places &places) const
+  {
+    const auto result = find_contact_terms(surfaces, places, settings.gap);
+    for (const auto &term : result)
+      if (!(term.distance > 0))
+        throw SolveError(fmt::format(
+          "'{}' runs into {}. Try: a smaller step.",
+          surfaces.surface().body_names()[surfaces.surface_of_node(term.nodes[0])],
+          term.wall == term.no_wall ? "another body"
+                                    : "wall '" + surfaces.walls()[term.wall].name + "'"));
+    return result;
+  }
+
+
+  template <int dim>
+  ContactPotential<dim>
+  BodyContact<dim>::potential() const
+  {
+    return {settings.gap, settings.stiffness};
+  }
+
+
+  template <int dim>
+  double
+  BodyContact<dim>::energy(const Terms &terms, const Places &places) const
+  {
+    double result = 0;
+    for (const auto &term : terms)
+      result += potential().energy(term, places);
+    return result;
+  }
+
+
+  template <int dim>
+  double
+  BodyContact<dim>::energy(const Vector &displacement, const double time) const
+  {
+    const auto places = surfaces.places(displacement, time);
+    return energy(terms(places), places);
+  }
+
+
+  template <int dim>
+  typename BodyContact<dim>::Forces
+  BodyContact<dim>::nodal_forces(const Terms &terms, const Places &places) const
+  {
+    Forces result(surfaces.bodies().n_nodes());
+    for (const auto &term : terms)
+      {
+        const auto of_nodes = potential().forces(term, places);
+        for (unsigned int i = 0; i < term.n; ++i)
+          if (term.nodes[i] < result.size())
+            result[term.nodes[i]] += of_nodes[i];
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  typename BodyContact<dim>::Vector
+  BodyContact<dim>::forces(const Vector &displacement, const double time) const
+  {
+    const auto places = surfaces.places(displacement, time);
+    const auto found  = terms(places);
+    if (found.empty())
+      return {};
+    Vector result = solid.vector();
+    surfaces.bodies().add(result, nodal_forces(found, places));
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  BodyContact<dim>::nodal_forces(const Vector &displacement, const double time) const
+  {
+    const auto places = surfaces.places(displacement, time);
+    return nodal_forces(terms(places), places);
+  }
+
+
+  template <int dim>
+  void
+  BodyContact<dim>::add_stiffness(Matrix       &A,
+                                  const double  factor,
+                                  const Vector &displacement,
+                                  const double  time) const
+  {
+    const auto places = surfaces.places(displacement, time);
+    const auto found  = terms(places);
+    if (found.empty())
+      return;
+    pattern.make_room(A, coupled_pairs(found, surfaces));
+    for (const auto &term : found)
+      add_to_rows(A,
+                  factor,
+                  potential().second_derivatives(term, places),
+                  term,
+                  surfaces,
+                  solid.locally_owned());
+    A.compress(dealii::VectorOperation::add);
+  }
+
+
+  template <int dim>
+  void
+  BodyContact<dim>::begin_stage() const
+  {
+    pattern.clear();
+  }
+
+
+  template <int dim>
+  Columns
+  BodyContact<dim>::columns(const Vector &displacement, const double time) const
+  {
+    const auto             places = surfaces.places(displacement, time);
+    const auto             found  = terms(places);
+    double                 least  = settings.gap;
+    Forces                 forces(surfaces.n_bodies());
+    std::set<unsigned int> nodes;
+    for (const auto &term : found)
+      {
+        least = std::min(least, term.distance);
+        nodes.insert(term.nodes[0]);
+      }
+    const auto of_nodes = nodal_forces(found, places);
+    for (unsigned int node = 0; node < of_nodes.size(); ++node)
+      forces[surfaces.surface_of_node(node)] += of_nodes[node];
+
+    Columns result{{"contact energy", "J", energy(found, places)},
+                   {"least gap", "m", least},
+                   {"nodes in contact", "1", double(nodes.size())}};
+    for (unsigned int body = 0; body < forces.size(); ++body)
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        result.push_back(
+          {"contact force " + surfaces.surface().body_names()[body] + " " + "xyz"[axis],
+           "N",
+           forces[body][axis]});
+    return result;
+  }
+
+
+  template <int dim>
+  std::shared_ptr<const Contact<dim>>
+  make_contact(const ContactSettings<dim> &settings,
+               const SolidModel<dim>      &solid,
+               const FluidModel<dim>      *fluid,
+               const Obstacles<dim>       *obstacles)
+  {
+    return std::make_shared<const BodyContact<dim>>(settings, solid, fluid, obstacles);
+  }
+
+
+  template <int dim>
+  std::shared_ptr<const Contact<dim>>
+  make_contact(const Contact<dim>     &all,
+               const SolidModel<dim>  &solid,
+               const BodySurface<dim> &bodies)
+  {
+    return std::make_shared<const BodyContact<dim>>(
+      dynamic_cast<const BodyContact<dim> &>(all), solid, bodies);
+  }
+
+
+#define UNDINE_INSTANTIATE(dim)                                                           \
+  template class BodyContact<dim>;                                                        \
+  template std::shared_ptr<const Contact<dim>> make_contact(const ContactSettings<dim> &, \
+                                                            const SolidModel<dim> &,      \
+                                                            const FluidModel<dim> *,      \
+                                                            const Obstacles<dim> *);      \
+  template std::shared_ptr<const Contact<dim>> make_contact(                              \
+    const Contact<dim> &, const SolidModel<dim> &, const BodySurface<dim> &);
+
+  UNDINE_INSTANTIATE(2)
+  UNDINE_INSTANTIATE(3)
+#undef UNDINE_INSTANTIATE
+} // namespace undine

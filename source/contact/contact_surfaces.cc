@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/contact/contact_surfaces.h>
+#include <undine/surface/surface_distance.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace undine
+{
+  namespace
+  {
+    /// Bodies, then obstacles.
+    template <int dim>
+    Surface<dim>
+    side_by_side(const Surface<dim> &bodies, const Obstacles<dim> *obstacles)
+    {
+      if (!obstacles)
+        return bodies;
+      const auto               &others = obstacles->surface();
+      auto                      facets = bodies.facets();
+      auto                      names  = bodies.body_names();
+      std::vector<unsigned int> owners;
+      for (unsigned int facet = 0; facet < bodies.facets().size(); ++facet)
+        owners.push_back(bodies.body(facet));
+      for (unsigned int facet = 0; facet < others.facets().size(); ++facet)
+        {
+          facets.push_back(others.facets()[facet]);
+          for (auto &node : facets.back())
+            node += bodies.n_nodes();
+          owners.push_back(bodies.body_names().size() + others.body(facet));
+        }
+      names.insert(names.end(), others.body_names().begin(), others.body_names().end());
+      return Surface<dim>(bodies.n_nodes() + others.n_nodes(), facets, owners, names);
+    }
+
+
+    /// Does fluid neither enter nor leave anywhere on this side?
+    template <int dim>
+    bool
+    is_wall(const FluidModel<dim> &fluid, const Side side)
+    {
+      if (fluid.grid().periodic(side.axis))
+        return false;
+      const auto    &along = fluid.grid().cells_along();
+      GridIndex<dim> cell{};
+      for (;;)
+        {
+          const auto &boundary = fluid.boundaries().at(side, cell);
+          if (boundary.is_open() || boundary.kind == BoundaryKind::inflow)
+            return false;
+          unsigned int axis = 0;
+          while (axis < dim && (axis == side.axis || ++cell[axis] == along[axis]))
+            cell[axis++] = 0;
+          if (axis == dim)
+            return true;
+        }
+    }
+
+
+    /// The integrals of the shape functions over the bodies' boundary at rest, with which a uniform
+    /// pressure is in balance with a uniform stress.
+    template <int dim>
+    void
+    add_areas_of_bodies(std::vector<double>    &areas,
+                        const SolidModel<dim>  &solid,
+                        const BodySurface<dim> &surface)
+    {
+      std::unordered_map<dealii::types::global_dof_index, unsigned int> nodes;
+      for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+        nodes[surface.dofs_of_node(node)[0]] = node;
+      const auto                                  &element = solid.dof_handler().get_fe();
+      dealii::FEFaceValues<dim>                    values(solid.mapping(),
+                                       element,
+                                       dealii::QGauss<dim - 1>(element.degree + 1),
+                                       dealii::update_values | dealii::update_JxW_values);
+      std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
+      for (const auto &cell : solid.dof_handler().active_cell_iterators())
+        for (const unsigned int face : cell->face_indices())
+          if (cell->at_boundary(face))
+            {
+              values.reinit(cell, face);
+              cell->get_dof_indices(dofs);
+              for (unsigned int i = 0; i < dofs.size(); ++i)
+                if (element.system_to_component_index(i).first == 0 &&
+                    element.has_support_on_face(i, face))
+                  for (const unsigned int q : values.quadrature_point_indices())
+                    areas[nodes.at(dofs[i])] += values.shape_value(i, q) * values.JxW(q);
+            }
+    }
+  } // namespace
+
+
+  template <int dim>
+  Surface<dim>
+  one_surface(const Surface<dim> &all, const unsigned int surface)
+  {
+    std::vector<typename Surface<dim>::Facet> facets;
+    for (unsigned int facet = 0; facet < all.facets().size(); ++facet)
+      if (all.body(facet) == surface)
+        facets.push_back(all.facets()[facet]);
+    const std::vector<unsigned int> owners(facets.size(), 0);
+    return Surface<dim>(all.n_nodes(), facets, owners, {all.body_names()[surface]});
+  }
+
+
+  template <int dim>
+  ContactSurfaces<dim>::ContactSurfaces(const ContactSettings<dim> &settings,
+                                        const SolidModel<dim>      &solid,
+                                        const FluidModel<dim>      *fluid,
+                                        const Obstacles<dim>       *obstacles)
+    : body_surface(solid)
+    , obstacles(obstacles)
+    , all_facets(side_by_side(body_surface.surface(), obstacles))
+    , all_walls(settings.walls)
+    , surfaces_of_nodes(all_facets.n_nodes())
+  {
+    if (fluid && settings.at_domain)
+      add_domain_walls(*fluid);
+    for (unsigned int facet = 0; facet < all_facets.facets().size(); ++facet)
+      for (const unsigned int node : all_facets.facets()[facet])
+        surfaces_of_nodes[node] = all_facets.body(facet);
+    const auto rest = places(solid.vector(), 0);
+    measure(solid, rest);
+    all_edges = find_sharp_edges(all_facets, rest);
+    find_held(solid, rest);
+  }
+
+
+  template <int dim>
+  ContactSurfaces<dim>::ContactSurfaces(const ContactSurfaces &all, const BodySurface<dim> &bodies)
+    : body_surface(bodies)
+    , obstacles(all.obstacles)
+    , all_facets(all.all_facets)
+    , all_walls(all.all_walls)
+    , surfaces_of_nodes(all.surfaces_of_nodes)
+    , areas(all.areas)
+    , all_edges(all.all_edges)
+    , held(all.held)
+    , grown_together(all.grown_together)
+    , least_size(all.least_size)
+  {
+  }
+
+
+  template <int dim>
+  void
+  ContactSurfaces<dim>::add_domain_walls(const FluidModel<dim> &fluid)
+  {
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      for (unsigned int end = 0; end < 2; ++end)
+        if (const Side side{axis, end}; is_wall(fluid, side))
+          {
+            ContactWall<dim> wall;
+            wall.name         = side_names()[side.number()];
+            wall.point        = end == 0 ? fluid.grid().lower() : fluid.grid().upper();
+            wall.normal[axis] = -side.sign();
+            all_walls.push_back(wall);
+          }
+  }
+
+
+  template <int dim>
+  void
+  ContactSurfaces<dim>::measure(const SolidModel<dim> &solid, const Places &rest)
+  {
+    std::vector<double>       sums(all_facets.body_names().size());
+    std::vector<unsigned int> counts(sums.size());
+    areas.resize(all_facets.n_nodes());
+    for (unsigned int facet = 0; facet < all_facets.facets().size(); ++facet)
+      {
+        const double area = area_vector(all_facets, facet, rest).norm();
+        sums[all_facets.body(facet)] += area;
+        ++counts[all_facets.body(facet)];
+        if (!is_body(all_facets.body(facet)))
+          for (const unsigned int node : all_facets.facets()[facet])
+            areas[node] += area / dim;
+      }
+    add_areas_of_bodies(areas, solid, body_surface);
+    least_size = std::numeric_limits<double>::infinity();
+    for (unsigned int body = 0; body < n_bodies(); ++body)
+      least_size = std::min(least_size, std::pow(sums[body] / counts[body], 1. / (dim - 1)));
+    const auto   first_obstacle = areas.begin() + body_surface.n_nodes();
+    const double most           = *std::max_element(areas.begin(), first_obstacle);
+    std::for_each(first_obstacle, areas.end(), [&](double &area) { area = std::min(area, most); });
+  }
+
+
+  template <int dim>
+  void
+  ContactSurfaces<dim>::find_held(const SolidModel<dim> &solid, const Places &rest)
+  {
+    // Gaps that are nothing but rounding of places.
+    const double              rounding = 1e-9 * least_size;
+    std::vector<unsigned int> fixed_nodes;
+    for (unsigned int node = 0; node < body_surface.n_nodes(); ++node)
+      {
+        const auto &dofs = body_surface.dofs_of_node(node);
+        if (std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) {
+              return solid.all_fixed().is_element(dof);
+            }))
+          fixed_nodes.push_back(node);
+      }
+    held.assign(n_bodies(), std::vector<bool>(all_walls.size()));
+    for (const unsigned int node : fixed_nodes)
+      for (unsigned int wall = 0; wall < all_walls.size(); ++wall)
+        if ((rest[node] - all_walls[wall].point) * all_walls[wall].normal <= rounding)
+          held[surfaces_of_nodes[node]][wall] = true;
+    find_grown_together(fixed_nodes, rest);
+  }
+
+
+  template <int dim>
+  void
+  ContactSurfaces<dim>::find_grown_together(const std::vector<unsigned int> &fixed_nodes,
+                                            const Places                    &rest)
+  {
+    const unsigned int n_surfaces = all_facets.body_names().size();
+    grown_together.assign(n_surfaces, std::vector<bool>(n_surfaces));
+    if (fixed_nodes.empty())
+      return;
+    const double rounding = 1e-9 * least_size;
+    for (unsigned int surface = 0; surface < n_surfaces; ++surface)
+      {
+        const SurfaceDistance<dim> distance(one_surface(all_facets, surface), rest);
+        const auto                 box = distance.box();
+        for (const unsigned int node : fixed_nodes)
+          if (const unsigned int body = surfaces_of_nodes[node];
+              body != surface && !grown_together[body][surface] &&
+              box.point_inside(rest[node], 1e-9) &&
+              distance.nearest(rest[node]).distance <= rounding)
+            grown_together[body][surface] = grown_together[surface][body] = true;
+      }
+  }
+
+
+  template <int dim>
+  typename ContactSurfaces<dim>::Places
+  ContactSurfaces<dim>::places(const Vector &displacement, const double time) const
+  {
+    auto result = body_surface.positions(displacement);
+    if (obstacles)
+      for (const auto &place : obstacles->positions(time))
+        result.push_back(place);
+    return result;
+  }
+
+
+  template Surface<2>
+  one_surface(const Surface<2> &, const unsigned int);
+  template Surface<3>
+  one_surface(const Surface<3> &, const unsigned int);
+  template class ContactSurfaces<2>;
+  template class ContactSurfaces<3>;
+} // namespace undine

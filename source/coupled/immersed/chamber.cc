@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/parallel/throw_together.h>
+#include <undine/coupled/immersed/chamber.h>
+#include <undine/coupled/immersed/fluid_geometry.h>
+#include <undine/fluid/boundary/side_faces.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/grid/fluid_regions.h>
+#include <undine/operators/pressure_place_at.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// For each owned pressure, in the order of its number: is it in the region around the point?
+    template <int dim>
+    std::vector<bool>
+    region_around(const dealii::Point<dim>                         &point,
+                  const MacGrid<dim>                               &grid,
+                  const PressureNumbers<dim>                       &numbers,
+                  const typename CharacteristicTracer<dim>::Bodies &bodies)
+    {
+      const FluidRegions<dim> regions(grid, numbers);
+      int                     found = -1;
+      std::string             complaint;
+      if (grid.cells()->owned().contains(grid.cell_at(point)))
+        try
+          {
+            const auto place =
+              pressure_place_at(point, grid, bodies.topology.get(), bodies.obstruction);
+            found = regions.of_pressures()[numbers.owned().index_within_set(numbers.of(place))];
+          }
+        catch (const SolveError &error)
+          {
+            complaint =
+              fmt::format("The point ({:.6g}) of a chamber {}. Try: a place farther away from the "
+                          "bodies.",
+                          fmt::join(point.begin_raw(), point.begin_raw() + dim, ", "),
+                          error.what());
+          }
+      throw_together(complaint, grid.communicator());
+      found = dealii::Utilities::MPI::max(found, grid.communicator());
+      std::vector<bool> result;
+      for (const unsigned int region : regions.of_pressures())
+        result.push_back(static_cast<int>(region) == found);
+      return result;
+    }
+
+
+    template <int dim>
+    double
+    volume_around(const dealii::Point<dim>                         &point,
+                  const MacGrid<dim>                               &grid,
+                  const typename CharacteristicTracer<dim>::Bodies &bodies)
+    {
+      const PressureNumbers<dim> numbers(grid, bodies.topology);
+      const auto                 is_in = region_around(point, grid, numbers, bodies);
+      Field<dim>                 volumes(grid.cells(), bodies.topology);
+      set_volumes(volumes, grid);
+      std::size_t k   = 0;
+      double      sum = 0;
+      for_each_value(volumes, [&](const double volume, const auto &, const auto &) {
+        sum += is_in[k++] ? volume : 0;
+      });
+      return dealii::Utilities::MPI::sum(sum, grid.communicator());
+    }
+
+
+    template <int dim>
+    double
+    inflow_around(const dealii::Point<dim>                         &point,
+                  const FluidModel<dim>                            &model,
+                  const typename CharacteristicTracer<dim>::Bodies &bodies,
+                  const Velocity<dim>                              &velocity)
+    {
+      const auto                &grid = model.grid();
+      const PressureNumbers<dim> numbers(grid, bodies.topology);
+      const auto                 is_in = region_around(point, grid, numbers, bodies);
+      const auto                *open  = bodies.topology.get();
+      double                     sum   = 0;
+      for_each_side_face(model.grid(), open, [&](const SideFace<dim> &face, const auto &) {
+        const auto number = numbers.of(place_inside(open, face));
+        if (is_in[numbers.owned().index_within_set(number)])
+          sum -= outward_flux(grid, velocity, face);
+      });
+      return dealii::Utilities::MPI::sum(sum, grid.communicator());
+    }
+
+
+    /// The grid, cut where the surfaces' nodes are at `positions`.
+    template <int dim>
+    std::unique_ptr<FluidGeometry<dim>>
+    cut_at(const Models<dim> &models, const std::vector<dealii::Point<dim>> &positions)
+    {
+      auto result = std::make_unique<FluidGeometry<dim>>(models);
+      result->place(
+        positions, positions, typename FluidGeometry<dim>::Velocities(positions.size()));
+      return result;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<std::optional<double>>
+  chamber_volumes(const Models<dim>                     &models,
+                  const std::vector<dealii::Point<dim>> &positions,
+                  const std::vector<dealii::Point<dim>> &points)
+  {
+    const auto                         geometry = cut_at(models, positions);
+    std::vector<std::optional<double>> result(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k)
+      try
+        {
+          result[k] = volume_around(points[k], models.fluid->grid(), geometry->bodies());
+        }
+      catch (const SolveError &)
+        {
+          // Not in the fluid, on all ranks together.
+        }
+    return result;
+  }
+
+
+  template <int dim>
+  Chamber
+  measure_chamber(const Models<dim>        &models,
+                  const State<dim>         &state,
+                  const dealii::Point<dim> &point)
+  {
+    const auto &model = *models.fluid;
+    if (!models.surface)
+      return {volume_around<dim>(point, model.grid(), {}),
+              inflow_around<dim>(point, model, {}, state.fluid.velocity)};
+    const auto   now    = cut_at(models, models.surface->positions(state.solid, state.clock.time));
+    const double volume = volume_around(point, model.grid(), now->bodies());
+    // The velocity belongs to where the grid was cut for it.
+    const auto before = geometry_of(models, state);
+    return {volume, inflow_around(point, model, before->bodies(), state.fluid.velocity)};
+  }
+
+
+  template std::vector<std::optional<double>>
+  chamber_volumes(const Models<2> &,
+                  const std::vector<dealii::Point<2>> &,
+                  const std::vector<dealii::Point<2>> &);
+  template std::vector<std::optional<double>>
+  chamber_volumes(const Models<3> &,
+                  const std::vector<dealii::Point<3>> &,
+                  const std::vector<dealii::Point<3>> &);
+  template Chamber
+  measure_chamber(const Models<2> &, const State<2> &, const dealii::Point<2> &);
+  template Chamber
+  measure_chamber(const Models<3> &, const State<3> &, const dealii::Point<3> &);
+} // namespace undine

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/immersed/chamber.h>
+#include <undine/coupled/immersed/chamber_volumes.h>
+#include <undine/operators/boundary_flux.h>
+
+namespace undine
+{
+  template <int dim>
+  ChamberVolumes<dim>::ChamberVolumes(const Models<dim>          &models,
+                                      const FluidGeometry<dim>   &geometry,
+                                      const PressureNumbers<dim> &numbers,
+                                      const Stage                &stage,
+                                      const double                time,
+                                      Positions                   before)
+    : surface(models.surface->surface())
+    , geometry(geometry)
+    , chambers(*models.fluid, numbers)
+    , length(stage.length)
+    , before(std::move(before))
+  {
+    if (empty())
+      return;
+    areas = geometry.cut_topology().of_fluid_topology(
+      wetted_areas(geometry.cut_cells(), surface, models.surface->n_body_nodes()));
+    region_areas = chambers.sums_on_components(areas);
+    gained       = gained_until_cut(models);
+    earlier.resize(chambers.size(), 0.);
+    for (const auto &part : stage.earlier)
+      if (part.length != 0)
+        {
+          const auto outflow = chambers.held_outflow(time + part.at);
+          for (std::size_t region = 0; region < earlier.size(); ++region)
+            earlier[region] += part.length * outflow[region];
+        }
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  ChamberVolumes<dim>::gained_until_cut(const Models<dim> &models) const
+  {
+    const auto &cut_at = geometry.surface_positions();
+    Vectors     increment(cut_at.size());
+    for (std::size_t node = 0; node < increment.size(); ++node)
+      increment[node] = cut_at[node] - before[node];
+    auto        result   = swept(before, increment);
+    const auto  at_start = chamber_volumes(models, before, chambers.places_within());
+    const auto &volumes  = chambers.volumes_of_regions();
+    for (std::size_t region = 0; region < result.size(); ++region)
+      if (at_start[region])
+        {
+          // Another one, if chambers have parted or met since.
+          constexpr double the_same = 1e-3;
+          const double     exact    = volumes[region] - *at_start[region];
+          if (std::abs(exact - result[region]) <= the_same * volumes[region])
+            result[region] = exact;
+        }
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  ChamberVolumes<dim>::swept(const Positions &from, const Vectors &increment) const
+  {
+    return chambers.sums_on_components(geometry.cut_topology().of_fluid_topology(
+      swept_volumes(geometry.cut_cells(), surface, geometry.surface_positions(), from, increment)));
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  ChamberVolumes<dim>::missing_fluxes(const std::vector<double> &fluxes,
+                                      const Vectors             &increment) const
+  {
+    const auto &cut_at = geometry.surface_positions();
+    auto        rest   = increment;
+    for (std::size_t node = 0; node < rest.size(); ++node)
+      rest[node] -= cut_at[node] - before[node];
+    const auto          then   = swept(cut_at, rest);
+    const auto          pushed = chambers.sums_on_components(fluxes);
+    std::vector<double> speeds(chambers.size(), 0.);
+    for (std::size_t region = 0; region < speeds.size(); ++region)
+      if (region_areas[region] > 0)
+        speeds[region] =
+          ((gained[region] + then[region] + earlier[region]) / length - pushed[region]) /
+          region_areas[region];
+    auto       result  = fluxes;
+    const auto regions = chambers.of_components();
+    for (std::size_t c = 0; c < result.size(); ++c)
+      result[c] = regions[c] >= 0 ? speeds[regions[c]] * areas[c] : 0.;
+    return result;
+  }
+
+
+  template class ChamberVolumes<2>;
+  template class ChamberVolumes<3>;
+} // namespace undine

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/immersed/chamber_volumes.h>
+#include <undine/coupled/immersed/surface_flux.h>
+#include <undine/operators/flux_matrix.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// B u.
+    template <int dim>
+    class InitialFlux : public SurfaceFlux<dim>
+    {
+    public:
+      using Vector = typename SurfaceFlux<dim>::Vector;
+
+      InitialFlux(const Models<dim>          &models,
+                  const FluidGeometry<dim>   &geometry,
+                  const PressureNumbers<dim> &numbers)
+        : SurfaceFlux<dim>(models, geometry, numbers)
+      {
+        this->use(geometry.boundary_flux());
+      }
+
+      void
+      move(const Vector &velocity) override
+      {
+        this->velocities = this->models.surface->with_bodies(velocity, this->velocities);
+      }
+
+      double
+      factor() const override
+      {
+        return 1;
+      }
+    };
+
+
+    /// B u with B of the end of the stage, and chambers that keep their volumes.
+    template <int dim>
+    class FluxAtEnd : public SurfaceFlux<dim>
+    {
+    public:
+      using Vector = typename SurfaceFlux<dim>::Vector;
+
+      FluxAtEnd(const Models<dim>          &models,
+                const FluidGeometry<dim>   &geometry,
+                const PressureNumbers<dim> &numbers,
+                const SolidEquations<dim>  &solid,
+                const BodiesInStage<dim>   &bodies)
+        : SurfaceFlux<dim>(models, geometry, numbers)
+        , solid(solid)
+        , increment(bodies.increment)
+        , chambers(models, geometry, numbers, bodies.stage, bodies.time, bodies.before)
+      {
+        this->use(geometry.boundary_flux());
+      }
+
+      void
+      move(const Vector &velocity) override
+      {
+        const auto &surface = *this->models.surface;
+        this->velocities    = surface.with_bodies(velocity, this->velocities);
+        if (chambers.empty())
+          return;
+        auto       whole_increment = increment;
+        const auto further         = surface.with_bodies(
+          solid.increment(velocity), typename FluidGeometry<dim>::Velocities(increment.size()));
+        for (std::size_t node = 0; node < increment.size(); ++node)
+          whole_increment[node] += further[node];
+        this->further.clear();
+        this->further = chambers.missing_fluxes(this->fluxes(), whole_increment);
+      }
+
+      double
+      factor() const override
+      {
+        return 1;
+      }
+
+    private:
+      const SolidEquations<dim>                    &solid;
+      const typename FluidGeometry<dim>::Velocities increment; ///< to the start of the stage [m]
+      const ChamberVolumes<dim>                     chambers;
+    };
+
+
+    /// The mean of B between d^n and d^{n+1}, times (d^{n+1} - d^n) / h.
+    template <int dim>
+    class SweptFlux : public SurfaceFlux<dim>
+    {
+    public:
+      using Vector = typename SurfaceFlux<dim>::Vector;
+
+      SweptFlux(const Models<dim>          &models,
+                const FluidGeometry<dim>   &geometry,
+                const PressureNumbers<dim> &numbers,
+                const SolidEquations<dim>  &solid,
+                const double                dt)
+        : SurfaceFlux<dim>(models, geometry, numbers)
+        , solid(solid)
+        , dt(dt)
+      {
+      }
+
+      void
+      move(const Vector &velocity) override
+      {
+        // Not from d^{n+1}: near rest its rounding is more than what Newton's method may leave.
+        Vector mean_velocity = solid.increment(velocity);
+        mean_velocity *= 1 / dt;
+        this->velocities   = this->models.surface->with_bodies(mean_velocity, this->velocities);
+        const auto &before = this->geometry.surface_positions();
+        auto        after  = before;
+        for (std::size_t node = 0; node < after.size(); ++node)
+          after[node] += dt * this->velocities[node];
+        mean = std::make_unique<const BoundaryFlux<dim>>(
+          this->geometry.cut_cells(), this->models.surface->surface(), before, after);
+        this->use(*mean);
+      }
+
+      double
+      factor() const override
+      {
+        return solid.displacement_factor() / dt;
+      }
+
+    private:
+      const SolidEquations<dim>               &solid;
+      const double                             dt;
+      std::unique_ptr<const BoundaryFlux<dim>> mean;
+    };
+  } // namespace
+
+
+  template <int dim>
+  SurfaceFlux<dim>::SurfaceFlux(const Models<dim>          &models,
+                                const FluidGeometry<dim>   &geometry,
+                                const PressureNumbers<dim> &numbers)
+    : models(models)
+    , geometry(geometry)
+    , numbers(numbers)
+    , velocities(geometry.surface_velocities())
+  {
+  }
+
+
+  template <int dim>
+  void
+  SurfaceFlux<dim>::use(const BoundaryFlux<dim> &new_operator)
+  {
+    flux_operator = &new_operator;
+    build_flux_matrix(
+      flux_matrix, new_operator, geometry.cut_topology(), numbers, *models.surface, *models.solid);
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  SurfaceFlux<dim>::fluxes() const
+  {
+    auto result = geometry.cut_topology().of_fluid_topology(flux_operator->flux(velocities));
+    for (std::size_t c = 0; c < further.size(); ++c)
+      result[c] += further[c];
+    return result;
+  }
+
+
+  template <int dim>
+  typename FluidGeometry<dim>::Velocities
+  SurfaceFlux<dim>::nodal_forces(const Field<dim> &pressure) const
+  {
+    return undine::nodal_forces(*flux_operator,
+                                geometry.cut_topology().of_cut_cells(pressure.parts()),
+                                models.solid->communicator());
+  }
+
+
+  template <int dim>
+  typename SurfaceFlux<dim>::Vector
+  SurfaceFlux<dim>::forces(const Field<dim> &pressure) const
+  {
+    auto result = models.solid->vector();
+    models.surface->add_to_bodies(result, nodal_forces(pressure));
+    return result;
+  }
+
+
+  template <int dim>
+  BodiesInStage<dim>::BodiesInStage(const Models<dim> &models,
+                                    const State<dim>  &state,
+                                    const Stage       &stage,
+                                    const double       time)
+    : stage(stage)
+    , time(time)
+  {
+    if (!stage.keeps_rates)
+      return;
+    const auto &surface  = *models.surface;
+    const auto  at_start = surface.positions(state.solid, time);
+    before               = at_start;
+    const auto arrived   = surface.positions(state.solid, time + stage.end);
+    increment.resize(before.size());
+    for (std::size_t node = surface.n_body_nodes(); node < increment.size(); ++node)
+      increment[node] = arrived[node] - before[node];
+    increment = surface.with_bodies(state.increment, increment);
+    for (std::size_t node = 0; node < surface.n_body_nodes(); ++node)
+      before[node] -= increment[node];
+  }
+
+
+  template <int dim>
+  std::unique_ptr<SurfaceFlux<dim>>
+  make_surface_flux(const std::string          &kind,
+                    const Models<dim>          &models,
+                    const FluidGeometry<dim>   &geometry,
+                    const PressureNumbers<dim> &numbers,
+                    const SolidEquations<dim>  &solid,
+                    const BodiesInStage<dim>   &bodies)
+  {
+    if (bodies.stage.keeps_rates)
+      return std::make_unique<FluxAtEnd<dim>>(models, geometry, numbers, solid, bodies);
+    if (kind == "swept")
+      return std::make_unique<SweptFlux<dim>>(
+        models, geometry, numbers, solid, bodies.stage.length);
+    return std::make_unique<InitialFlux<dim>>(models, geometry, numbers);
+  }
+
+
+#define UNDINE_INSTANTIATE(dim)                                                              \
+  template class SurfaceFlux<dim>;                                                           \
+  template struct BodiesInStage<dim>;                                                        \
+  template std::unique_ptr<SurfaceFlux<dim>> make_surface_flux(const std::string &,          \
+                                                               const Models<dim> &,          \
+                                                               const FluidGeometry<dim> &,   \
+                                                               const PressureNumbers<dim> &, \
+                                                               const SolidEquations<dim> &,  \
+                                                               const BodiesInStage<dim> &);
+
+  UNDINE_INSTANTIATE(2)
+  UNDINE_INSTANTIATE(3)
+#undef UNDINE_INSTANTIATE
+} // namespace undine

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/immersed/node_masses.h>
+#include <undine/coupled/immersed/surface_friction.h>
+#include <undine/operators/make_no_slip_surfaces.h>
+
+#include <cmath>
+
+namespace undine
+{
+  namespace
+  {
+    template <int dim>
+    bool
+    has_sticky_surfaces(const Models<dim> &models)
+    {
+      return models.fluid && models.surface && models.has_friction();
+    }
+  } // namespace
+
+
+  template <int dim>
+  SurfaceFriction<dim>::SurfaceFriction(const Models<dim> &models)
+    : models(models)
+    , masses(has_sticky_surfaces(models) ? node_masses(models) : Vectors())
+    , last_forces(has_sticky_surfaces(models) ? models.surface->surface().n_nodes() : 0)
+  {
+  }
+
+
+  template <int dim>
+  std::shared_ptr<const NoSlipSurfaces<dim>>
+  SurfaceFriction<dim>::walls(const FluidGeometry<dim> &geometry)
+  {
+    if (known_walls && cut_by == geometry.bodies().topology)
+      return known_walls;
+    auto found   = make_no_slip_surfaces(models.fluid->grid(),
+                                       geometry.cut_cells(),
+                                       geometry.cut_topology(),
+                                       geometry.boundary_flux(),
+                                       {models.surface->surface(), geometry.surface_positions()});
+    found.masses = masses;
+    cut_by       = geometry.bodies().topology;
+    known_walls  = std::make_shared<const NoSlipSurfaces<dim>>(std::move(found));
+    return known_walls;
+  }
+
+
+  template <int dim>
+  typename SurfaceFriction<dim>::Vectors
+  SurfaceFriction<dim>::start(const State<dim>         &state,
+                              const FluidGeometry<dim> &geometry,
+                              const double              dt)
+  {
+    started     = geometry.surface_velocities();
+    auto result = started;
+    if (!state.other_forces.empty())
+      for (std::size_t node = 0; node < masses.size(); ++node)
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          if (std::isfinite(masses[node][axis]))
+            result[node][axis] += dt * state.other_forces[node][axis] / masses[node][axis];
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  SurfaceFriction<dim>::end(State<dim> &state, const FluidStep<dim> &fluid)
+  {
+    last_forces = fluid.friction->on_nodes;
+    if (!models.solid)
+      return;
+    const auto now     = models.surface->with_bodies(state.solid.velocity, started);
+    state.other_forces = Vectors(now.size());
+    for (std::size_t node = 0; node < masses.size(); ++node)
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          const double mass   = masses[node][axis];
+          const double change = now[node][axis] - started[node][axis];
+          state.other_forces[node][axis] =
+            (std::isfinite(mass) ? mass * change / fluid.dt : 0) - last_forces[node][axis];
+        }
+  }
+
+
+  template class SurfaceFriction<2>;
+  template class SurfaceFriction<3>;
+} // namespace undine

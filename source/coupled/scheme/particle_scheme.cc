@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/base/parallel/interruption.h>
+#include <undine/coupled/scheme/particle_scheme.h>
+#include <undine/particles/execution/phases.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace undine
+{
+  namespace
+  {
+    template <int dim>
+    std::size_t
+    count_fluid(const particles::ParticleState<dim> &state)
+    {
+      return std::count_if(state.tags.begin(), state.tags.end(), [](const auto tag) {
+        return tag.kind() == particles::Kind::fluid;
+      });
+    }
+
+
+    /// What went wrong in a frame without ending it.
+    std::string
+    complaint(const particles::StepControl &control)
+    {
+      std::vector<std::string> parts;
+      if ((control.failures & static_cast<unsigned int>(particles::Failure::outside)) != 0)
+        parts.push_back("a particle left the room");
+      const auto add_solver = [&](const particles::SolverRecord &solver, const std::string &name) {
+        if (solver.not_converged > 0)
+          parts.push_back(
+            fmt::format("the {} solver stopped above its tolerance in {} sub-step(s), "
+                        "at worst at {:.2g}",
+                        name,
+                        solver.not_converged,
+                        solver.worst_residual));
+      };
+      add_solver(control.pressure, "pressure");
+      add_solver(control.faces, "faces'");
+      return fmt::format("{}", fmt::join(parts, "; "));
+    }
+
+
+    /// How far a frame is, and what has bounded most of its sub-steps since `before`.
+    std::string
+    progress_of_frame(const particles::StepControl &now, const particles::StepControl &before)
+    {
+      static const std::array<const char *, static_cast<int>(particles::Bound::count)> words{
+        {"as long as allowed", "bounded by speed", "bounded by waves", "bounded by viscosity"}};
+      unsigned int most = 0, which = 0;
+      for (unsigned int bound = 0; bound < words.size(); ++bound)
+        {
+          const unsigned int times = now.bounded_by[bound] - before.bounded_by[bound];
+          if (times > most)
+            which = bound;
+          most = std::max(most, times);
+        }
+      return fmt::format("{} sub-steps, {:.1f} % of the frame; now {:.3g} s each, {}",
+                         now.sub_steps,
+                         100 * now.elapsed / now.frame,
+                         now.dt,
+                         words[which]);
+    }
+  } // namespace
+
+
+  template <int dim>
+  void
+  ParticleScheme<dim>::add_options(const Options &options)
+  {
+    options.section("Time").add("Step",
+                                frame,
+                                "s",
+                                Allowed::positive(),
+                                "Length of a frame, which is computed in as many sub-steps as it "
+                                "needs; statistics have one row for it.");
+    if (options.is_reference())
+      ParticleModel<dim>::declare(options);
+  }
+
+
+  template <int dim>
+  Report
+  ParticleScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &tree)
+  {
+    model             = models.particles.get();
+    timing            = &tree;
+    const auto  names = Registry<particles::EngineFactory<dim>>::instance().joined_names();
+    const auto &name  = model->numerics().executor;
+    if (!Registry<particles::EngineFactory<dim>>::instance().contains(name))
+      throw InputError("this program has no executor '" + name +
+                       "' for particles; it has: " + names);
+    engine = Registry<particles::EngineFactory<dim>>::instance().make(name)->make(
+      model->numerics().precision, model->numerics().device);
+
+    state.particles = model->initial_state();
+    load(state);
+    if (name == "host")
+      engine->time_phases(); // which costs nothing there
+    Report report;
+    fetch(state.particles, report, particles::StepControl());
+    report.note = engine->describe();
+    for (const auto &remark : model->notes())
+      report.note += "\nnote: " + remark;
+    return report;
+  }
+
+
+  template <int dim>
+  double
+  ParticleScheme<dim>::choose_dt(const State<dim> &state) const
+  {
+    return state.clock.land(frame);
+  }
+
+
+  template <int dim>
+  void
+  ParticleScheme<dim>::follow(typename Scheme<dim>::Follower new_follower)
+  {
+    constexpr double pause = 1; // [s]
+    follower               = std::move(new_follower);
+    if (follower)
+      engine->watch([this](const particles::StepControl &control) { return tell(control); }, pause);
+    else
+      engine->watch({}, pause);
+  }
+
+
+  template <int dim>
+  bool
+  ParticleScheme<dim>::tell(const particles::StepControl &control)
+  {
+    const bool goes_on = follower(progress_of_frame(control, told));
+    told               = control;
+    return goes_on;
+  }
+
+
+  template <int dim>
+  Report
+  ParticleScheme<dim>::step(State<dim> &state, const double dt)
+  {
+    const auto timed = timing->section("particles");
+    load(state);
+    is_loaded = false; // until the frame is known to be good
+    Report report;
+    report.dt = dt;
+    told      = particles::StepControl();
+    engine->move_walls(model->wall_paths(state.clock.time, dt));
+    const auto control = advance(state, dt);
+    auto       fetched = state.particles; // which stay as they are if the frame is no good
+    fetch(fetched, report, control);
+    assert_finite(report.columns);
+    report.linear_iterations = control.pressure.iterations;
+    report.note              = complaint(control);
+    if (!model->has_openings() && count_fluid(fetched) < count_fluid(state.particles))
+      report.note += fmt::format("{}{} particle(s) of fluid left the room around the domain",
+                                 report.note.empty() ? "" : "; ",
+                                 count_fluid(state.particles) - count_fluid(fetched));
+    state.particles = std::move(fetched);
+    auto clock      = state.clock; // as the driver will advance it
+    clock.advance(dt);
+    is_loaded   = true;
+    loaded_time = clock.time;
+    collect_seconds();
+    return report;
+  }
+
+
+  template <int dim>
+  particles::StepControl
+  ParticleScheme<dim>::advance(const State<dim> &state, const double dt)
+  {
+    try
+      {
+        return engine->advance(dt);
+      }
+    catch (const particles::FrameAbandoned &)
+      {
+        throw_if_interrupted(model->communicator());
+        throw; // the follower has reasons of its own
+      }
+    catch (const SolveError &reason)
+      {
+        if (!model->is_nearly_full(count_fluid(state.particles)))
+          throw;
+        throw SolveError(std::string(reason.what()) +
+                         " Fluid flows into the domain and nowhere out, and it is nearly full: try "
+                         "an outflow, an open side or an earlier 'Time / End'.");
+      }
+  }
+
+
+  template <int dim>
+  void
+  ParticleScheme<dim>::load(const State<dim> &state)
+  {
+    if (is_loaded && loaded_time == state.clock.time)
+      return;
+    engine->load(model->setup(), state.particles);
+    is_loaded   = true;
+    loaded_time = state.clock.time;
+    seconds.clear();
+  }
+
+
+  template <int dim>
+  void
+  ParticleScheme<dim>::fetch(particles::ParticleState<dim> &particles,
+                             Report                        &report,
+                             const particles::StepControl  &control) const
+  {
+    engine->fetch(particles);
+    report.columns = particle_columns(*model, control, engine->balance(), particles);
+  }
+
+
+  template <int dim>
+  void
+  ParticleScheme<dim>::collect_seconds()
+  {
+    for (const auto &[phase, total] : engine->seconds())
+      {
+        if (total == 0 || phase == name_of(particles::Phase::other))
+          continue; // the rest of the section says how long the others took
+        timing->add(phase, total - seconds[phase]);
+        seconds[phase] = total;
+      }
+  }
+
+
+  template <int dim>
+  Columns
+  particle_columns(const ParticleModel<dim>            &model,
+                   const particles::StepControl        &control,
+                   const particles::Balance<dim>       &balance,
+                   const particles::ParticleState<dim> &state)
+  {
+    using particles::Bound;
+    const auto bounded_by = [&](const Bound bound) {
+      return double(control.bounded_by[static_cast<int>(bound)]);
+    };
+    Columns    columns{{"Sub-steps", "1", double(control.sub_steps)},
+                    {"Smallest sub-step", "s", control.smallest_dt},
+                    {"Sub-steps as long as allowed", "1", bounded_by(Bound::asked)},
+                    {"Sub-steps bounded by speed", "1", bounded_by(Bound::speed)},
+                    {"Sub-steps bounded by waves", "1", bounded_by(Bound::waves)},
+                    {"Sub-steps bounded by viscosity", "1", bounded_by(Bound::viscosity)},
+                    {"Elastic sub-steps", "1", double(control.elastic_steps_total)},
+                    {"Most pressure iterations", "1", double(control.pressure.most_iterations)},
+                    {"Worst pressure residual", "1", control.pressure.worst_residual},
+                    {"Face iterations", "1", double(control.faces.iterations)},
+                    {"Fluid particles", "1", double(count_fluid(state))},
+                    {"Fluid particles in bodies", "1", double(balance.fluid_in_bodies)},
+                    {"Largest speed", "m/s", control.fastest},
+                    {"Kinetic energy of fluid", "J", balance.kinetic_fluid},
+                    {"Kinetic energy of bodies", "J", balance.kinetic_solid},
+                    {"Potential energy", "J", balance.potential},
+                    {"Elastic energy", "J", balance.elastic}};
+    const auto add_vector = [&](const std::string                    &name,
+                                const std::string                    &unit,
+                                const particles::Vector<dim, double> &vector) {
+      for (int axis = 0; axis < dim; ++axis)
+        columns.push_back({name + " " + char('x' + axis), unit, vector[axis]});
+    };
+    add_vector("Momentum", "kg m/s", balance.momentum);
+    for (std::size_t body = 0; body < model.body_names().size(); ++body)
+      {
+        const auto &name = model.body_names()[body];
+        columns.push_back(
+          {"Volume of " + name + " over that at rest", "1", balance.body_volumes[body]});
+        add_vector("Centre of " + name, "m", balance.body_centres[body]);
+        add_vector("Velocity of " + name, "m/s", balance.body_velocities[body]);
+      }
+    return columns;
+  }
+
+
+  template class ParticleScheme<2>;
+  template class ParticleScheme<3>;
+  template Columns
+  particle_columns(const ParticleModel<2> &,
+                   const particles::StepControl &,
+                   const particles::Balance<2> &,
+                   const particles::ParticleState<2> &);
+  template Columns
+  particle_columns(const ParticleModel<3> &,
+                   const particles::StepControl &,
+                   const particles::Balance<3> &,
+                   const particles::ParticleState<3> &);
+
+
+  namespace
+  {
+    const RegisterForDimensions<Scheme, ParticleScheme>
+      registered("particle", "Fluid and elastic bodies of particles, coupled by one pressure.");
+  }
+} // namespace undine

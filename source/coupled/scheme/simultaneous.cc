@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/scheme/stepping_scheme.h>
+#include <undine/coupled/step/coupled_step.h>
+#include <undine/coupled/step/fluid_side.h>
+#include <undine/coupled/step/solid_side.h>
+
+namespace undine
+{
+  /// The section `Coupling`.
+  struct CouplingSettings
+  {
+    std::string         boundary_flux = "initial"; ///< initial | swept
+    BlockSolverSettings solver;
+  };
+
+
+  /// Bodies in a fluid, solved together. A stage of length h from its start:
+  ///
+  ///  1. fluid: transport, forces, implicit terms of every effect that is on; v^n becomes v*
+  ///  2. Newton's method for u^{n+1} and p                                     (CoupledEquations)
+  ///  3. bodies: d^{n+1} from u^{n+1}; fluid: v^{n+1} = v* + h (rho V)^-1 D^T p
+  template <int dim>
+  class SimultaneousPhysics : public Physics<dim>
+  {
+  public:
+    SimultaneousPhysics(const Models<dim>      &models,
+                        Budget<dim>            &budget,
+                        TimingTree             &timing,
+                        const CouplingSettings &settings)
+      : Physics<dim>(models.communicator())
+      , models(models)
+      , budget(budget)
+      , timing(timing)
+      , settings(settings)
+      , fluid_side(models, budget, timing)
+      , solid_side(models, budget, timing)
+      , solver(*models.solid, settings.solver)
+      , motion_solver(*models.solid)
+    {
+    }
+
+    void
+    initialize(State<dim> &state, const double dt, Report &report) override
+    {
+      solid_side.initialize(state, dt);
+      Projection<dim> projection(*models.fluid);
+      fluid_side.initialize(state, projection, dt, report);
+      add_solver_columns(report);
+      solid_side.add_columns(report, state, state.clock.time);
+    }
+
+    void
+    step(State<dim> &state, const Stage &stage, Report &report) override
+    {
+      solid_side.start(state, stage);
+      const auto       fluid = fluid_side.predict(state, stage);
+      CoupledStep<dim> coupled({models,
+                                solid_side.mass(),
+                                solid_side.environment(),
+                                *fluid_side.geometry(),
+                                solver,
+                                motion_solver,
+                                timing},
+                               *fluid,
+                               state,
+                               settings.boundary_flux);
+      const auto       solid = coupled.solve();
+      solid_side.end(state, stage, solid);
+      if (stage.is_last)
+        balance(coupled, solid, stage.length);
+      fluid_side.finish(*fluid, state, report, coupled.divergence());
+      if (stage.is_last)
+        add_solver_columns(report);
+      solid_side.finish(state, stage, solid, report);
+    }
+
+    std::vector<dealii::Tensor<1, dim>>
+    loads_on_surfaces(const State<dim> &state, const double time) const override
+    {
+      return fluid_side.loads_on_surfaces(state, time);
+    }
+
+  private:
+    void
+    balance(const CoupledStep<dim> &step, const SolidReport<dim> &solid, const double dt)
+    {
+      if (!budget.is_on())
+        return;
+      const auto measured = timing.section("measure");
+      budget.add(step.pressure_balance(), dt);
+      budget.add(step.exchange(), dt);
+      budget.add(step.solid_balance(solid), dt);
+    }
+
+    void
+    add_solver_columns(Report &report) const
+    {
+      report.columns.push_back(
+        {"Most iterations of a solve", "1", double(solver.most_iterations())});
+    }
+
+    const Models<dim>      &models;
+    Budget<dim>            &budget;
+    TimingTree             &timing;
+    const CouplingSettings &settings;
+    FluidSide<dim>          fluid_side;
+    SolidSide<dim>          solid_side;
+    BlockSolver<dim>        solver;
+    TangentSolver<dim>      motion_solver;
+  };
+
+
+  /// The main scheme.
+  template <int dim>
+  class Simultaneous : public SteppingScheme<dim>
+  {
+  public:
+    void
+    add_options(const Options &options) override
+    {
+      SteppingScheme<dim>::add_options(options);
+      const auto coupling = options.section("Coupling");
+      coupling.add(
+        "Boundary flux",
+        settings.boundary_flux,
+        "",
+        Allowed::one_of({"initial", "swept"}),
+        "How bodies push the fluid: by their velocity at the end of a step through their "
+        "boundary at its beginning, or by the volume that they sweep, exactly. For integrators of "
+        "one stage: trapezoid_bdf2 has its own way, which keeps the volume of chambers.");
+      if (settings.boundary_flux != "initial" && this->has_stages())
+        throw coupling.error("Boundary flux",
+                             "it is a choice for integrators of one stage",
+                             "Remove it: the integrator chosen in 'Time' keeps the volume of "
+                             "chambers by itself. Or choose another one, such as 'theta'.");
+      settings.solver.add_options(coupling);
+    }
+
+  protected:
+    std::unique_ptr<Physics<dim>>
+    couple(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing) const override
+    {
+      return std::make_unique<SimultaneousPhysics<dim>>(models, budget, timing, settings);
+    }
+
+  private:
+    CouplingSettings settings;
+  };
+
+
+  namespace
+  {
+    const RegisterForDimensions<Scheme, Simultaneous>
+      simultaneous("simultaneous", "Fluid pressures and velocities of bodies are solved together.");
+  }
+} // namespace undine

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/adaptivity/sleeping_bodies.h>
+#include <undine/coupled/scheme/stepping_scheme.h>
+#include <undine/coupled/step/one_way.h>
+#include <undine/coupled/step/single_physics.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  template <int dim>
+  void
+  SteppingScheme<dim>::add_options(const Options &options)
+  {
+    const auto time = options.section("Time");
+    time.require("Step",
+                 asked_step,
+                 "s",
+                 Allowed::positive(),
+                 "Length of a time step; with a Tolerance that of the longest.");
+    time.add(
+      "Tolerance",
+      tolerance,
+      "1",
+      Allowed::below(0, 1),
+      "Steps are chosen so that their errors in time add up to this by the end of the run, "
+      "relative to the largest displacement of the bodies so far, or to the largest velocity "
+      "of a fluid without bodies (root mean squares). 0: all steps are of length Step.");
+    time.add("Least displacement",
+             displacement,
+             "m",
+             Allowed::not_negative(),
+             "What the Tolerance is relative to as long as the bodies have moved less (root mean "
+             "square). 0: a thousandth of their extent.");
+    time.add("Maximum cuts",
+             maximum_cuts,
+             "",
+             Allowed::between(0, 20),
+             "A step that fails is redone with half its length; the run stops where that would be "
+             "less than Step halved so often.");
+    integrator = choose_time_integrator(options);
+    options.section("Output").add(
+      "Budget",
+      keeps_budget,
+      "",
+      Allowed::anything(),
+      "Write what energy and momentum of every step come from and go to, and what the sums lack.");
+  }
+
+
+  template <int dim>
+  bool
+  SteppingScheme<dim>::has_stages() const
+  {
+    return integrator->stages(1, true).size() > 1;
+  }
+
+
+  template <int dim>
+  Report
+  SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
+  {
+    budget = std::make_unique<Budget<dim>>(models, keeps_budget, has_stages());
+    if (models.solid && models.wishes_of_effects().sleep_settings)
+      physics = std::make_unique<SleepingBodies<dim>>(
+        models, *budget, timing, [this, &timing](const Models<dim> &awake) {
+          return make_physics(awake, timing);
+        });
+    else
+      physics = make_physics(models, timing);
+
+    Report report;
+    if (tolerance > 0)
+      step_error = std::make_unique<const StepError<dim>>(
+        models,
+        *integrator,
+        typename StepError<dim>::Settings{tolerance, displacement, asked_step, shortest_step()});
+    physics->initialize(state, choose_dt(state), report);
+    append(report.columns, budget->columns());
+    if (step_error)
+      {
+        step_error->start(state);
+        add_error(report, state);
+      }
+    return report;
+  }
+
+
+  template <int dim>
+  std::unique_ptr<Physics<dim>>
+  SteppingScheme<dim>::make_physics(const Models<dim> &models, TimingTree &timing) const
+  {
+    if (!models.solid)
+      return std::make_unique<FluidAlone<dim>>(models, *budget, timing);
+    if (!models.fluid)
+      return std::make_unique<SolidAlone<dim>>(models, *budget, timing);
+    if (models.direction != Direction::two_way)
+      return std::make_unique<OneWay<dim>>(models, *budget, timing);
+    return couple(models, *budget, timing);
+  }
+
+
+  template <int dim>
+  double
+  SteppingScheme<dim>::choose_dt(const State<dim> &state) const
+  {
+    if (step_error)
+      return state.clock.land(state.history.in_use() ? state.history.step : shortest_step());
+    return state.clock.land(std::min(asked_step, state.clock.longest_step));
+  }
+
+
+  template <int dim>
+  Report
+  SteppingScheme<dim>::step(State<dim> &state, const double asked)
+  {
+    if (step_error && !state.history.in_use())
+      step_error->start(state); // resumed from a run of constant steps
+    const State<dim> saved = state;
+    for (Report report;; ++report.cuts)
+      try
+        {
+          report.dt = asked / (1u << report.cuts);
+          budget->start();
+          physics->advance(state, integrator->stages(report.dt, state.clock.step > 0), report);
+          append(report.columns, budget->columns());
+          assert_finite(report.columns);
+          judge_error(state, saved, report);
+          state.clock.longest_step = report.cuts > 0 ? report.dt : 2 * state.clock.longest_step;
+          return report;
+        }
+      catch (const SolveError &error)
+        {
+          state                    = saved;
+          report.newton_iterations = report.linear_iterations = 0;
+          report.columns.clear();
+          report.warnings.clear();
+          if (report.dt / 2 < shortest_step() * (1 - 1e-9))
+            throw SolveError(complaint(asked, report, error));
+        }
+      catch (const Error &)
+        {
+          state = saved;
+          throw;
+        }
+  }
+
+
+  /// Throws SolveError if the error in time of the step from `saved` to `state` is too large;
+  /// otherwise the choice of the next step learns of it. Nothing with constant steps.
+  template <int dim>
+  void
+  SteppingScheme<dim>::judge_error(State<dim> &state, const State<dim> &saved, Report &report) const
+  {
+    if (!step_error)
+      return;
+    const bool can_be_cut = report.dt / 2 >= shortest_step() * (1 - 1e-9);
+    if (can_be_cut && step_error->is_too_large(saved, state, report.dt))
+      {
+        ++report.rejections;
+        throw SolveError("its error in time is too large");
+      }
+    step_error->accept(state, saved, report.dt, report.cuts > 0);
+    add_error(report, state);
+  }
+
+
+  template <int dim>
+  void
+  SteppingScheme<dim>::add_error(Report &report, const State<dim> &state) const
+  {
+    report.error_in_time = step_error->error(state.history);
+    append(report.columns,
+           {{"Error in time", "1", *report.error_in_time},
+            {"Rejected steps", "1", double(report.rejections)}});
+    if (step_error->is_missed(state.history))
+      report.warn(
+        "error in time",
+        fmt::format("errors in time add up to more than Time/Tolerance = {:.4g}. It takes "
+                    "shorter steps than {:.4g} s: try more Time/Maximum cuts.",
+                    tolerance,
+                    shortest_step()));
+  }
+
+
+  template <int dim>
+  double
+  SteppingScheme<dim>::shortest_step() const
+  {
+    return asked_step / (1u << maximum_cuts);
+  }
+
+
+  template <int dim>
+  std::string
+  SteppingScheme<dim>::complaint(const double      asked,
+                                 const Report     &last,
+                                 const SolveError &error) const
+  {
+    const std::string shorter =
+      last.cuts == 0 ? "" : fmt::format(" and {} shorter one(s)", last.cuts);
+    return fmt::format("a step of {:.4g} s{} failed, the last one of {:.4g} s: {}\nTime/Step = "
+                       "{:.4g} and Time/Maximum cuts = {} allow none shorter than {:.4g} s. If "
+                       "steps became shorter and shorter on the way here, no step will do: try "
+                       "what is said above; else try more cuts.",
+                       asked,
+                       shorter,
+                       last.dt,
+                       error.what(),
+                       asked_step,
+                       maximum_cuts,
+                       shortest_step());
+  }
+
+
+  template class SteppingScheme<2>;
+  template class SteppingScheme<3>;
+} // namespace undine

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/relative.h>
+#include <undine/base/parallel/interruption.h>
+#include <undine/coupled/step/coupled_equations.h>
+#include <undine/solid/assembly/prescribed_motion.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  template <int dim>
+  CoupledEquations<dim>::CoupledEquations(const SolidModel<dim>        &model,
+                                          SolidEquations<dim>          &solid,
+                                          SurfaceFlux<dim>             &surface,
+                                          const PressureEquations<dim> &fluid,
+                                          BlockSolver<dim>             &solver,
+                                          TimingTree                   &timing,
+                                          const double                  flux_rounding)
+    : model(model)
+    , solid(solid)
+    , surface(surface)
+    , fluid(fluid)
+    , solver(solver)
+    , timing(timing)
+    , flux_rounding(flux_rounding)
+  {
+    residual = vector();
+  }
+
+
+  template <int dim>
+  typename CoupledEquations<dim>::Unknown
+  CoupledEquations<dim>::vector() const
+  {
+    return Unknown({model.locally_owned(), fluid.numbers().owned()}, model.communicator());
+  }
+
+
+  template <int dim>
+  double
+  CoupledEquations<dim>::evaluate(const Unknown &x)
+  {
+    const auto timed = timing.section("evaluate");
+    surface.move(x.block(0));
+    auto pushing = surface.forces(fluid.field(x.block(1)));
+    clear_fixed(pushing, model);
+    residual.block(0) = solid.residual(x.block(0));
+    residual.block(0).add(-1., pushing);
+
+    const auto pushed = fluid.from_components(surface.fluxes());
+    fluid.matrix().vmult(residual.block(1), x.block(1));
+    const double by_pressure = residual.block(1).l2_norm();
+    residual.block(1).add(1., pushed, 1., fluid.predicted_flux());
+    fluid.closed_regions().balance(residual.block(1));
+
+    // What rounding leaves counts as converged.
+    const double tolerance = model.numerics().newton.relative_tolerance;
+    measure({std::max({solid.scale(), pushing.l2_norm(), solid.rounding() / tolerance}),
+             std::max({by_pressure,
+                       pushed.l2_norm(),
+                       fluid.predicted_flux().l2_norm(),
+                       flux_rounding / tolerance})});
+    last_norm = std::hypot(relative(residual.block(0).l2_norm(), here.force),
+                           relative(residual.block(1).l2_norm(), here.flux));
+    return last_norm;
+  }
+
+
+  template <int dim>
+  void
+  CoupledEquations<dim>::start()
+  {
+    reference = {};
+  }
+
+
+  template <int dim>
+  void
+  CoupledEquations<dim>::measure(const Sizes &own)
+  {
+    const auto limited = [](const double size, const double known) {
+      return known == 0 ? size : std::clamp(size, known, 10 * known);
+    };
+    here.force = limited(own.force, reference.force);
+    here.flux  = limited(own.flux, reference.flux);
+  }
+
+
+  template <int dim>
+  typename CoupledEquations<dim>::Unknown
+  CoupledEquations<dim>::correction(const Unknown &x)
+  {
+    reference          = here;
+    const auto tangent = solid.jacobian(x.block(0));
+    throw_if_interrupted(model.communicator());
+    const auto        timed = timing.section("solve linear system");
+    const BlockSystem system(tangent, surface.matrix(), surface.factor(), fluid.matrix());
+    residual *= -1.;
+    // No better than Newton's method needs it.
+    const double enough = 0.01 * model.numerics().newton.relative_tolerance / last_norm;
+    auto         result = solver.solve(system, residual, solid.displacement(x.block(0)), enough);
+    timing.memory.hold_briefly("two-way coupling",
+                               surface.matrix().memory_consumption() +
+                                 fluid.matrix().memory_consumption() + solver.memory_consumption());
+    const double part = solid.free_part(x.block(0), result.block(0));
+    if (part < 1)
+      result *= part;
+    return result;
+  }
+
+
+  template <int dim>
+  double
+  CoupledEquations<dim>::scale() const
+  {
+    return 1;
+  }
+
+
+  template <int dim>
+  double
+  CoupledEquations<dim>::rounding() const
+  {
+    return relative(solid.rounding(), here.force);
+  }
+
+
+  template <int dim>
+  unsigned int
+  CoupledEquations<dim>::linear_iterations() const
+  {
+    return solver.iterations();
+  }
+
+
+  template class CoupledEquations<2>;
+  template class CoupledEquations<3>;
+} // namespace undine

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/step/coupled_step.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/operators/flux_matrix.h>
+#include <undine/solid/step/initial_guesses.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// With the surfaces where the bodies' first guess takes them.
+    template <int dim>
+    std::unique_ptr<SurfaceFlux<dim>>
+    moved(std::unique_ptr<SurfaceFlux<dim>> surface, const BlockSystem::Vector &velocity)
+    {
+      surface->move(velocity);
+      return surface;
+    }
+
+
+    /// What is left of B u if places of the size of the domain are only known to rounding.
+    template <int dim>
+    double
+    flux_rounding(const MacGrid<dim> &grid, const SurfaceFlux<dim> &surface, const double dt)
+    {
+      double size = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        size = std::max({size, std::abs(grid.lower()[d]), std::abs(grid.upper()[d])});
+      return std::numeric_limits<double>::epsilon() * size / dt * surface.matrix().frobenius_norm();
+    }
+  } // namespace
+
+
+  template <int dim>
+  CoupledStep<dim>::CoupledStep(const Parts          &parts,
+                                const FluidStep<dim> &fluid,
+                                State<dim>           &state,
+                                const std::string    &boundary_flux)
+    : parts(parts)
+    , fluid(fluid)
+    , state(state)
+    , newton(parts.models.solid->numerics().newton)
+    , end_time(fluid.end)
+    , old_solid(state.solid)
+    , equations(*parts.models.solid,
+                parts.mass,
+                old_solid,
+                parts.environment,
+                fluid.start,
+                fluid.dt,
+                parts.timing,
+                loads_besides_pressure(),
+                state.contact)
+    , numbers(parts.models.fluid->grid(), parts.geometry.bodies().topology)
+    , surface(
+        moved(make_surface_flux(
+                boundary_flux,
+                parts.models,
+                parts.geometry,
+                numbers,
+                equations,
+                BodiesInStage<dim>(parts.models, state, fluid.stage, fluid.end - fluid.stage.end)),
+              equations.guess()))
+    , pressures(*parts.models.fluid, numbers, filled_rows(surface->matrix()), fluid.dt)
+    , problem(*parts.models.solid,
+              equations,
+              *surface,
+              pressures,
+              parts.solver,
+              parts.timing,
+              flux_rounding(parts.models.fluid->grid(), *surface, fluid.dt))
+    , x(problem.vector())
+  {
+    pressures.start(state.fluid.velocity,
+                    fluid.tracer.velocity(),
+                    end_time,
+                    parts.geometry.swept_volume_flux(surface->node_velocities(), fluid.dt));
+    predicted = state.fluid.velocity;
+  }
+
+
+  /// What the fluid does to the bodies besides its reduced pressure [N]. Friction has been found
+  /// before: the fluid has its reaction.
+  template <int dim>
+  typename CoupledStep<dim>::Vector
+  CoupledStep<dim>::loads_besides_pressure()
+  {
+    surfaces.at_rest = parts.geometry.other_forces(fluid.gravity, end_time);
+    auto result      = parts.models.solid->vector();
+    parts.models.surface->add_to_bodies(result, surfaces.at_rest);
+    if (fluid.friction)
+      {
+        surfaces.friction = fluid.friction->on_nodes;
+        parts.models.surface->add_to_bodies(result, surfaces.friction);
+      }
+    return result;
+  }
+
+
+  /// Newton's method for u^{n+1} and p, and around it for how fast fluid enters through outflows
+  /// (see stabilise_backflow()).
+  template <int dim>
+  SolidReport<dim>
+  CoupledStep<dim>::solve()
+  {
+    const auto       timed = parts.timing.section("couple");
+    SolidReport<dim> report;
+    parts.solver.start_step();
+    Vector last_pressure = x.block(1);
+    copy_to_vector(last_pressure, state.fluid.pressure);
+    find_entering_speeds([&](const unsigned int round) {
+      state.fluid.velocity = predicted;
+      pressures.open(state.fluid.velocity);
+      // A given number of corrections begins anew, so that there are exactly so many.
+      const bool goes_on = round > 0 && newton.fixed_iterations == 0;
+      report.newton.append(
+        goes_on ? solve_from(x.block(0), x.block(1))
+                : solve_from_guesses(
+                    equations,
+                    newton,
+                    [&] {
+                      parts.motion_solver.begin_stage();
+                      return resting_guess(equations, parts.motion_solver, parts.timing);
+                    },
+                    [&](const Vector &velocity) { return solve_from(velocity, last_pressure); }));
+      pressures.accelerate(state.fluid.velocity, x.block(1));
+      return pressures.update_backflow(state.fluid.velocity);
+    });
+    report.note = parts.solver.note();
+    end(report);
+    return report;
+  }
+
+
+  template <int dim>
+  NewtonReport
+  CoupledStep<dim>::solve_from(const Vector velocity, const Vector pressure)
+  {
+    x.block(0) = equations.kept_apart(velocity);
+    x.block(1) = pressure;
+    pressures.closed_regions().fix_pressure_level(x.block(1));
+    problem.start();
+    return solve_newton(problem, x, newton);
+  }
+
+
+  /// d^{n+1} from u^{n+1}, and what else follows.
+  template <int dim>
+  void
+  CoupledStep<dim>::end(SolidReport<dim> &report)
+  {
+    const auto &velocity = x.block(0);
+    surface->move(velocity);
+    const auto pressure = pressures.field(x.block(1));
+    equations.add_forces(surface->forces(pressure));
+    report.reactions          = equations.reactions(velocity);
+    report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
+    divergence_left           = pressures.divergence(state.fluid.velocity, surface->fluxes());
+    state.fluid.pressure      = pressure;
+    pressures.closed_regions().remove_means(state.fluid.pressure);
+    set_means(state.fluid.pressure, parts.models.fluid->grid());
+    report.contact_velocity = equations.contact_velocity(velocity);
+    state.solid             = equations.end_state(velocity, report.contact_velocity);
+  }
+
+
+  template <int dim>
+  double
+  CoupledStep<dim>::divergence() const
+  {
+    return divergence_left;
+  }
+
+
+  template <int dim>
+  PressureBalance<dim>
+  CoupledStep<dim>::pressure_balance() const
+  {
+    return undine::pressure_balance(*parts.models.fluid,
+                                    predicted,
+                                    state.fluid.velocity,
+                                    pressures.field(x.block(1)),
+                                    pressures.open_faces());
+  }
+
+
+  template <int dim>
+  SurfaceExchange<dim>
+  CoupledStep<dim>::exchange() const
+  {
+    const auto pressure = pressures.field(x.block(1));
+    auto       result   = surfaces;
+    result.by_fluid     = parts.geometry.pressure_forces(pressure);
+    result.pushed       = surface->nodal_forces(pressure);
+    result.velocities   = surface->node_velocities();
+    result.on_bodies    = result.pushed;
+    result.increment    = parts.models.surface->with_bodies(
+      equations.increment(x.block(0)),
+      typename SurfaceExchange<dim>::Vectors(result.by_fluid.size()));
+    return result;
+  }
+
+
+  template <int dim>
+  SolidBalance<dim>
+  CoupledStep<dim>::solid_balance(const SolidReport<dim> &report) const
+  {
+    return equations.balance(x.block(0), report.reactions);
+  }
+
+
+  template class CoupledStep<2>;
+  template class CoupledStep<3>;
+} // namespace undine

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/step/single_physics.h>
+
+namespace undine
+{
+  template <int dim>
+  FluidAlone<dim>::FluidAlone(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
+    : Physics<dim>(models.communicator())
+    , model(*models.fluid)
+    , budget(budget)
+    , timing(timing)
+    , fluid_side(models, budget, timing)
+    , projection(*models.fluid)
+  {
+  }
+
+
+  template <int dim>
+  void
+  FluidAlone<dim>::initialize(State<dim> &state, const double dt, Report &report)
+  {
+    fluid_side.initialize(state, projection, dt, report);
+  }
+
+
+  template <int dim>
+  void
+  FluidAlone<dim>::step(State<dim> &state, const Stage &stage, Report &report)
+  {
+    const auto timed    = timing.section("fluid");
+    const auto fluid    = fluid_side.predict(state, stage);
+    const auto geometry = fluid_side.geometry();
+
+    typename Projection<dim>::Report projected;
+    {
+      const auto phase = timing.section("project");
+      projected =
+        projection.project(state.fluid,
+                           fluid->tracer.velocity(),
+                           fluid->end,
+                           fluid->dt,
+                           geometry ? geometry->swept_volume_flux(fluid->dt) : SweptVolumeFlux());
+    }
+    if (budget.is_on() && stage.is_last)
+      balance(state, projected, fluid->dt);
+    report.linear_iterations += projected.iterations;
+    fluid_side.finish(*fluid, state, report, projected.divergence);
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  FluidAlone<dim>::loads_on_surfaces(const State<dim> &state, const double time) const
+  {
+    return fluid_side.loads_on_surfaces(state, time);
+  }
+
+
+  template <int dim>
+  void
+  FluidAlone<dim>::balance(const State<dim>                       &state,
+                           const typename Projection<dim>::Report &projected,
+                           const double                            dt)
+  {
+    const auto phase = timing.section("measure");
+    budget.add(projected.balance(model, state.fluid), dt);
+    if (const auto *geometry = fluid_side.geometry())
+      {
+        SurfaceExchange<dim> exchange;
+        exchange.by_fluid   = geometry->pressure_forces(state.fluid.pressure);
+        exchange.pushed     = exchange.by_fluid;
+        exchange.velocities = geometry->surface_velocities();
+        budget.add(exchange, dt);
+      }
+  }
+
+
+  template class FluidAlone<2>;
+  template class FluidAlone<3>;
+} // namespace undine

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/coupled/step/fluid_side.h>
+#include <undine/coupled/step/physics.h>
+#include <undine/fluid/model/fluid_quantities.h>
+
+namespace undine
+{
+  template <int dim>
+  FluidSide<dim>::FluidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
+    : models(models)
+    , model(*models.fluid)
+    , budget(budget)
+    , timing(timing)
+    , environment(models.environment())
+    , surface_friction(models)
+  {
+    if (models.surface)
+      cut = std::make_unique<FluidGeometry<dim>>(models);
+  }
+
+
+  template <int dim>
+  typename CharacteristicTracer<dim>::Bodies
+  FluidSide<dim>::bodies() const
+  {
+    return cut ? cut->bodies() : typename CharacteristicTracer<dim>::Bodies();
+  }
+
+
+  /// Those that the fluid sticks to where there is friction.
+  template <int dim>
+  typename CharacteristicTracer<dim>::Bodies
+  FluidSide<dim>::no_slip_bodies(const State<dim> &state, const Stage &stage)
+  {
+    auto result = bodies();
+    if (cut && models.has_friction())
+      {
+        const auto phase       = timing.section("cut cells");
+        result.walls           = surface_friction.walls(*cut);
+        result.wall_velocities = surface_friction.start(state, *cut, stage.length);
+      }
+    return result;
+  }
+
+
+  /// Where the surfaces push the fluid in this stage, at `time` [s]. Bodies get there only as far
+  /// as they do not run into each other or into walls.
+  template <int dim>
+  typename FluidGeometry<dim>::Positions
+  FluidSide<dim>::expected_places(const State<dim> &state,
+                                  const Stage      &stage,
+                                  const double      time) const
+  {
+    const auto &contact = state.contact;
+    if (!environment.contact || contact.place.size() == 0)
+      return models.surface->positions(state.solid, time, stage.ahead());
+    SolidState bodies = state.solid;
+    bodies.displacement.add(stage.ahead(), state.solid.velocity);
+    const double part =
+      environment.contact->free_part({contact.place, contact.time}, {bodies.displacement, time});
+    if (part < 1)
+      bodies.displacement.sadd(part, 1 - part, contact.place);
+    return models.surface->positions(bodies, time);
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::place_surfaces(const State<dim> &state, const Stage &stage)
+  {
+    if (!cut)
+      return;
+    const auto   phase = timing.section("cut cells");
+    const double time  = state.clock.time + stage.start() + stage.ahead();
+    const auto   now   = expected_places(state, stage, time);
+    cut->place(state.surface_positions.empty() ? now : state.surface_positions,
+               now,
+               stage.keeps_rates ? models.surface->velocities_at(state.solid, time, stage.length)
+                                 : models.surface->velocities(state.solid, time, stage.length));
+  }
+
+
+  /// A state from a file lies on parts of its own. If no surface has moved since, those are the
+  /// same as ours, and nothing is carried over from the ones to the others: it goes on bit by bit.
+  template <int dim>
+  void
+  FluidSide<dim>::share_parts(FluidState<dim> &state) const
+  {
+    const auto &parts = bodies().topology;
+    if (state.pressure.topology() == parts || !cut->is_unmoved())
+      return;
+    for (auto *velocity : {&state.velocity, &state.acceleration, &state.change})
+      for (auto &component : velocity->components)
+        component.share(parts);
+    state.pressure.share(parts);
+    for (auto *fields : {&state.scalars, &state.scalar_rates})
+      for (auto &field : *fields)
+        field.second.share(parts);
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::initialize(State<dim>      &state,
+                             Projection<dim> &projection,
+                             const double     dt,
+                             Report          &report)
+  {
+    place_surfaces(state, single_stage(dt));
+    if (cut && !cut->has_fluid())
+      throw InputError("Bodies and obstacles fill the domain: there is no fluid left in it. Try: a "
+                       "larger domain, smaller ones, or a scene without a fluid.");
+    const double time = state.clock.time;
+    state.fluid       = model.initial_state(bodies().topology);
+    for (const auto &effect : models.effects)
+      effect->initialize(model, state.fluid);
+    const auto projected = projection.make_divergence_free(
+      state.fluid, time, cut ? cut->initial_swept_volume_flux(dt) : SweptVolumeFlux());
+    report.linear_iterations += projected.iterations;
+    if (cut)
+      {
+        report.warn(cut->cut_report().subject, cut->cut_report().message);
+        state.surface_positions = models.surface->positions(state.solid, time);
+      }
+    add_columns(report, state.fluid, projected.divergence, time);
+    count_memory(state.fluid);
+  }
+
+
+  /// `act` on every effect, and book what each has done.
+  template <int dim>
+  template <class Action>
+  void
+  FluidSide<dim>::run_phase(FluidStep<dim>                   &fluid,
+                            const typename Budget<dim>::Phase phase,
+                            const Action                     &act)
+  {
+    for (unsigned int e = 0; e < models.effects.size(); ++e)
+      {
+        fluid.work.reset();
+        act(*models.effects[e]);
+        if (fluid.stage.is_last)
+          budget.add(phase, e, fluid.state.velocity, fluid.work);
+      }
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::count_memory(const FluidState<dim> &state)
+  {
+    for (const auto &effect : models.effects)
+      timing.memory.hold(effect->name, effect->memory_consumption(state));
+    if (cut)
+      timing.memory.hold("surfaces in the fluid", cut->memory_consumption());
+  }
+
+
+  template <int dim>
+  std::unique_ptr<FluidStep<dim>>
+  FluidSide<dim>::predict(State<dim> &state, const Stage &stage)
+  {
+    if (stage.is_first)
+      budget.start(state.fluid.velocity);
+    place_surfaces(state, stage);
+    if (cut && !cut->has_fluid())
+      throw SolveError("bodies and obstacles have filled the domain: there is no fluid left in it. "
+                       "Try: a smaller step, or obstacles that leave some.");
+    share_parts(state.fluid);
+    auto fluid = std::make_unique<FluidStep<dim>>(model,
+                                                  state.fluid,
+                                                  state.next_fluid,
+                                                  environment.gravity,
+                                                  state.clock.time,
+                                                  stage,
+                                                  timing,
+                                                  no_slip_bodies(state, stage));
+    {
+      const auto phase = timing.section("transport");
+      run_phase(
+        *fluid, Budget<dim>::transport, [&](const auto &effect) { effect.transport(*fluid); });
+      fluid->remap();
+      if (stage.is_last)
+        budget.add(Budget<dim>::transport, state.fluid.velocity);
+    }
+    {
+      const auto phase = timing.section("accelerate");
+      run_phase(
+        *fluid, Budget<dim>::forces, [&](const auto &effect) { effect.accelerate(*fluid); });
+    }
+    {
+      const auto phase = timing.section("diffuse");
+      run_phase(
+        *fluid, Budget<dim>::diffusion, [&](const auto &effect) { effect.diffuse(*fluid); });
+    }
+    return fluid;
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::finish(FluidStep<dim> &fluid,
+                         State<dim>     &state,
+                         Report         &report,
+                         const double    divergence)
+  {
+    fluid.finish();
+    if (fluid.friction)
+      surface_friction.end(state, fluid);
+    if (cut)
+      {
+        report.warn(cut->cut_report().subject, cut->cut_report().message);
+        state.surface_positions = cut->surface_positions();
+      }
+    report.linear_iterations += fluid.linear_iterations;
+    count_memory(state.fluid);
+    if (!fluid.stage.is_last)
+      return;
+    const auto phase = timing.section("measure");
+    add_columns(report, state.fluid, divergence, fluid.end);
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  FluidSide<dim>::loads_on_surfaces(const State<dim> &state, const double time) const
+  {
+    if (!cut)
+      return {};
+    auto       result = cut->pressure_forces(state.fluid.pressure);
+    const auto add    = [&](const auto &more) {
+      for (std::size_t node = 0; node < more.size(); ++node)
+        result[node] += more[node];
+    };
+    add(cut->other_forces(environment.gravity, time));
+    add(surface_friction.forces());
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::add_columns(Report                &report,
+                              const FluidState<dim> &state,
+                              const double           divergence,
+                              const double           time) const
+  {
+    append(report.columns, fluid_columns(model, state, divergence));
+    for (const auto &effect : models.effects)
+      append(report.columns, effect->columns(model, state, time));
+    if (cut)
+      append(report.columns,
+             cut->columns(state.pressure, environment.gravity, time, surface_friction.forces()));
+  }
+
+
+  template class FluidSide<2>;
+  template class FluidSide<3>;
+} // namespace undine

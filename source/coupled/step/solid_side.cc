@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/step/physics.h>
+#include <undine/coupled/step/solid_side.h>
+#include <undine/solid/step/solid_columns.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// The bodies go on for `length` [s] with the rates of `now`.
+    template <int dim>
+    void
+    go_on(typename State<dim>::StageStart &start, const double length, const SolidState &now)
+    {
+      if (length == 0)
+        return;
+      start.solid.displacement.add(length, now.velocity);
+      start.solid.velocity.add(length, now.acceleration);
+      start.increment.add(length, now.velocity);
+    }
+  } // namespace
+
+
+  template <int dim>
+  SolidSide<dim>::SolidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
+    : model(*models.solid)
+    , budget(budget)
+    , timing(timing)
+    , surroundings(models.environment())
+    , solid_step(model)
+  {
+    if (budget.is_on())
+      solid_step.keep_balance();
+  }
+
+
+  template <int dim>
+  void
+  SolidSide<dim>::initialize(State<dim> &state, const double dt) const
+  {
+    state.solid = solid_step.initialize(surroundings, state.clock.time, dt);
+  }
+
+
+  /// The bodies of `state` are those at the begin of the stage.
+  template <int dim>
+  void
+  SolidSide<dim>::start_contact(State<dim> &state, const Stage &stage) const
+  {
+    if (!surroundings.contact)
+      return;
+    auto &contact       = state.contact;
+    contact.place       = state.solid.displacement;
+    contact.time        = state.clock.time + stage.begin;
+    contact.weight      = stage.duration() / stage.length;
+    contact.keeps_rates = true;
+    if (stage.is_first)
+      contact.old_energy.reset();
+    if (stage.is_first && budget.is_on())
+      contact.old_energy = surroundings.contact->energy(contact.place, contact.time);
+  }
+
+
+  template <int dim>
+  void
+  SolidSide<dim>::start(State<dim> &state, const Stage &stage) const
+  {
+    if (!stage.keeps_rates)
+      return;
+    start_contact(state, stage);
+    if (budget.is_on() && stage.is_first)
+      budget.start(solid_step.amounts(state.solid));
+    using Start     = typename State<dim>::StageStart;
+    const auto  now = state.solid;
+    const Start still{now,
+                      dealii::TrilinosWrappers::MPI::Vector(now.velocity.locally_owned_elements(),
+                                                            now.velocity.get_mpi_communicator())};
+    Start       start = still;
+    if (stage.is_first)
+      go_on<dim>(start, stage.rate(), now);
+    else
+      start = state.next;
+    state.solid     = start.solid;
+    state.increment = start.increment;
+    if (budget.is_on() && stage.is_last)
+      budget.add(solid_step.amounts(state.solid));
+    if (stage.is_last)
+      return;
+    state.next = still;
+    go_on<dim>(state.next, stage.next_old.length, now);
+  }
+
+
+  template <int dim>
+  SolidReport<dim>
+  SolidSide<dim>::advance(State<dim> &state, const Stage &stage, const Vector &forces)
+  {
+    return solid_step.step(state.solid,
+                           surroundings,
+                           state.clock.time + stage.start(),
+                           stage.length,
+                           timing,
+                           forces,
+                           state.contact);
+  }
+
+
+  template <int dim>
+  void
+  SolidSide<dim>::end(State<dim> &state, const Stage &stage, const SolidReport<dim> &solid) const
+  {
+    if (!stage.keeps_rates)
+      return;
+    state.contact.place.clear();
+    if (stage.is_last)
+      {
+        state.next = {};
+        state.increment.clear();
+        state.contact = {};
+        return;
+      }
+    go_on<dim>(state.next, stage.next_new.length, state.solid);
+    if (solid.contact_velocity.size() > 0)
+      state.next.solid.velocity.add(1., solid.contact_velocity);
+  }
+
+
+  template <int dim>
+  void
+  SolidSide<dim>::finish(const State<dim>       &state,
+                         const Stage            &stage,
+                         const SolidReport<dim> &solid,
+                         Report                 &report) const
+  {
+    report.newton_iterations += solid.newton.iterations;
+    report.linear_iterations += solid.newton.linear_iterations;
+    report.newton_reduction = reduction(solid.newton);
+    report.warn("linear solver", solid.note);
+    if (stage.is_last)
+      add_columns(report, state, state.clock.time + stage.end, solid);
+  }
+
+
+  template <int dim>
+  void
+  SolidSide<dim>::add_columns(Report                 &report,
+                              const State<dim>       &state,
+                              const double            time,
+                              const SolidReport<dim> &solid) const
+  {
+    const auto measured = timing.section("measure");
+    append(report.columns,
+           solid_columns(model, solid_step, surroundings, state.solid, time, solid));
+  }
+
+
+  template <int dim>
+  void
+  SolidSide<dim>::add_columns(Report &report, const State<dim> &state, const double time) const
+  {
+    const SolidReport<dim> no_step;
+    add_columns(report, state, time, no_step);
+  }
+
+
+  template class SolidSide<2>;
+  template class SolidSide<3>;
+} // namespace undine

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/advection/characteristic_tracer.h>
+#include <undine/fluid/grid/interpolation.h>
+#include <undine/fluid/model/fluid_quantities.h>
+
+#include <fmt/format.h>
+
+namespace undine
+{
+  namespace
+  {
+    constexpr int margin = 3; ///< layers beyond those that ways cross
+
+
+    /// Ghost layers for ways of a given length, and for the up to four points around their ends.
+    template <int dim>
+    GridIndex<dim>
+    layers_within(const FluidModel<dim>        &model,
+                  const dealii::Tensor<1, dim> &distance,
+                  const double                  dt)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          // Ghost layers end at the boundary, but a periodic domain is stored again and again.
+          const double times = model.grid().periodic(d) ? 10 : 100;
+          if (distance[d] > times * (model.grid().upper()[d] - model.grid().lower()[d]))
+            throw SolveError(
+              fmt::format("The fluid would travel {:.3g} m along {} in one step of {:.3g} s, more "
+                          "than {} times through the domain. Try a smaller step.",
+                          distance[d],
+                          "xyz"[d],
+                          dt,
+                          times));
+        }
+      auto width = model.grid().planes_crossed(distance);
+      for (int &layers : width.values)
+        layers += margin;
+      return width;
+    }
+
+
+    /// Fill ghost layers and boundary points of a velocity.
+    template <int dim, class Width>
+    void
+    complete(Velocity<dim>         &velocity,
+             const FluidModel<dim> &model,
+             const Width           &width,
+             const double           time)
+    {
+      for (auto &component : velocity.components)
+        component.exchange(width);
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        fill_boundary_points(
+          velocity[axis], model.boundaries(), VelocityCondition<dim>(axis), velocity, time);
+    }
+
+
+    /// How far fluid can go in one step along each axis [m]: as fast as the fastest face or
+    /// boundary point, such as a lid.
+    template <int dim>
+    dealii::Tensor<1, dim>
+    longest_way(const FluidModel<dim> &model,
+                const Velocity<dim>   &velocity,
+                const double           time,
+                const double           dt)
+    {
+      auto result            = largest_components(model, velocity); // asserts that they are finite
+      auto complete_velocity = velocity;
+      complete(complete_velocity, model, 1, time);
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          const auto &component = complete_velocity[axis];
+          for_each(component.stored(), [&](const GridIndex<dim> &index) {
+            result[axis] = std::max(result[axis], std::abs(component(index)));
+          });
+          result[axis] = dealii::Utilities::MPI::max(result[axis], model.grid().communicator());
+        }
+      return std::abs(dt) * result;
+    }
+  } // namespace
+
+
+  template <int dim>
+  CharacteristicTracer<dim>::CharacteristicTracer(const FluidModel<dim> &model,
+                                                  const Velocity<dim>   &velocity,
+                                                  const double           time,
+                                                  const double           dt,
+                                                  const Bodies          &bodies)
+    : fluid_model(model)
+    , among(bodies)
+    , frozen_velocity(velocity)
+    , start_time(time)
+    , step(dt)
+    , ghost_width(layers_within(model, longest_way(model, velocity, time, dt), dt))
+    , body_vicinity(
+        model.grid(), velocity[0].topology(), bodies.topology, bodies.obstruction, ghost_width)
+  {
+    complete(frozen_velocity, model, ghost_width, time);
+    if (among.obstruction != nullptr)
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        samples[axis] = std::make_unique<VisibleSamples<dim>>(
+          frozen_velocity[axis], stencils(frozen_velocity[axis]), body_vicinity);
+  }
+
+
+  template <int dim>
+  const std::shared_ptr<VisibilityStencils<dim>> &
+  CharacteristicTracer<dim>::stencils(const Field<dim> &like) const
+  {
+    for (const auto &made : stencils_made)
+      if (made->points().is_for(like))
+        return made;
+    stencils_made.push_back(std::make_shared<VisibilityStencils<dim>>(
+      like, ghost_width, *among.obstruction, body_vicinity));
+    return stencils_made.back();
+  }
+
+
+  template <int dim>
+  const typename CharacteristicTracer<dim>::Bodies &
+  CharacteristicTracer<dim>::bodies() const
+  {
+    return among;
+  }
+
+
+  template <int dim>
+  const BodyVicinity<dim> &
+  CharacteristicTracer<dim>::vicinity() const
+  {
+    return body_vicinity;
+  }
+
+
+  template <int dim>
+  const FluidModel<dim> &
+  CharacteristicTracer<dim>::model() const
+  {
+    return fluid_model;
+  }
+
+
+  template <int dim>
+  double
+  CharacteristicTracer<dim>::time() const
+  {
+    return start_time;
+  }
+
+
+  template <int dim>
+  double
+  CharacteristicTracer<dim>::dt() const
+  {
+    return step;
+  }
+
+
+  template <int dim>
+  const Velocity<dim> &
+  CharacteristicTracer<dim>::velocity() const
+  {
+    return frozen_velocity;
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  CharacteristicTracer<dim>::velocity_at(const Place &place) const
+  {
+    if (!body_vicinity.is_next_to_body(place))
+      return interpolate(frozen_velocity, place.point);
+    dealii::Tensor<1, dim> result;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      if (const auto seen = samples[axis]->at(place))
+        result[axis] = *seen;
+      else
+        result[axis] = among.obstruction->nearest_velocity(place.point)[axis];
+    return result;
+  }
+
+
+  template <int dim>
+  const GridIndex<dim> &
+  CharacteristicTracer<dim>::width() const
+  {
+    return ghost_width;
+  }
+
+
+  template <int dim>
+  GridIndex<dim>
+  CharacteristicTracer<dim>::reach(const int beyond) const
+  {
+    // Of the planes that may be crossed one is for ways that begin anywhere. From point i a way
+    // passes the k others up to i + k only if one as long, begun at a plane, meets k + 1 of them:
+    // the lower planes of i to i + k or the upper ones, whichever are closer together.
+    auto points = ghost_width;
+    for (int &layers : points.values)
+      layers += beyond - margin - 1;
+    return points;
+  }
+
+
+  template <int dim>
+  typename CharacteristicTracer<dim>::Trace
+  CharacteristicTracer<dim>::trace(const dealii::Point<dim> &point, const double dt) const
+  {
+    const auto place = body_vicinity.place(point);
+    auto       path  = walk(place, dt / 2 * velocity_at(place));
+    if (!path.left_domain)
+      path = walk(place, dt * velocity_at(path.end));
+    return {path.end, path.left_domain, body_vicinity.is_near(place, path.end)};
+  }
+
+
+  template <int dim>
+  typename CharacteristicTracer<dim>::Walk
+  CharacteristicTracer<dim>::walk(const Place &place, const dealii::Tensor<1, dim> &path) const
+  {
+    // A little is left between path and surface, so that the surface hides what lies beyond.
+    constexpr double share = 0.98;
+    const auto       end   = body_vicinity.place(place.point + path);
+    if (const double hit = body_vicinity.first_hit(place, end); hit <= 1)
+      return {body_vicinity.place(place.point + share * hit * path), false};
+    const auto [kept, left_domain] = kept_in_domain(place.point, path);
+    return {kept == end.point ? end : body_vicinity.place(kept), left_domain};
+  }
+
+
+  template <int dim>
+  std::pair<dealii::Point<dim>, bool>
+  CharacteristicTracer<dim>::kept_in_domain(const dealii::Point<dim>     &place,
+                                            const dealii::Tensor<1, dim> &path) const
+  {
+    const auto        &grid = fluid_model.grid();
+    dealii::Point<dim> end  = place + path;
+    // Each turn ends the way at the first boundary it meets, or bends it along that wall.
+    for (unsigned int turn = 0; turn < dim; ++turn)
+      {
+        double when = 2;
+        Side   side{0, 0};
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!grid.periodic(d) && (end[d] < grid.lower()[d] || end[d] > grid.upper()[d]))
+            {
+              const unsigned int upper = end[d] > grid.upper()[d] ? 1 : 0;
+              const double       wall  = upper ? grid.upper()[d] : grid.lower()[d];
+              const double       here  = std::max(0., (wall - place[d]) / path[d]);
+              if (here < when)
+                {
+                  when = here;
+                  side = {d, upper};
+                }
+            }
+        if (when > 1)
+          break;
+        const auto  hit      = place + when * path;
+        const auto &boundary = fluid_model.boundaries().at(side, hit);
+        if (boundary.is_open() || boundary.kind == BoundaryKind::inflow)
+          return {hit, true};
+        end[side.axis] = side.end == 0 ? grid.lower()[side.axis] : grid.upper()[side.axis];
+      }
+    return {end, false};
+  }
+
+
+  template class CharacteristicTracer<2>;
+  template class CharacteristicTracer<3>;
+} // namespace undine

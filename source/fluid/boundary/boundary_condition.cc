@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/grid/field_algebra.h>
+
+namespace undine
+{
+  template <int dim>
+  VelocityCondition<dim>::VelocityCondition(const unsigned int axis_)
+    : axis(axis_)
+  {
+  }
+
+
+  template <int dim>
+  bool
+  VelocityCondition<dim>::holds(const Boundary<dim> &boundary) const
+  {
+    return boundary.holds_tangential_velocity();
+  }
+
+
+  template <int dim>
+  double
+  VelocityCondition<dim>::held_value(const Boundary<dim>      &boundary,
+                                     const unsigned int        normal_axis,
+                                     const dealii::Point<dim> &place,
+                                     const double              time) const
+  {
+    return boundary.velocity_along(axis, normal_axis, place, time);
+  }
+
+
+  template <int dim>
+  double
+  VelocityCondition<dim>::entering_value(const dealii::Point<dim> &, const double) const
+  {
+    return 0;
+  }
+
+
+  template <int dim>
+  bool
+  VelocityCondition<dim>::obeys_maximum_principle() const
+  {
+    return false;
+  }
+
+
+  namespace
+  {
+    /// The value of one boundary point: held and entering shares plus the rest of the nearest
+    /// value inside.
+    template <int dim>
+    double
+    boundary_value(const Field<dim>             &field,
+                   const BoundaryMap<dim>       &boundaries,
+                   const BoundaryCondition<dim> &condition,
+                   const Velocity<dim>          &velocity,
+                   const Side                    side,
+                   const GridIndex<dim>         &index,
+                   const double                  time)
+    {
+      const int      n    = field.lattice().row(side.axis).size();
+      GridIndex<dim> near = index;
+      near[side.axis]     = side.end == 0 ? 0 : n - 1;
+
+      const auto entering = [&](GridIndex<dim> face) {
+        if (side.end == 1)
+          ++face[side.axis];
+        const auto &stored = velocity[side.axis].stored();
+        for (unsigned int d = 0; d < dim; ++d)
+          face[d] = std::clamp(face[d], stored.lower[d], stored.upper[d] - 1);
+        return side.sign() * velocity[side.axis](face) < 0;
+      };
+      const auto place = field.lattice().point(index);
+      double     value = 0;
+      for_each_boundary_around(
+        boundaries,
+        field.lattice(),
+        side,
+        index,
+        [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &cell) {
+          if (condition.holds(boundary))
+            value += fraction * condition.held_value(boundary, side.axis, place, time);
+          else if (boundary.is_open() && entering(cell))
+            value += fraction * condition.entering_value(place, time);
+          else
+            value += fraction * field(near);
+        });
+      return value;
+    }
+  } // namespace
+
+
+  template <int dim>
+  void
+  fill_boundary_points(Field<dim>                   &field,
+                       const BoundaryMap<dim>       &boundaries,
+                       const BoundaryCondition<dim> &condition,
+                       const Velocity<dim>          &velocity,
+                       const double                  time)
+  {
+    // Direction by direction: points beyond two sides take over what was filled before.
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      if (field.lattice().row(axis).has_boundary_points())
+        for (unsigned int end = 0; end < 2; ++end)
+          {
+            const Side side{axis, end};
+            auto       layer  = field.stored();
+            const int  index  = end == 0 ? -1 : field.lattice().row(axis).size();
+            layer.lower[axis] = std::max(layer.lower[axis], index);
+            layer.upper[axis] = std::min(layer.upper[axis], index + 1);
+            for_each(layer, [&](const GridIndex<dim> &point) {
+              field(point) =
+                boundary_value(field, boundaries, condition, velocity, side, point, time);
+            });
+          }
+  }
+
+
+  template <int dim>
+  void
+  set_boundary_velocity(Velocity<dim>          &velocity,
+                        const BoundaryMap<dim> &boundaries,
+                        const double            time)
+  {
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      for (unsigned int end = 0; end < 2 && !boundaries.grid().periodic(axis); ++end)
+        {
+          auto       &component = velocity[axis];
+          const auto *divided   = component.divided();
+          const Side  side{axis, end};
+          auto        layer = component.owned();
+          const int   plane = end == 0 ? 0 : boundaries.grid().cells_along()[axis];
+          layer.lower[axis] = std::max(layer.lower[axis], plane);
+          layer.upper[axis] = std::min(layer.upper[axis], plane + 1);
+          for_each(layer, [&](const GridIndex<dim> &face) {
+            const auto &boundary = boundaries.at(side, face);
+            if (!boundary.holds_normal_velocity())
+              return;
+            component(face) =
+              boundary.velocity_along(axis, axis, component.lattice().point(face), time);
+            for (int k = divided ? divided->first(face) : 0; divided && k < divided->last(face);
+                 ++k)
+              component.parts()[k] =
+                boundary.velocity_along(axis, axis, divided->all()[k].place, time);
+          });
+        }
+    set_means(velocity, boundaries.grid());
+  }
+
+
+  template class VelocityCondition<2>;
+  template class VelocityCondition<3>;
+  template void
+  fill_boundary_points(Field<2> &,
+                       const BoundaryMap<2> &,
+                       const BoundaryCondition<2> &,
+                       const Velocity<2> &,
+                       const double);
+  template void
+  fill_boundary_points(Field<3> &,
+                       const BoundaryMap<3> &,
+                       const BoundaryCondition<3> &,
+                       const Velocity<3> &,
+                       const double);
+  template void
+  set_boundary_velocity(Velocity<2> &, const BoundaryMap<2> &, const double);
+  template void
+  set_boundary_velocity(Velocity<3> &, const BoundaryMap<3> &, const double);
+} // namespace undine

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/boundary/boundary_quantities.h>
+#include <undine/fluid/grid/pressure_numbers.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// Call `action(side, index)` for the points of a lattice next to a side that this rank owns;
+    /// those of faces normal to the side lie on it.
+    template <int dim, class Action>
+    void
+    for_each_next_to_side(const MacGrid<dim> &grid, const Lattice<dim> &lattice, Action &&action)
+    {
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        for (unsigned int end = 0; end < 2 && !grid.periodic(axis); ++end)
+          {
+            const Side side{axis, end};
+            const int  index  = end == 0 ? 0 : lattice.row(axis).size() - 1;
+            auto       layer  = lattice.owned();
+            layer.lower[axis] = std::max(layer.lower[axis], index);
+            layer.upper[axis] = std::min(layer.upper[axis], index + 1);
+            for_each(layer, [&](const GridIndex<dim> &point) { action(side, point); });
+          }
+    }
+
+
+    template <int dim>
+    std::vector<dealii::Tensor<1, dim>>
+    sum_over_ranks(std::vector<dealii::Tensor<1, dim>> forces, const MPI_Comm communicator)
+    {
+      for (auto &force : forces)
+        force = dealii::Utilities::MPI::sum(force, communicator);
+      return forces;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<double>
+  boundary_fluxes(const BoundaryMap<dim> &boundaries, const Velocity<dim> &velocity)
+  {
+    const auto         &grid = boundaries.grid();
+    std::vector<double> fluxes(boundaries.all().size(), 0.);
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      for_each_next_to_side(
+        grid, *grid.faces(axis), [&](const Side side, const GridIndex<dim> &face) {
+          if (side.axis == axis)
+            fluxes[boundaries.number(side, face)] +=
+              side.sign() * grid.face_area(axis, face) * velocity[axis](face);
+        });
+    for (double &flux : fluxes)
+      flux = dealii::Utilities::MPI::sum(flux, grid.communicator());
+    return fluxes;
+  }
+
+
+  template <int dim>
+  std::string
+  net_flux_complaint(const BoundaryMap<dim> &boundaries, const Velocity<dim> &velocity)
+  {
+    if (boundaries.has_opening())
+      return "";
+    const auto  fluxes = boundary_fluxes(boundaries, velocity);
+    double      net    = 0;
+    double      size   = 0;
+    std::string list;
+    for (unsigned int b = 0; b < fluxes.size(); ++b)
+      {
+        net += fluxes[b];
+        size += std::abs(fluxes[b]);
+        if (fluxes[b] != 0)
+          list += fmt::format(
+            "{}'{}' {:.6g}", list.empty() ? "" : ", ", boundaries.all()[b].name, fluxes[b]);
+      }
+    if (std::abs(net) <= 1e-10 * size)
+      return "";
+    return fmt::format("the fluid has no outlet, but in sum {:.6g} m^{}/s flow out of it (by "
+                       "boundary, outwards: {})",
+                       net,
+                       dim,
+                       list);
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  pressure_forces(const BoundaryMap<dim> &boundaries, const FluidState<dim> &state)
+  {
+    const auto                         &grid = boundaries.grid();
+    std::vector<dealii::Tensor<1, dim>> forces(boundaries.all().size());
+    auto                                pressure = state.pressure;
+    const auto                         *open     = pressure.topology().get();
+    pressure.exchange(1);
+    for_each_next_to_side(grid, *grid.cells(), [&](const Side side, const GridIndex<dim> &cell) {
+      const unsigned int axis  = side.axis;
+      const auto         next  = moved<dim>(cell, axis, -side.sign());
+      const auto         whole = [&](const GridIndex<dim> &index) {
+        return !open || open->cells.kind(index) == SubLattice<dim>::Kind::whole;
+      };
+      auto &force = forces[boundaries.number(side, cell)][axis];
+      if (!whole(cell))
+        {
+          const auto face = moved<dim>(cell, axis, side.end);
+          for (int k = open->faces[axis].first(face); k < open->faces[axis].last(face); ++k)
+            force += side.sign() * open->faces[axis].all()[k].measure *
+                     value_at(pressure, end_of_piece(*open, axis, k, 1 - side.end));
+          return;
+        }
+      double on_wall = pressure(cell);
+      if (next[axis] >= 0 && next[axis] < grid.cells_along()[axis] && whole(next))
+        {
+          const int plane = std::max(cell[axis], next[axis]);
+          on_wall += (pressure(cell) - pressure(next)) * grid.cell_width(axis, cell[axis]) / 2 /
+                     grid.dual_width(axis, plane);
+        }
+      force += side.sign() * on_wall * grid.face_area(axis, cell);
+    });
+    return sum_over_ranks(forces, grid.communicator());
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  viscous_forces(const BoundaryMap<dim> &boundaries,
+                 const FluidState<dim>  &state,
+                 const double            dynamic_viscosity,
+                 const double            time)
+  {
+    const auto                         &grid = boundaries.grid();
+    std::vector<dealii::Tensor<1, dim>> forces(boundaries.all().size());
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      for_each_next_to_side(
+        grid, *grid.faces(axis), [&](const Side side, const GridIndex<dim> &point) {
+          if (side.axis == axis)
+            return;
+          const auto &lattice = *grid.faces(axis);
+          double      area    = 1;
+          for (unsigned int d = 0; d < dim; ++d)
+            if (d != side.axis)
+              area *= d == axis ? grid.dual_width(d, point[d]) : grid.cell_width(d, point[d]);
+          const double distance = grid.cell_width(side.axis, point[side.axis]) / 2;
+          const auto   on_wall  = moved<dim>(point, side.axis, side.sign());
+          for_each_boundary_around(
+            boundaries,
+            lattice,
+            side,
+            on_wall,
+            [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
+              if (!boundary.holds_tangential_velocity())
+                return;
+              const double slip =
+                state.velocity[axis](point) -
+                boundary.velocity_along(axis, side.axis, lattice.point(on_wall), time);
+              forces[&boundary - boundaries.all().data()][axis] +=
+                dynamic_viscosity * slip / distance * area * fraction;
+            });
+        });
+    return sum_over_ranks(forces, grid.communicator());
+  }
+
+
+  template <int dim>
+  Columns
+  force_columns(const std::string                         &what,
+                const BoundaryMap<dim>                    &boundaries,
+                const std::vector<dealii::Tensor<1, dim>> &forces)
+  {
+    Columns columns;
+    for (unsigned int b = 0; b < forces.size(); ++b)
+      {
+        const auto &boundary = boundaries.all()[b];
+        if (boundary.holds_normal_velocity() && boundary.kind != BoundaryKind::inflow)
+          for (unsigned int d = 0; d < dim; ++d)
+            columns.push_back({what + " on " + boundary.name + ", " + "xyz"[d], "N", forces[b][d]});
+      }
+    return columns;
+  }
+
+
+#define INSTANTIATE(dim)                                                                            \
+  template std::vector<double> boundary_fluxes(const BoundaryMap<dim> &, const Velocity<dim> &);    \
+  template std::string         net_flux_complaint(const BoundaryMap<dim> &, const Velocity<dim> &); \
+  template std::vector<dealii::Tensor<1, dim>> pressure_forces(const BoundaryMap<dim> &,            \
+                                                               const FluidState<dim> &);            \
+  template std::vector<dealii::Tensor<1, dim>> viscous_forces(                                      \
+    const BoundaryMap<dim> &, const FluidState<dim> &, const double, const double);                 \
+  template Columns force_columns(                                                                   \
+    const std::string &, const BoundaryMap<dim> &, const std::vector<dealii::Tensor<1, dim>> &);
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace undine

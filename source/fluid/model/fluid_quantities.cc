@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/boundary/boundary_quantities.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/model/fluid_quantities.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  namespace
+  {
+    /// A copy whose upper faces are known for every owned cell.
+    template <int dim>
+    Velocity<dim>
+    with_ghosts(Velocity<dim> velocity)
+    {
+      exchange(velocity);
+      return velocity;
+    }
+
+
+    /// Mean of the two faces of a cell normal to `axis` [m/s].
+    template <int dim>
+    double
+    at_centre(const Velocity<dim> &velocity, const unsigned int axis, const GridIndex<dim> &cell)
+    {
+      return (velocity[axis](cell) + velocity[axis](moved<dim>(cell, axis, 1))) / 2;
+    }
+
+
+    /// action(axis, rho V_f, v_f) for all owned faces and pieces.
+    template <int dim, class Action>
+    void
+    for_each_mass(const FluidModel<dim> &model, const Velocity<dim> &velocity, const Action &action)
+    {
+      const auto *open = velocity.topology();
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          const auto &component = velocity[axis];
+          const auto *divided   = component.divided();
+          for_each(component.owned(), [&](const GridIndex<dim> &face) {
+            if (!divided || divided->kind(face) == SubLattice<dim>::Kind::whole)
+              action(axis, model.density() * model.grid().dual_volume(axis, face), component(face));
+          });
+          for (std::size_t k = 0; k < component.parts().size(); ++k)
+            if (divided->owns(k))
+              action(axis, model.density() * open->pieces[axis][k].volume, component.parts()[k]);
+        }
+    }
+
+  } // namespace
+
+
+  void
+  throw_unless_finite(const bool finite, const MPI_Comm communicator)
+  {
+    if (dealii::Utilities::MPI::min(finite ? 1 : 0, communicator) == 0)
+      throw SolveError("The fluid's velocity is not a finite number any more. Try a smaller step, "
+                       "and check expressions for forces and boundary values.");
+  }
+
+
+  template <int dim>
+  double
+  kinetic_energy(const FluidModel<dim> &model, const Velocity<dim> &velocity)
+  {
+    double energy = 0;
+    for_each_mass(model, velocity, [&](const unsigned int, const double mass, const double v) {
+      energy += mass * v * v / 2;
+    });
+    return dealii::Utilities::MPI::sum(energy, model.grid().communicator());
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  linear_momentum(const FluidModel<dim> &model, const Velocity<dim> &velocity)
+  {
+    dealii::Tensor<1, dim> momentum;
+    for_each_mass(model, velocity, [&](const unsigned int axis, const double mass, const double v) {
+      momentum[axis] += mass * v;
+    });
+    return dealii::Utilities::MPI::sum(momentum, model.grid().communicator());
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  largest_components(const FluidModel<dim> &model, const Velocity<dim> &velocity)
+  {
+    dealii::Tensor<1, dim> result;
+    bool                   finite = true;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        double     largest = 0;
+        const auto include = [&](const double value) {
+          finite  = finite && std::isfinite(value);
+          largest = std::max(largest, std::abs(value));
+        };
+        for_each(velocity[axis].owned(),
+                 [&](const GridIndex<dim> &face) { include(velocity[axis](face)); });
+        for (const double value : velocity[axis].parts())
+          include(value);
+        result[axis] = dealii::Utilities::MPI::max(largest, model.grid().communicator());
+      }
+    throw_unless_finite(finite, model.grid().communicator());
+    return result;
+  }
+
+
+  template <int dim>
+  double
+  largest_speed(const FluidModel<dim> &model, const Velocity<dim> &velocity)
+  {
+    const auto known   = with_ghosts(velocity);
+    double     largest = 0;
+    bool       finite  = true;
+    for_each(model.grid().cells()->owned(), [&](const GridIndex<dim> &cell) {
+      double square = 0;
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        square += std::pow(at_centre(known, axis, cell), 2);
+      finite  = finite && std::isfinite(square);
+      largest = std::max(largest, square);
+    });
+    throw_unless_finite(finite, model.grid().communicator());
+    return std::sqrt(dealii::Utilities::MPI::max(largest, model.grid().communicator()));
+  }
+
+
+  template <int dim>
+  double
+  integral(const FluidModel<dim> &model, const Field<dim> &scalar)
+  {
+    Field<dim> volumes(scalar.shared_lattice(), scalar.topology());
+    set_volumes(volumes, model.grid());
+    double sum = 0;
+    for_each(scalar.owned(),
+             [&](const GridIndex<dim> &cell) { sum += volumes(cell) * scalar(cell); });
+    for (std::size_t c = 0; c < scalar.parts().size(); ++c)
+      if (scalar.divided()->owns(c))
+        sum += volumes.parts()[c] * scalar.parts()[c];
+    return dealii::Utilities::MPI::sum(sum, model.grid().communicator());
+  }
+
+
+  template <int dim>
+  Columns
+  fluid_columns(const FluidModel<dim> &model, const FluidState<dim> &state, const double divergence)
+  {
+    Columns    columns{{"Fluid kinetic energy", "J", kinetic_energy(model, state.velocity)},
+                    {"Fluid largest speed", "m/s", largest_speed(model, state.velocity)},
+                    {"Fluid divergence", "1", divergence}};
+    const auto fluxes = boundary_fluxes(model.boundaries(), state.velocity);
+    for (unsigned int b = 0; b < fluxes.size(); ++b)
+      {
+        const auto &boundary = model.boundaries().all()[b];
+        if (boundary.is_open() || boundary.kind == BoundaryKind::inflow)
+          columns.push_back(
+            {"Flux through " + boundary.name, "m^" + std::to_string(dim) + "/s", fluxes[b]});
+      }
+    const auto forces = force_columns(
+      "Pressure force", model.boundaries(), pressure_forces(model.boundaries(), state));
+    columns.insert(columns.end(), forces.begin(), forces.end());
+    return columns;
+  }
+
+
+#define INSTANTIATE(dim)                                                                           \
+  template double                 kinetic_energy(const FluidModel<dim> &, const Velocity<dim> &);  \
+  template dealii::Tensor<1, dim> linear_momentum(const FluidModel<dim> &, const Velocity<dim> &); \
+  template dealii::Tensor<1, dim> largest_components(const FluidModel<dim> &,                      \
+                                                     const Velocity<dim> &);                       \
+  template double                 largest_speed(const FluidModel<dim> &, const Velocity<dim> &);   \
+  template double                 integral(const FluidModel<dim> &, const Field<dim> &);           \
+  template Columns fluid_columns(const FluidModel<dim> &, const FluidState<dim> &, const double);
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace undine

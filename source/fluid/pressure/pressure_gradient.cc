@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/boundary/side_faces.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/pressure/pressure_gradient.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  namespace
+  {
+    template <int dim>
+    using Kind = typename SubLattice<dim>::Kind;
+  } // namespace
+
+
+  template <int dim>
+  std::vector<OpenFace<dim>>
+  open_faces(const FluidModel<dim>    &model,
+             const Velocity<dim>      &velocity,
+             const FluidTopology<dim> *topology,
+             const double              time)
+  {
+    std::vector<OpenFace<dim>> result;
+    for_each_side_face(model.grid(), topology, [&](const SideFace<dim> &at, const auto &place) {
+      const auto &boundary = model.boundaries().at(at.side, at.face);
+      if (!boundary.is_open())
+        return;
+      const double entering = std::max(0., -at.side.sign() * velocity[at.side.axis](at.face));
+      const double pressure = boundary.kind == BoundaryKind::outflow
+                                ? -model.density() / 2 * entering * entering
+                                : boundary.pressure.value(place, time);
+      result.push_back({at, pressure, boundary.kind, entering});
+    });
+    return result;
+  }
+
+
+  template <int dim>
+  Velocity<dim>
+  pressure_acceleration(const FluidModel<dim>            &model,
+                        const Field<dim>                 &pressure,
+                        const std::vector<OpenFace<dim>> &openings)
+  {
+    const auto   &grid = model.grid();
+    const auto   &open = pressure.topology();
+    Velocity<dim> acceleration;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        auto &component     = acceleration[axis];
+        component           = Field<dim>(grid.faces(axis), open);
+        const auto *divided = component.divided();
+        for_each(component.owned(), [&](const GridIndex<dim> &face) {
+          // (rho V)^-1 a, where V = a times the distance of the pressures.
+          if (!grid.at_boundary(axis, face) &&
+              (!divided || divided->kind(face) == Kind<dim>::whole))
+            component(face) = (pressure(moved<dim>(face, axis, -1)) - pressure(face)) /
+                              (model.density() * grid.dual_width(axis, face[axis]));
+        });
+        for (std::size_t k = 0; k < component.parts().size(); ++k)
+          if (const auto &part = divided->all()[k];
+              divided->owns(k) && !grid.at_boundary(axis, part.index))
+            {
+              const auto  &piece = open->pieces[axis][k];
+              const double drop  = value_at(pressure, end_of_piece(*open, axis, k, 0)) -
+                                  value_at(pressure, end_of_piece(*open, axis, k, 1));
+              component.parts()[k] = drop * part.measure / (model.density() * piece.volume);
+            }
+      }
+    for (const auto &opening : openings)
+      {
+        const unsigned int axis      = opening.side.axis;
+        auto              &component = acceleration[axis];
+        const double       sign      = opening.side.sign();
+        if (opening.piece < 0)
+          component(opening.face) = opening.mobility * sign *
+                                    (pressure(opening.cell) - opening.pressure) /
+                                    (model.density() * grid.dual_width(axis, opening.face[axis]));
+        else
+          {
+            const auto  &piece = open->pieces[axis][opening.piece];
+            const double drop =
+              value_at(pressure, place_inside(open.get(), opening)) - opening.pressure;
+            component.parts()[opening.piece] = opening.mobility * sign * drop *
+                                               component.divided()->all()[opening.piece].measure /
+                                               (model.density() * piece.volume);
+          }
+      }
+    set_means(acceleration, grid);
+    return acceleration;
+  }
+
+
+  template <int dim>
+  double
+  pressure_coupling(const FluidModel<dim> &model,
+                    const unsigned int     axis,
+                    const GridIndex<dim>  &face)
+  {
+    const double area = model.grid().face_area(axis, face);
+    return area * area / (model.density() * model.grid().dual_volume(axis, face));
+  }
+
+
+#define INSTANTIATE(dim)                                                                       \
+  template std::vector<OpenFace<dim>> open_faces(                                              \
+    const FluidModel<dim> &, const Velocity<dim> &, const FluidTopology<dim> *, const double); \
+  template Velocity<dim> pressure_acceleration(                                                \
+    const FluidModel<dim> &, const Field<dim> &, const std::vector<OpenFace<dim>> &);          \
+  template double pressure_coupling(                                                           \
+    const FluidModel<dim> &, const unsigned int, const GridIndex<dim> &);
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace undine

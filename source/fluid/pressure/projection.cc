@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/relative.h>
+#include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/model/fluid_quantities.h>
+#include <undine/fluid/pressure/backflow_stabilisation.h>
+#include <undine/fluid/pressure/divergence.h>
+#include <undine/fluid/pressure/pressure_gradient.h>
+#include <undine/fluid/pressure/pressure_matrix.h>
+#include <undine/fluid/pressure/projection.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/solver_cg.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace undine
+{
+  namespace
+  {
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    /// The smallest flux_area() of all cells.
+    template <int dim>
+    double
+    smallest_flux_area(const MacGrid<dim> &grid)
+    {
+      double smallest = flux_area<dim>(grid, grid.cells()->owned().lower);
+      for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
+        smallest = std::min(smallest, flux_area(grid, cell));
+      });
+      return dealii::Utilities::MPI::min(smallest, grid.communicator());
+    }
+  } // namespace
+
+
+  template <int dim>
+  Projection<dim>::Projection(const FluidModel<dim> &model_)
+    : model(model_)
+  {
+  }
+
+
+  template <int dim>
+  PressureBalance<dim>
+  Projection<dim>::Report::balance(const FluidModel<dim> &model, const FluidState<dim> &state) const
+  {
+    return pressure_balance(model, before, state.velocity, state.pressure, openings);
+  }
+
+
+  template <int dim>
+  void
+  Projection<dim>::prepare(const std::shared_ptr<const FluidTopology<dim>> &topology)
+  {
+    if (numbers && numbers->topology() == topology)
+      return;
+    numbers.reset(); // until all is there
+    auto new_numbers = std::make_unique<const PressureNumbers<dim>>(model.grid(), topology);
+    closed_regions   = std::make_unique<const ClosedRegions<dim>>(model, *new_numbers);
+    multigrid.reset();
+    matrix.reset();
+    smallest_area = smallest_flux_area(model.grid());
+    if (new_numbers->owned().size() == 0)
+      {
+        numbers = std::move(new_numbers);
+        return; // obstacles fill the domain
+      }
+    matrix = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
+    build_pressure_matrix(*matrix, model, *new_numbers, closed_regions->pinned());
+    multigrid = std::make_unique<AlgebraicMultigrid>();
+    multigrid->initialize(*matrix);
+    numbers = std::move(new_numbers);
+  }
+
+
+  template <int dim>
+  unsigned int
+  Projection<dim>::solve(Vector               &impulse,
+                         const Vector         &right_side,
+                         const BackflowMatrix &held_back,
+                         const double          tolerance) const
+  {
+    dealii::SolverControl    control(model.pressure_solver().maximum_iterations, tolerance);
+    dealii::SolverCG<Vector> solver(control);
+    try
+      {
+        solver.solve(held_back, impulse, right_side, *multigrid);
+      }
+    catch (const dealii::SolverControl::NoConvergence &failure)
+      {
+        throw SolveError(
+          fmt::format("The fluid's pressure did not converge: after {} iterations the residual is "
+                      "{:.3g} m^{}/s, allowed {:.3g}. Try a larger 'Fluid/Pressure solver/Maximum "
+                      "iterations' or 'Divergence tolerance', or a grid with less stretched cells.",
+                      failure.last_step,
+                      failure.last_residual,
+                      dim,
+                      tolerance));
+      }
+    return control.last_step();
+  }
+
+
+  template <int dim>
+  typename Projection<dim>::Report
+  Projection<dim>::remove_divergence(Velocity<dim>              &velocity,
+                                     Field<dim>                 &impulse,
+                                     std::vector<OpenFace<dim>> &openings,
+                                     const std::vector<double>  &body_fluxes)
+  {
+    Field<dim> pushed(model.grid().cells(), velocity[0].topology());
+    std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
+    const double         tolerance   = model.pressure_solver().divergence_tolerance;
+    const double         body_speed  = largest_divergence(model, pushed);
+    const double         first_speed = largest_components(model, velocity).norm() + body_speed;
+    Field<dim>           increment   = impulse;
+    Report               report;
+    const BackflowMatrix held_back(*matrix, model, *numbers, openings);
+
+    for (unsigned int round = 0; round < 8; ++round)
+      {
+        increment.exchange(1);
+        add(velocity, 1., pressure_acceleration(model, increment, openings));
+        for (auto &open : openings)
+          open.pressure = 0;
+        exchange(velocity);
+
+        auto fluxes = divergence(model, velocity);
+        add(fluxes, 1., pushed);
+        const double divergence = largest_divergence(model, fluxes);
+        const double speed      = largest_components(model, velocity).norm() + body_speed;
+        report.divergence       = relative(divergence, speed);
+        // Below 1e-4 of the speeds that cancelled there is nothing but rounding.
+        const double allowed = tolerance * std::max(speed, 1e-4 * first_speed);
+        if (divergence <= allowed)
+          return report;
+
+        Vector right_side(numbers->owned(), model.grid().communicator()), correction(right_side);
+        copy_to_vector(right_side, fluxes);
+        right_side *= -1;
+        closed_regions->balance(right_side);
+        // In the mean over cells a quarter of what is allowed, then less: some have more.
+        const double in_the_mean = std::sqrt(double(right_side.size())) * smallest_area * allowed;
+        report.iterations +=
+          solve(correction, right_side, held_back, in_the_mean * std::pow(0.25, round + 1));
+        copy_from_vector(increment, correction);
+        add(impulse, 1., increment);
+      }
+    throw SolveError(
+      fmt::format("The fluid's divergence stays at {:.3g} of its speed per cell, above "
+                  "the tolerance {:.3g}. Try a larger 'Fluid/Pressure "
+                  "solver/Divergence tolerance', or a grid with less stretched cells.",
+                  report.divergence,
+                  tolerance));
+  }
+
+
+  template <int dim>
+  typename Projection<dim>::Report
+  Projection<dim>::remove_divergence_with_openings(Velocity<dim>             &velocity,
+                                                   Field<dim>                &impulse,
+                                                   std::vector<OpenFace<dim>> openings,
+                                                   const double               dt,
+                                                   const std::vector<double> &body_fluxes)
+  {
+    auto   before = velocity;
+    Report report;
+    find_entering_speeds([&](const unsigned int round) {
+      if (round > 0)
+        velocity = before;
+      stabilise_backflow(velocity, openings, model, dt);
+      auto impulses = openings;
+      for (auto &open : impulses)
+        open.pressure *= dt;
+      const unsigned int iterations = report.iterations;
+      report                        = remove_divergence(velocity, impulse, impulses, body_fluxes);
+      report.iterations += iterations;
+      const double change = update_entering_speeds(openings, velocity, model, dt);
+      return relative(change, largest_components(model, velocity).norm());
+    });
+    report.before   = std::move(before);
+    report.openings = std::move(openings);
+    return report;
+  }
+
+
+  template <int dim>
+  typename Projection<dim>::Report
+  Projection<dim>::project(FluidState<dim> &state, const double time, const double dt)
+  {
+    return project(state, state.velocity, time, dt);
+  }
+
+
+  template <int dim>
+  typename Projection<dim>::Report
+  Projection<dim>::project(FluidState<dim>       &state,
+                           const Velocity<dim>   &carrying,
+                           const double           time,
+                           const double           dt,
+                           const SweptVolumeFlux &pushed)
+  {
+    const auto &topology = state.pressure.topology();
+    prepare(topology);
+    set_boundary_velocity(state.velocity, model.boundaries(), time);
+    const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
+    Field<dim> impulse(model.grid().cells(), topology);
+    add(impulse, dt, state.pressure);
+    const auto report = remove_divergence_with_openings(
+      state.velocity, impulse, open_faces(model, carrying, topology.get(), time), dt, body_fluxes);
+    state.pressure = Field<dim>(model.grid().cells(), topology);
+    add(state.pressure, 1 / dt, impulse);
+    closed_regions->remove_means(state.pressure);
+    set_means(state.pressure, model.grid());
+    return report;
+  }
+
+
+  template <int dim>
+  typename Projection<dim>::Report
+  Projection<dim>::make_divergence_free(FluidState<dim>       &state,
+                                        const double           time,
+                                        const SweptVolumeFlux &pushed)
+  {
+    const auto topology = state.velocity[0].topology();
+    prepare(topology);
+    set_boundary_velocity(state.velocity, model.boundaries(), time);
+    const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
+    auto       openings    = open_faces(model, state.velocity, topology.get(), time);
+    for (auto &open : openings)
+      open.pressure = 0;
+    Field<dim> impulse(model.grid().cells(), topology);
+    const auto report = remove_divergence(state.velocity, impulse, openings, body_fluxes);
+    state.pressure    = Field<dim>(model.grid().cells(), topology);
+    return report;
+  }
+
+
+  template class Projection<2>;
+  template class Projection<3>;
+} // namespace undine

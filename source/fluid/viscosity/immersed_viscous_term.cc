@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/viscosity/immersed_viscous_term.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+#include <cmath>
+#include <utility>
+
+namespace undine
+{
+  template <int dim>
+  ImmersedViscousTerm<dim>::ImmersedViscousTerm(const FluidModel<dim>                     &model,
+                                                const unsigned int                         axis,
+                                                std::shared_ptr<const FluidTopology<dim>>  open_,
+                                                std::shared_ptr<const NoSlipSurfaces<dim>> walls_,
+                                                const double viscosity)
+    : model(model)
+    , axis(axis)
+    , open(std::move(open_))
+    , no_slip_surfaces(std::move(walls_))
+    , terms(model, axis, *open, *no_slip_surfaces, viscosity)
+    , kinematic(viscosity / model.density())
+  {
+    number_unknowns();
+    std::vector<std::pair<Number, double>> free;
+    terms.for_each([&](const ViscousTerm<dim> &term) {
+      collect(free, term);
+      if (free.size() < term.faces.size() || !term.nodes.empty() || term.wall.boundary)
+        given_terms.push_back(term);
+    });
+  }
+
+
+  /// action(FacePlace) in the order of for_each_value().
+  template <int dim>
+  template <class Action>
+  void
+  ImmersedViscousTerm<dim>::for_each_owned(const Action &action) const
+  {
+    const auto &divided = open->faces[axis];
+    for_each(model.grid().faces(axis)->owned(), [&](const GridIndex<dim> &face) {
+      if (divided.kind(face) == SubLattice<dim>::Kind::whole)
+        action(FacePlace<dim>{face, -1});
+    });
+    for (std::size_t k = 0; k < divided.all().size(); ++k)
+      if (divided.owns(k))
+        action(FacePlace<dim>{divided.all()[k].index, static_cast<int>(k)});
+  }
+
+
+  /// Faces and pieces of rank 0 first; the nodes of bodies belong to the last rank.
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::number_unknowns()
+  {
+    namespace mpi           = dealii::Utilities::MPI;
+    const auto communicator = model.grid().communicator();
+    const bool is_last =
+      mpi::this_mpi_process(communicator) + 1 == mpi::n_mpi_processes(communicator);
+    numbers      = Field<dim>(model.grid().faces(axis), open);
+    Number count = 0;
+    for_each_value(numbers, [&](double &, const auto &, const auto &) { ++count; });
+    first_node           = mpi::sum(count, communicator);
+    const Number n_nodes = is_last ? no_slip_surfaces->masses.size() : 0;
+    mine                 = mpi::create_ascending_partitioning(communicator,
+                                              count + n_nodes)[mpi::this_mpi_process(communicator)];
+    Number next          = count > 0 ? mine.nth_index_in_set(0) : 0;
+    for_each_value(numbers, [&](double &number, const auto &, const auto &) { number = next++; });
+    numbers.exchange(1);
+  }
+
+
+  /// rho V_f [kg]
+  template <int dim>
+  double
+  ImmersedViscousTerm<dim>::mass(const FacePlace<dim> &place) const
+  {
+    return model.density() * (place.part < 0 ? model.grid().dual_volume(axis, place.face)
+                                             : open->pieces[axis][place.part].volume);
+  }
+
+
+  template <int dim>
+  bool
+  ImmersedViscousTerm<dim>::is_held(const FacePlace<dim> &place) const
+  {
+    if (!model.grid().at_boundary(axis, place.face))
+      return false;
+    const Side side{axis, place.face[axis] == 0 ? 0u : 1u};
+    return model.boundaries().at(side, place.face).holds_normal_velocity();
+  }
+
+
+  template <int dim>
+  bool
+  ImmersedViscousTerm<dim>::is_free(const unsigned int node) const
+  {
+    return node < no_slip_surfaces->masses.size() &&
+           std::isfinite(no_slip_surfaces->masses[node][axis]);
+  }
+
+
+  /// The unknowns of a term and their coefficients.
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::collect(std::vector<std::pair<Number, double>> &free,
+                                    const ViscousTerm<dim>                 &term) const
+  {
+    free.clear();
+    for (const auto &[place, coefficient] : term.faces)
+      if (!is_held(place))
+        free.emplace_back(static_cast<Number>(value_at(numbers, place)), coefficient);
+    for (const auto &[node, coefficient] : term.nodes)
+      if (is_free(node))
+        free.emplace_back(first_node + node, coefficient);
+  }
+
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::assemble(const double dt)
+  {
+    const auto                             communicator = model.grid().communicator();
+    std::vector<std::pair<Number, double>> free;
+    std::vector<Number>                    columns;
+    std::vector<double>                    values;
+    // A rank without fluid must not announce rows: their numbers would be taken for a huge range.
+    dealii::TrilinosWrappers::SparsityPattern pattern(
+      mine, communicator, mine.is_empty() ? 0 : 2 * dim + 1);
+    for (const auto row : mine)
+      pattern.add(row, row);
+    terms.for_each([&](const ViscousTerm<dim> &term) {
+      collect(free, term);
+      columns.clear();
+      for (const auto &unknown : free)
+        columns.push_back(unknown.first);
+      for (const auto row : columns)
+        pattern.add_entries(row, columns.begin(), columns.end());
+    });
+    pattern.compress();
+    auto &matrix = solver.matrix;
+    matrix.reinit(pattern);
+    for_each_owned([&](const FacePlace<dim> &place) {
+      const auto number = static_cast<Number>(value_at(numbers, place));
+      matrix.add(number, number, mass(place));
+    });
+    for (unsigned int node = 0; node < no_slip_surfaces->masses.size(); ++node)
+      if (mine.is_element(first_node + node))
+        matrix.add(first_node + node,
+                   first_node + node,
+                   is_free(node) ? no_slip_surfaces->masses[node][axis] : 1.);
+    terms.for_each([&](const ViscousTerm<dim> &term) {
+      collect(free, term);
+      columns.clear();
+      for (const auto &unknown : free)
+        columns.push_back(unknown.first);
+      for (const auto &[row, coefficient] : free)
+        {
+          values.clear();
+          for (const auto &unknown : free)
+            values.push_back(dt * term.weight * coefficient * unknown.second);
+          matrix.add(row, columns.size(), columns.data(), values.data(), false);
+        }
+    });
+    matrix.compress(dealii::VectorOperation::add);
+
+    double reach = 0;
+    for_each(model.grid().cells()->owned(), [&](const GridIndex<dim> &cell) {
+      for (unsigned int d = 0; d < dim; ++d)
+        reach = std::max(reach, dt * kinematic / std::pow(model.grid().cell_width(d, cell[d]), 2));
+    });
+    solver.set_up(dealii::Utilities::MPI::max(reach, communicator));
+    assembled_dt = dt;
+  }
+
+
+  /// sum c v over what is not an unknown.
+  template <int dim>
+  double
+  ImmersedViscousTerm<dim>::given_part(const ViscousTerm<dim> &term,
+                                       const Field<dim>       &field,
+                                       const double            time) const
+  {
+    double sum = 0;
+    for (const auto &[place, coefficient] : term.faces)
+      if (is_held(place))
+        sum += coefficient * value_at(field, place);
+    for (const auto &[node, coefficient] : term.nodes)
+      if (!is_free(node))
+        sum += coefficient * nodes[node];
+    if (const auto &wall = term.wall; wall.boundary)
+      sum -= wall.boundary->velocity_along(axis, wall.normal, wall.place, time);
+    return sum;
+  }
+
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::fill(Vector           &solution,
+                                 Vector           &load,
+                                 const Field<dim> &field,
+                                 const double      time) const
+  {
+    for_each_owned([&](const FacePlace<dim> &place) {
+      const auto number = static_cast<Number>(value_at(numbers, place));
+      solution(number)  = value_at(field, place);
+      load(number)      = mass(place) * value_at(field, place);
+    });
+    for (unsigned int node = 0; node < no_slip_surfaces->masses.size(); ++node)
+      if (const auto number = first_node + node; mine.is_element(number))
+        {
+          solution(number) = nodes[node];
+          load(number) =
+            (is_free(node) ? no_slip_surfaces->masses[node][axis] : 1.) * solution(number);
+        }
+    solution.compress(dealii::VectorOperation::insert);
+    load.compress(dealii::VectorOperation::insert);
+    std::vector<std::pair<Number, double>> free;
+    for (const auto &term : given_terms)
+      if (const double given = given_part(term, field, time); given != 0)
+        {
+          collect(free, term);
+          for (const auto &[row, coefficient] : free)
+            load(row) -= assembled_dt * term.weight * coefficient * given;
+        }
+    load.compress(dealii::VectorOperation::add);
+  }
+
+
+  /// As bodies would move by friction alone.
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::take_over_free_nodes(const Vector &solution)
+  {
+    std::vector<double> values(no_slip_surfaces->masses.size(), 0.);
+    for (unsigned int node = 0; node < values.size(); ++node)
+      if (mine.is_element(first_node + node))
+        values[node] = solution(first_node + node);
+    dealii::Utilities::MPI::sum(values, model.grid().communicator(), values);
+    std::copy(values.begin(), values.end(), nodes.begin());
+  }
+
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::measure_forces(const Field<dim> &field, const double time)
+  {
+    const auto communicator = model.grid().communicator();
+    last_forces.on_nodes.assign(no_slip_surfaces->n_nodes, 0.);
+    last_forces.on_boundaries.assign(model.boundaries().all().size(), 0.);
+    for (const auto &term : given_terms)
+      {
+        double sum = given_part(term, field, time);
+        for (const auto &[place, coefficient] : term.faces)
+          if (!is_held(place))
+            sum += coefficient * value_at(field, place);
+        for (const auto &[node, coefficient] : term.nodes)
+          if (is_free(node))
+            sum += coefficient * nodes[node];
+        const double force = -term.weight * sum;
+        for (const auto &[node, coefficient] : term.nodes)
+          last_forces.on_nodes[node] += force * coefficient;
+        for (const auto &[place, coefficient] : term.faces)
+          if (is_held(place))
+            {
+              const Side side{axis, place.face[axis] == 0 ? 0u : 1u};
+              last_forces.on_boundaries[model.boundaries().number(side, place.face)] +=
+                force * coefficient;
+            }
+        if (term.wall.boundary)
+          last_forces.on_boundaries[term.wall.boundary - model.boundaries().all().data()] -= force;
+      }
+    for (auto *forces : {&last_forces.on_nodes, &last_forces.on_boundaries})
+      dealii::Utilities::MPI::sum(*forces, communicator, *forces);
+  }
+
+
+  template <int dim>
+  unsigned int
+  ImmersedViscousTerm<dim>::step(Field<dim>                                &field,
+                                 const std::vector<dealii::Tensor<1, dim>> &node_velocities,
+                                 const double                               time,
+                                 const double                               dt)
+  {
+    nodes.clear();
+    for (const auto &velocity : node_velocities)
+      nodes.push_back(velocity[axis]);
+    if (dt != assembled_dt)
+      assemble(dt);
+    field.exchange(1);
+    Vector solution(mine, model.grid().communicator()), load(solution);
+    fill(solution, load, field, time);
+    const unsigned int n_iterations = solver.solve(solution, load);
+    for_each_owned([&](const FacePlace<dim> &place) {
+      const double value = solution(static_cast<Number>(value_at(numbers, place)));
+      if (place.part < 0)
+        field(place.face) = value;
+      else
+        field.parts()[place.part] = value;
+    });
+    set_means(field, model.grid());
+    field.exchange(1);
+    take_over_free_nodes(solution);
+    measure_forces(field, time);
+    return n_iterations;
+  }
+
+
+  template <int dim>
+  std::size_t
+  ImmersedViscousTerm<dim>::memory_consumption() const
+  {
+    return solver.memory_consumption() + numbers.memory_consumption() +
+           given_terms.capacity() * sizeof(ViscousTerm<dim>);
+  }
+
+
+  template class ImmersedViscousTerm<2>;
+  template class ImmersedViscousTerm<3>;
+} // namespace undine

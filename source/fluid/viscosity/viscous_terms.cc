@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/viscosity/viscous_terms.h>
+
+#include <cmath>
+
+namespace undine
+{
+  namespace
+  {
+    /// What is nearer than this share of a cell's width counts as so near: it moves along anyway,
+    /// and the equations keep their condition.
+    constexpr double least_share = 0.01;
+  } // namespace
+
+
+  template <int dim>
+  ViscousTerms<dim>::ViscousTerms(const FluidModel<dim>     &model,
+                                  const unsigned int         axis,
+                                  const FluidTopology<dim>  &open,
+                                  const NoSlipSurfaces<dim> &walls,
+                                  const double               viscosity)
+    : model(model)
+    , grid(model.grid())
+    , axis(axis)
+    , open(open)
+    , walls(walls)
+    , viscosity(viscosity)
+    , links(grid, axis, open, walls.rims[axis])
+  {
+  }
+
+
+  template <int dim>
+  void
+  ViscousTerms<dim>::for_each(const Action &action) const
+  {
+    cells(action);
+    components(action);
+    neighbours(action);
+    sides(action);
+    contacts(action);
+  }
+
+
+  template <int dim>
+  double
+  ViscousTerms<dim>::area(const FacePlace<dim> &place) const
+  {
+    return place.part < 0 ? grid.face_area(axis, place.face)
+                          : open.faces[axis].all()[place.part].measure;
+  }
+
+
+  template <int dim>
+  void
+  ViscousTerms<dim>::cells(const Action &action) const
+  {
+    Term term;
+    undine::for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
+      if (open.cells.kind(cell) != SubLattice<dim>::Kind::whole)
+        return;
+      term.faces.clear();
+      term.weight = viscosity / grid.cell_volume(cell);
+      for (const int end : {0, 1})
+        links.for_each_place(moved<dim>(cell, axis, end), [&](const FacePlace<dim> &place) {
+          term.faces.emplace_back(place, end == 0 ? -area(place) : area(place));
+        });
+      action(term);
+    });
+  }
+
+
+  template <int dim>
+  void
+  ViscousTerms<dim>::components(const Action &action) const
+  {
+    const auto       &all = open.cells.all();
+    std::vector<Term> terms(all.size());
+    for (std::size_t k = 0; k < open.pieces[axis].size(); ++k)
+      for (const unsigned int end : {0, 1})
+        if (const int c = open.pieces[axis][k].components[end]; c >= 0)
+          {
+            const FacePlace<dim> place{open.faces[axis].all()[k].index, static_cast<int>(k)};
+            terms[c].faces.emplace_back(place, end == 0 ? area(place) : -area(place));
+          }
+    for (const auto &patch : walls.patches)
+      if (patch.area[axis] != 0)
+        terms[patch.component].nodes.emplace_back(patch.node, patch.area[axis]);
+    for (std::size_t c = 0; c < all.size(); ++c)
+      {
+        if (!open.cells.owns(c) || terms[c].faces.empty())
+          continue;
+        double largest = 0;
+        for (const auto &[place, coefficient] : terms[c].faces)
+          largest = std::max(largest, std::abs(coefficient));
+        const double least = least_share * largest * grid.cell_width(axis, all[c].index[axis]);
+        terms[c].weight    = viscosity / std::max(all[c].measure, least);
+        action(terms[c]);
+      }
+  }
+
+
+  template <int dim>
+  void
+  ViscousTerms<dim>::neighbours(const Action &action) const
+  {
+    Term term;
+    term.faces.resize(2);
+    undine::for_each(grid.faces(axis)->owned(), [&](const GridIndex<dim> &face) {
+      const double width = grid.dual_width(axis, face[axis]);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (d != axis && links.has_neighbour(face, d, 1))
+          links.for_each_place(face, [&](const FacePlace<dim> &place) {
+            links.for_each_neighbour(
+              place, d, 1, [&](const FacePlace<dim> &next, const double common) {
+                const double distance = std::max(links.centroid(next)[d] - links.centroid(place)[d],
+                                                 least_share * grid.cell_width(d, face[d]));
+                term.weight           = viscosity * width * common / distance;
+                term.faces[0]         = {place, 1.};
+                term.faces[1]         = {next, -1.};
+                action(term);
+              });
+          });
+    });
+  }
+
+
+  template <int dim>
+  void
+  ViscousTerms<dim>::sides(const Action &action) const
+  {
+    Term                         term;
+    const auto                  &lattice = *grid.faces(axis);
+    const VelocityCondition<dim> condition(axis);
+    term.faces.resize(1);
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int end = 0; end < 2 && d != axis && !grid.periodic(d); ++end)
+        {
+          const Side side{d, end};
+          auto       layer = lattice.owned();
+          const int  last  = end == 0 ? 0 : lattice.row(d).size() - 1;
+          layer.lower[d]   = std::max(layer.lower[d], last);
+          layer.upper[d]   = std::min(layer.upper[d], last + 1);
+          undine::for_each(layer, [&](const GridIndex<dim> &face) {
+            const auto on_side = moved<dim>(face, d, side.sign());
+            links.for_each_place(face, [&](const FacePlace<dim> &place) {
+              const double distance =
+                std::max(std::abs(links.side(place, d, end) - links.centroid(place)[d]),
+                         least_share * grid.cell_width(d, face[d]));
+              const double weight = viscosity * grid.dual_width(axis, face[axis]) *
+                                    links.rim(place, d, end).length / distance;
+              for_each_boundary_around(
+                model.boundaries(),
+                lattice,
+                side,
+                on_side,
+                [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
+                  if (!condition.holds(boundary) || weight == 0)
+                    return;
+                  term.weight   = fraction * weight;
+                  term.faces[0] = {place, 1.};
+                  term.wall     = {&boundary, d, lattice.point(on_side)};
+                  action(term);
+                });
+            });
+          });
+        }
+  }
+
+
+  template <int dim>
+  void
+  ViscousTerms<dim>::contacts(const Action &action) const
+  {
+    Term term;
+    term.faces.resize(1);
+    term.nodes.resize(dim);
+    for (const auto &contact : walls.contacts[axis])
+      {
+        term.weight =
+          viscosity * grid.dual_width(axis, contact.face[axis]) * contact.length / contact.distance;
+        term.faces[0] = {{contact.face, contact.part}, 1.};
+        for (unsigned int k = 0; k < dim; ++k)
+          term.nodes[k] = {contact.nodes[k], -contact.weights[k]};
+        action(term);
+      }
+  }
+
+
+  template struct ViscousTerm<2>;
+  template struct ViscousTerm<3>;
+  template class ViscousTerms<2>;
+  template class ViscousTerms<3>;
+} // namespace undine

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/checkpoint/checkpoint.h>
+#include <undine/output/checkpoint/geometry_arrays.h>
+#include <undine/output/checkpoint/particle_arrays.h>
+#include <undine/output/checkpoint/state_arrays.h>
+#include <undine/output/files/files.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace undine
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    // Version 1 has no geometry and no digest of statistics.
+    constexpr std::uint64_t format_version = 3;
+
+
+    std::array<fs::path, 2>
+    slots(const fs::path &directory)
+    {
+      const auto files = checkpoint_files();
+      return {{directory / files[0], directory / files[1]}};
+    }
+
+
+    /// The step of a slot that looks whole, or why it is not. One rank.
+    struct Inspection
+    {
+      std::uint64_t step = 0;
+      std::string   problem;
+    };
+
+
+    Inspection
+    inspect(const fs::path &slot)
+    {
+      Inspection result;
+      if (!fs::exists(slot))
+        {
+          result.problem = "'" + slot.string() + "' does not exist";
+          return result;
+        }
+      try
+        {
+          const HDF5Reader file(slot, MPI_COMM_SELF);
+          if (file.attribute<std::uint64_t>("format") > format_version)
+            result.problem = "'" + slot.string() + "' is of another version of Undine";
+          result.step = file.attribute<std::uint64_t>("step");
+        }
+      catch (const FileError &error)
+        {
+          result.problem = error.what();
+        }
+      return result;
+    }
+
+
+    /// A number that changes if any value is changed or moved, whichever ranks the values are on:
+    /// the sum of a hash of every value with its place in the whole array.
+    std::uint64_t
+    checksum(const StateArray &array, const MPI_Comm communicator)
+    {
+      const auto   &box = array.selection;
+      std::uint64_t sum = 0;
+      for (std::size_t i = 0; i < array.values.size(); ++i)
+        {
+          std::uint64_t place = 0, stride = 1, rest = i, bits;
+          for (std::size_t d = box.size.size(); d-- > 0;)
+            {
+              place += (box.offset[d] + rest % box.count[d]) * stride;
+              rest /= box.count[d];
+              stride *= box.size[d];
+            }
+          std::memcpy(&bits, &array.values[i], sizeof(bits));
+          // Multiplication by odd constants and shifts: the finalizer of MurmurHash3 [A. Appleby].
+          std::uint64_t hash = bits ^ (place * 0x9E3779B97F4A7C15u);
+          hash               = (hash ^ (hash >> 33)) * 0xFF51AFD7ED558CCDu;
+          hash               = (hash ^ (hash >> 33)) * 0xC4CEB9FE1A85EC53u;
+          sum += hash ^ (hash >> 33);
+        }
+      return dealii::Utilities::MPI::sum(sum, communicator);
+    }
+
+
+    std::string
+    checksum_name(const StateArray &array)
+    {
+      return "checksum of " + array.name;
+    }
+
+
+    void
+    assert_finite(const std::vector<StateArray> &arrays, const MPI_Comm communicator)
+    {
+      for (const auto &array : arrays)
+        {
+          const bool finite = std::all_of(array.values.begin(),
+                                          array.values.end(),
+                                          [](const double value) { return std::isfinite(value); });
+          if (dealii::Utilities::MPI::min(finite ? 1 : 0, communicator) == 0)
+            throw SolveError("'" + array.name +
+                             "' holds a value that is not a number. No checkpoint of this state is "
+                             "written; the one before is kept.");
+        }
+    }
+
+
+    template <int dim>
+    void
+    write_slot(const fs::path                &slot,
+               const std::vector<StateArray> &arrays,
+               const Clock                   &clock,
+               const std::uint64_t            statistics_digest,
+               const MPI_Comm                 communicator)
+    {
+      HDF5Writer file(slot, communicator);
+      file.add_attribute("format", format_version);
+      file.add_attribute("dimension", std::uint64_t(dim));
+      file.add_attribute("step", std::uint64_t(clock.step));
+      file.add_attribute("time", clock.time);
+      file.add_attribute("longest step", clock.longest_step);
+      file.add_attribute("statistics digest",
+                         dealii::Utilities::MPI::broadcast(communicator, statistics_digest));
+      for (const auto &array : arrays)
+        {
+          file.add(array.name, array.selection, array.values);
+          file.add_attribute(checksum_name(array), checksum(array, communicator));
+        }
+      file.commit();
+    }
+
+
+    /// Fill arrays, of which names and sizes are given.
+    void
+    read_arrays(std::vector<StateArray> &arrays,
+                const HDF5Reader        &file,
+                const fs::path          &slot,
+                const MPI_Comm           communicator)
+    {
+      for (auto &array : arrays)
+        {
+          if (!file.contains(array.name))
+            throw FileError("'" + slot.string() + "' has no '" + array.name +
+                            "': it belongs to another scene");
+          array.values = file.read<double>(array.name, array.selection);
+          if (checksum(array, communicator) != file.attribute<std::uint64_t>(checksum_name(array)))
+            throw FileError("'" + slot.string() + "' is damaged: '" + array.name +
+                            "' is not what was written");
+        }
+    }
+
+
+    /// Throws FileError if the grid or something that stands in it is not where it was.
+    template <int dim>
+    void
+    assert_same_geometry(const Models<dim> &models,
+                         const double       time,
+                         const HDF5Reader  &file,
+                         const fs::path    &slot)
+    {
+      const auto here  = geometry_arrays(models, time);
+      auto       there = here;
+      read_arrays(there, file, slot, models.communicator());
+      const auto difference = geometry_difference(there, here, models.communicator());
+      if (!difference.empty())
+        throw FileError("'" + slot.string() + "' belongs to another geometry: " + difference +
+                        " must be as they were when the run began. A changed geometry needs a run "
+                        "of its own");
+    }
+
+
+    /// `state` with the values, the time and the step of a slot.
+    template <int dim>
+    State<dim>
+    read_slot(State<dim> state, const Models<dim> &models, const fs::path &slot)
+    {
+      const MPI_Comm   communicator = models.communicator();
+      const HDF5Reader file(slot, communicator);
+      if (file.attribute<std::uint64_t>("dimension") != dim)
+        throw FileError("'" + slot.string() + "' is not of " + std::to_string(dim) +
+                        " dimensions, as the scene is");
+      state.clock.step   = file.attribute<std::uint64_t>("step");
+      state.clock.time   = file.attribute<double>("time");
+      const auto version = file.attribute<std::uint64_t>("format");
+      if (version >= 3)
+        state.clock.longest_step = file.attribute<double>("longest step");
+      if (version >= 2)
+        assert_same_geometry(models, state.clock.time, file, slot);
+
+      const auto lasting = count_lasting_particles(state.particles); // of the scene
+      if (models.particles)
+        resize_particles(state.particles, models.particles->setup().spacing, file);
+      auto surface = pack_surface(models, state);
+      read_arrays(surface, file, slot, communicator);
+      unpack_surface(state, models, surface);
+      if (!file.contains("history/numbers"))
+        state.history = {}; // written by a run of constant steps: the scheme starts a new one
+      if (!file.contains("sleep"))
+        state.sleep = {}; // written by a run in which bodies did not sleep: all are awake
+      auto arrays = pack(models, state);
+      read_arrays(arrays, file, slot, communicator);
+      unpack(state, models, arrays);
+      if (count_lasting_particles(state.particles) != lasting)
+        throw FileError("'" + slot.string() +
+                        "' has more or fewer particles of bodies and walls than the scene: it "
+                        "belongs to another one");
+      return state;
+    }
+
+
+    /// Numbers of the slots that look whole, the newest first; adds why the others do not.
+    std::vector<unsigned int>
+    candidates(std::vector<std::string> &problems,
+               const fs::path           &directory,
+               const MPI_Comm            communicator)
+    {
+      std::vector<std::pair<std::uint64_t, unsigned int>> found; // step, slot
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        for (const unsigned int s : {0, 1})
+          {
+            const auto result = inspect(slots(directory)[s]);
+            if (result.problem.empty())
+              found.emplace_back(result.step, s);
+            else
+              problems.push_back(result.problem);
+          }
+      std::sort(found.rbegin(), found.rend());
+      problems = dealii::Utilities::MPI::broadcast(communicator, problems);
+      std::vector<unsigned int> numbers;
+      for (const auto &slot : dealii::Utilities::MPI::broadcast(communicator, found))
+        numbers.push_back(slot.second);
+      return numbers;
+    }
+  } // namespace
+
+
+  std::array<fs::path, 2>
+  checkpoint_files()
+  {
+    return {{fs::path("checkpoint") / "slot_0.h5", fs::path("checkpoint") / "slot_1.h5"}};
+  }
+
+
+  std::uint64_t
+  resumable_step(const fs::path &directory)
+  {
+    std::uint64_t step = 0;
+    for (const auto &slot : slots(directory))
+      step = std::max(step, inspect(slot).step);
+    return step;
+  }
+
+
+  template <int dim>
+  void
+  write_checkpoint(const fs::path     &directory,
+                   const Models<dim>  &models,
+                   const State<dim>   &state,
+                   const std::uint64_t statistics_digest)
+  {
+    const MPI_Comm communicator = models.communicator();
+    auto           arrays       = pack_surface(models, state);
+    for (auto &array : pack(models, state))
+      arrays.push_back(std::move(array));
+    assert_finite(arrays, communicator);
+    for (auto &array : geometry_arrays(models, state.clock.time))
+      arrays.push_back(std::move(array));
+    on_first_rank(communicator, [&] { make_folder(directory / "checkpoint"); });
+
+    std::vector<std::string> problems;
+    const auto               whole = candidates(problems, directory, communicator);
+    const unsigned int       older = whole.empty() ? 0 : 1 - whole.front();
+    write_slot<dim>(slots(directory)[older], arrays, state.clock, statistics_digest, communicator);
+  }
+
+
+  template <int dim>
+  ResumedFrom
+  read_checkpoint(const fs::path &directory, const Models<dim> &models, State<dim> &state)
+  {
+    const MPI_Comm communicator = models.communicator();
+    ResumedFrom    result;
+    result.directory = directory;
+    for (const unsigned int s : candidates(result.skipped, directory, communicator))
+      try
+        {
+          state       = read_slot(state, models, slots(directory)[s]);
+          result.slot = slots(directory)[s];
+          const HDF5Reader file(result.slot, communicator);
+          if (file.attribute<std::uint64_t>("format") >= 2)
+            result.statistics_digest = file.attribute<std::uint64_t>("statistics digest");
+          return result;
+        }
+      catch (const FileError &error)
+        {
+          result.skipped.push_back(error.what());
+        }
+    std::string reasons;
+    for (const auto &reason : result.skipped)
+      reasons += "\n  " + reason;
+    throw FileError("there is no checkpoint in '" + directory.string() +
+                    "' that this scene can be resumed from:" + reasons);
+  }
+
+
+  template void
+  write_checkpoint(const fs::path &, const Models<2> &, const State<2> &, std::uint64_t);
+  template void
+  write_checkpoint(const fs::path &, const Models<3> &, const State<3> &, std::uint64_t);
+  template ResumedFrom
+  read_checkpoint(const fs::path &, const Models<2> &, State<2> &);
+  template ResumedFrom
+  read_checkpoint(const fs::path &, const Models<3> &, State<3> &);
+} // namespace undine

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/disjoint_sets.h>
+#include <undine/output/probes/particle_queries.h>
+#include <undine/particle_model/point_grid.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace undine
+{
+  namespace
+  {
+    template <int dim>
+    dealii::Point<dim>
+    point_of(const particles::Vector<dim, double> &vector)
+    {
+      dealii::Point<dim> result;
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        result[axis] = vector[axis];
+      return result;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::size_t
+  place_of_identity(const particles::ParticleState<dim> &state, const int identity)
+  {
+    const auto &identities = state.identities;
+    return std::find(identities.begin(), identities.end(), identity) - identities.begin();
+  }
+
+
+  template <int dim>
+  int
+  nearest_of_body(const ParticleModel<dim> &model, const int body, const dealii::Point<dim> &place)
+  {
+    const auto &setup  = model.setup();
+    int         result = 0;
+    double      least  = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < setup.reference.size(); ++k)
+      if (setup.body_of[k] == body)
+        {
+          const double square = point_of(setup.reference[k]).distance_square(place);
+          if (square < least)
+            {
+              least  = square;
+              result = k;
+            }
+        }
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<std::size_t>
+  main_part_of_fluid(const particles::ParticleState<dim> &state, const double gap)
+  {
+    PointGrid<dim>           grid(gap);
+    std::vector<std::size_t> fluid; // numbers in the state
+    for (std::size_t k = 0; k < state.tags.size(); ++k)
+      if (state.tags[k].kind() == particles::Kind::fluid)
+        {
+          fluid.push_back(k);
+          grid.add(point_of(state.positions[k]));
+        }
+    DisjointSets joined(fluid.size());
+    for (std::size_t k = 0; k < fluid.size(); ++k)
+      grid.for_each_near(grid[k], gap, [&](const std::size_t other) {
+        if (other < k)
+          joined.join(k, other);
+      });
+    std::vector<std::size_t> sizes(fluid.size(), 0);
+    for (std::size_t k = 0; k < fluid.size(); ++k)
+      ++sizes[joined.smallest(k)];
+    const std::size_t        largest = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < fluid.size(); ++k)
+      if (joined.smallest(k) == largest)
+        result.push_back(fluid[k]);
+    return result;
+  }
+
+
+#define UNDINE_INSTANTIATE(dim)                                                                    \
+  template std::size_t place_of_identity(const particles::ParticleState<dim> &, const int);        \
+  template int nearest_of_body(const ParticleModel<dim> &, const int, const dealii::Point<dim> &); \
+  template std::vector<std::size_t> main_part_of_fluid(const particles::ParticleState<dim> &,      \
+                                                       const double);
+
+  UNDINE_INSTANTIATE(2)
+  UNDINE_INSTANTIATE(3)
+#undef UNDINE_INSTANTIATE
+} // namespace undine

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/particle_model/particle_body.h>
+#include <undine/solid/material/elastic_constants.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  namespace
+  {
+    constexpr double rounding = 1e-6; // [spacings]
+
+
+    template <int dim>
+    std::vector<BodyBoundary<dim>>
+    read_held_parts(const Options &section)
+    {
+      std::vector<BodyBoundary<dim>> result;
+      for (const auto &name : section.named_sections("root"))
+        {
+          const auto options = section.section(name);
+          if (options.is_reference())
+            continue; // the keys are those of the other bodies
+          result.emplace_back(name, options);
+          if (result.back().kind != BodyBoundary<dim>::Kind::clamp)
+            throw options.error(
+              "Kind", "is not possible for a body of particles", "Allowed: clamp.");
+          if (options.given("Components"))
+            throw options.error(
+              "Components", "particles are held in all directions or in none", "Remove it.");
+        }
+      return result;
+    }
+
+
+    /// The facets of the sides that a boundary names.
+    template <int dim>
+    Surface<dim>
+    named_part(const BodyBoundary<dim> &boundary, const ShapeBoundary<dim> &shape)
+    {
+      std::vector<typename Surface<dim>::Facet> facets;
+      for (const auto &name : boundary.sides)
+        {
+          const auto side = shape.side_names.find(name);
+          if (side == shape.side_names.end())
+            {
+              std::string all;
+              for (const auto &other : shape.side_names)
+                all += (all.empty() ? "" : " | ") + other.first;
+              throw boundary.options.error(
+                "Sides",
+                "names a side '" + name + "' that the shape does not have",
+                all.empty() ? "A surface from a file has no sides: use 'Where'."
+                            : "Allowed: " + all);
+            }
+          for (std::size_t k = 0; k < shape.facets.size(); ++k)
+            if (shape.sides[k] == side->second)
+              facets.push_back(shape.facets[k]);
+        }
+      if (facets.empty()) // none named: all
+        facets = shape.facets;
+      return Surface<dim>(
+        shape.nodes.size(), facets, std::vector<unsigned int>(facets.size(), 0), {""});
+    }
+  } // namespace
+
+
+  template <int dim>
+  ParticleBody<dim>::ParticleBody(const std::string &name, const Options &options)
+    : name(name)
+    , options(options)
+    , description(name, options)
+  {
+    options.require(
+      "Density", setup.density, "kg/m^3", Allowed::positive(), "Mass per volume at rest.");
+    ElasticConstants constants;
+    constants.add_options(options);
+    setup.youngs_modulus = constants.youngs_modulus;
+    setup.poissons_ratio = constants.poissons_ratio;
+    options.add("Initial velocity",
+                velocity,
+                "m/s",
+                Allowed::constant_in_time(),
+                "At t = 0, of the point that rests at x.");
+    options.add("Hourglass stiffness",
+                setup.hourglass,
+                "1",
+                Allowed::not_negative(),
+                "Against motions of particles that the gradient of deformation does not see, as "
+                "share of the shear modulus.");
+    options.add("Bond damping",
+                setup.damping,
+                "1",
+                Allowed::between(0, 1),
+                "Of neighbours' relative motion, as share of the critical one.");
+    options.add("Bulk damping",
+                setup.bulk_damping,
+                "1",
+                Allowed::between(0, 2),
+                "Of sound in the body, as share of rho c_p l0, c_p the speed of pressure waves.");
+    options.add(
+      "Contact modulus",
+      setup.contact_modulus,
+      "Pa",
+      Allowed::not_negative(),
+      "Stiffness with which other bodies and walls are kept off, as stress per overlap in "
+      "spacings; the softer one of two bodies counts. 0: that of pressure waves, lambda + 2 mu.");
+    boundaries = read_held_parts<dim>(options.section("Boundaries"));
+  }
+
+
+  template <int dim>
+  void
+  ParticleBody<dim>::fill(const double spacing)
+  {
+    const auto shape       = make_shape_boundary(description);
+    const auto all_of_body = shape.surface(name);
+    check_closed(all_of_body, shape.nodes);
+    volume  = body_volumes(all_of_body, shape.nodes)[0];
+    surface = std::make_unique<const SurfaceDistance<dim>>(all_of_body, shape.nodes);
+
+    const auto                    box = surface->box();
+    std::array<unsigned int, dim> count, index{};
+    dealii::Point<dim>            first;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        const double cubes = std::max(1., std::round(box.side_length(axis) / spacing));
+        if (cubes > 1e5)
+          throw options.error("",
+                              fmt::format("the body is {:.3g} spacings long", cubes),
+                              "Try: a larger 'Particles / Spacing'.");
+        count[axis] = cubes;
+        first[axis] = box.center()[axis] - (cubes - 1) / 2 * spacing;
+      }
+    for (unsigned int axis = 0; axis < dim;)
+      {
+        auto place = first;
+        for (unsigned int d = 0; d < dim; ++d)
+          place[d] += index[d] * spacing;
+        if (surface->nearest(place).distance < -rounding * spacing)
+          places.push_back(place);
+        for (axis = 0; axis < dim && ++index[axis] == count[axis]; ++axis)
+          index[axis] = 0;
+      }
+    if (places.empty())
+      throw options.error(
+        "", "the body is smaller than a particle", "Try: a smaller 'Particles / Spacing'.");
+    held.assign(places.size(), 0);
+    for (const auto &boundary : boundaries)
+      hold(boundary, shape, spacing);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      {
+        velocities.push_back(velocity.vector(places[k], 0.));
+        if (!std::isfinite(velocities.back().norm()))
+          throw options.error("Initial velocity",
+                              "is not a number at (" + write_value(places[k]) + ")",
+                              "Try: an expression that is finite in the whole body.");
+        if (held[k])
+          velocities.back() = 0;
+      }
+  }
+
+
+  template <int dim>
+  void
+  ParticleBody<dim>::hold(const BodyBoundary<dim>  &boundary,
+                          const ShapeBoundary<dim> &shape,
+                          const double              spacing)
+  {
+    // 'Where' alone speaks of the whole body: what is embedded in a wall is held in all its depth.
+    const bool near_surface = !boundary.sides.empty() || !boundary.options.given("Where");
+    const SurfaceDistance<dim> part(named_part(boundary, shape), shape.nodes);
+    bool                       any = false;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      {
+        const double where = boundary.where.value(places[k], 0.);
+        if (!std::isfinite(where))
+          throw boundary.options.error("Where",
+                                       "is not a number at (" + write_value(places[k]) + ")",
+                                       "Try: an expression that is finite in the whole body.");
+        if (where > 0 && (!near_surface ||
+                          std::abs(part.nearest(places[k]).distance) < (1 - rounding) * spacing))
+          {
+            held[k] = 1;
+            any     = true;
+          }
+      }
+    if (!any)
+      throw boundary.options.error(
+        "Where",
+        "together with 'Sides' holds no particle of the body",
+        "Try: another expression or side; particles within one spacing of "
+        "the sides are held, without sides all at which 'Where' is "
+        "positive.");
+  }
+
+
+  template <int dim>
+  std::vector<ParticleBody<dim>>
+  read_particle_bodies(const Options &scene)
+  {
+    const auto                     section = scene.section("Bodies");
+    std::vector<ParticleBody<dim>> result;
+    for (const auto &name : section.named_sections("beam"))
+      section.section(name).attempt([&] { result.emplace_back(name, section.section(name)); });
+    return result;
+  }
+
+
+  template struct ParticleBody<2>;
+  template struct ParticleBody<3>;
+  template std::vector<ParticleBody<2>>
+  read_particle_bodies(const Options &);
+  template std::vector<ParticleBody<3>>
+  read_particle_bodies(const Options &);
+} // namespace undine

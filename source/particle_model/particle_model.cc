@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/particle_model/particle_model.h>
+#include <undine/particle_model/plain_vector.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  namespace
+  {
+    constexpr double inside = 0.25; // deeper in another body is on it [spacings]
+
+
+    const Options &
+    only_one_rank(const Options &scene, const MPI_Comm communicator)
+    {
+      const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+      if (n_ranks > 1 && !scene.is_reference())
+        throw scene.error(
+          "Scheme",
+          fmt::format("particles are computed by one rank, but {} were started", n_ranks),
+          "Try: start it without mpirun; it uses all cores by threads, see "
+          "'Particles / Threads'.");
+      return scene;
+    }
+
+
+    bool
+    read_shows_walls(const Options &scene)
+    {
+      bool result = false;
+      scene.section("Output").add("Walls",
+                                  result,
+                                  "",
+                                  Allowed::anything(),
+                                  "Whether pictures contain the particles of walls.");
+      return result;
+    }
+
+
+    template <int dim>
+    void
+    check_place(const ParticleBody<dim>      &body,
+                const std::size_t             k,
+                const ParticleDomain<dim>    &box,
+                const ParticleObstacles<dim> &obstacles)
+    {
+      const double outside = box.distance_outside(body.places[k]);
+      const auto   place   = "(" + write_value(body.places[k]) + ")";
+      if (outside > (body.held[k] ? box.layers * box.spacing : 0.))
+        throw body.options.error(
+          "",
+          "the body is outside the domain at " + place,
+          "Try: a larger domain; what is held may reach into walls, at most " +
+            write_value(box.layers * box.spacing) + " m.");
+      if (!body.held[k] && obstacles.contain(body.places[k]))
+        throw body.options.error("",
+                                 "the body is in an obstacle at " + place,
+                                 "Try: move one of them; only what is held may be in obstacles.");
+    }
+
+
+    template <int dim>
+    std::string
+    volume_remark(const ParticleBody<dim> &body, const double spacing)
+    {
+      const double particles = body.places.size() * std::pow(spacing, dim);
+      if (std::abs(particles / body.volume - 1) < 0.02)
+        return "";
+      return fmt::format("body '{}' has a volume of {:.4g} m^{}, its {} particles have {:.1f} % of "
+                         "it; lengths that are whole numbers of spacings fit exactly",
+                         body.name,
+                         body.volume,
+                         dim,
+                         body.places.size(),
+                         100 * particles / body.volume);
+    }
+  } // namespace
+
+
+  template <int dim>
+  ParticleModel<dim>::ParticleModel(const Options      &scene,
+                                    const Effects<dim> &effects,
+                                    const MPI_Comm      communicator)
+    : ranks(communicator)
+    , particle_numerics(only_one_rank(scene, communicator))
+    , box(scene, particle_numerics.spacing, particle_numerics.numerics.reach)
+    , walls_are_shown(read_shows_walls(scene))
+    , occupied(particle_numerics.spacing)
+  {
+    auto                              bodies = read_particle_bodies<dim>(scene);
+    std::optional<ParticleFluid<dim>> fluid;
+    if (scene.section("Fluid").given())
+      fluid.emplace(scene);
+    auto obstacles = read_particle_obstacles(scene, box);
+    moving         = std::move(obstacles.moving);
+
+    constants.spacing  = box.spacing;
+    constants.lower    = plain<dim>(box.outermost_lower());
+    constants.upper    = plain<dim>(box.outermost_upper());
+    constants.numerics = particle_numerics.numerics;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      constants.periodic[axis] = box.periodic(axis);
+    constants.has_fluid = fluid.has_value();
+    if (fluid)
+      {
+        constants.fluid_density      = fluid->density;
+        constants.fluid_bulk_modulus = fluid->bulk_modulus;
+      }
+    apply(effects, scene);
+
+    if (bodies.size() >= particles::inflow_material)
+      throw scene.error("Bodies",
+                        fmt::format("there are {} bodies", bodies.size()),
+                        fmt::format("Allowed: at most {}.", particles::inflow_material - 1));
+    place_bodies(bodies, obstacles);
+    add_moving_walls(bodies);
+    auto                             walls = box.wall_particles();
+    std::vector<InflowParticle<dim>> inflow;
+    if (fluid)
+      inflow = open_walls(walls, fluid->openings, box);
+    place_walls(walls, bodies, obstacles);
+    if (fluid)
+      add_fluid(*fluid, inflow, obstacles);
+    add_walls(walls);
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::declare(const Options &scene)
+  {
+    std::optional<ParticleNumerics> numerics;
+    scene.attempt([&] { numerics.emplace(scene); }, {"Particles"});
+    if (numerics && numerics->spacing > 0) // else a mistake has been noted
+      scene.attempt(
+        [&] { ParticleDomain<dim>(scene, numerics->spacing, numerics->numerics.reach); },
+        {"Domain"});
+    else
+      scene.leave_unjudged("Domain");
+    read_shows_walls(scene);
+    read_particle_bodies<dim>(scene);
+    if (scene.is_reference() || scene.section("Fluid").given())
+      scene.attempt([&] { ParticleFluid<dim>{scene}; }, {"Fluid"});
+    declare_particle_obstacles<dim>(scene);
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::apply(const Effects<dim> &effects, const Options &scene)
+  {
+    for (const auto &effect : effects)
+      if (!effect->affect_particles(constants))
+        throw scene.section("Effects")
+          .section(effect->name)
+          .error("",
+                 "this effect is one of fluids on a grid or of bodies of finite elements",
+                 "Remove the section: particles know 'gravity', 'viscosity', 'wall friction' and "
+                 "'central attraction', and always carry their momentum.");
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::place_bodies(std::vector<ParticleBody<dim>> &bodies,
+                                   const ParticleObstacles<dim>   &obstacles)
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        auto &body = bodies[b];
+        body.fill(box.spacing);
+        for (std::size_t k = 0; k < body.places.size(); ++k)
+          {
+            const auto &place = body.places[k];
+            check_place(body, k, box, obstacles);
+            occupied.for_each_near(place, overlap * box.spacing, [&](const std::size_t other) {
+              throw body.options.error("",
+                                       "the body lies on the body '" +
+                                         names[constants.body_of[other]] + "' at (" +
+                                         write_value(place) + ")",
+                                       "Try: move them apart.");
+            });
+            for (unsigned int other = 0; other < b; ++other)
+              if (bodies[other].surface->nearest(place).distance < -inside * box.spacing)
+                throw body.options.error("",
+                                         "the body is in the body '" + names[other] + "' at (" +
+                                           write_value(place) + ")",
+                                         "Try: move them apart.");
+          }
+        add_body(body);
+      }
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::add_body(const ParticleBody<dim> &body)
+  {
+    const int number = names.size();
+    names.push_back(body.name);
+    constants.bodies.push_back(body.setup);
+    for (std::size_t k = 0; k < body.places.size(); ++k)
+      {
+        occupied.add(body.places[k]);
+        constants.reference.push_back(plain<dim>(body.places[k]));
+        constants.body_of.push_back(number);
+        constants.held.push_back(body.held[k]);
+        add(body.places[k],
+            body.velocities[k],
+            particles::Tag::of(particles::Kind::solid, number + 1));
+      }
+    const auto remark = volume_remark(body, box.spacing);
+    if (!remark.empty())
+      remarks.push_back(remark);
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::check_inflow(const ParticleFluid<dim>               &fluid,
+                                   const std::vector<InflowParticle<dim>> &inflow,
+                                   const ParticleObstacles<dim>           &obstacles) const
+  {
+    for (const auto &particle : inflow)
+      {
+        const auto boundaries = fluid.options.section("Boundaries");
+        const auto place      = "(" + write_value(particle.place) + ")";
+        occupied.for_each_near(particle.place, apart * box.spacing, [&](const std::size_t k) {
+          if (k < constants.reference.size())
+            throw boundaries.error("",
+                                   "the body '" + names[constants.body_of[k]] +
+                                     "' stands in an inflow at " + place,
+                                   "Try: move it away by a spacing.");
+        });
+        auto next = particle.place; // where it flows
+        if (particle.velocity.norm() > 0)
+          next += (particle.layer + 1) * box.spacing * particle.velocity / particle.velocity.norm();
+        if (obstacles.contain(next))
+          throw boundaries.error("",
+                                 "an obstacle closes an inflow at " + place,
+                                 "Try: move it away, or another 'Region' of the inflow.");
+      }
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::check_room(const ParticleFluid<dim>                              &fluid,
+                                 const std::function<bool(const dealii::Point<dim> &)> &taken)
+  {
+    bool flows_in = false, flows_out = false;
+    for (const auto &opening : fluid.openings)
+      (opening.kind == OpeningKind::inflow ? flows_in : flows_out) = true;
+    for (const auto side : box.sides)
+      flows_out = flows_out || side == ParticleSide::open;
+    if (!flows_in || flows_out)
+      return;
+    box.for_each_cell([&](const auto &place) { most_fluid += taken(place) ? 0 : 1; });
+    if (fluid.places.size() == most_fluid)
+      throw fluid.options.section("Boundaries")
+        .error("",
+               "fluid flows into a domain that is full and closed",
+               "Try: an outflow, 'Domain / Open sides', or a smaller 'Region' of the fluid.");
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::add_fluid(ParticleFluid<dim>                     &fluid,
+                                const std::vector<InflowParticle<dim>> &inflow,
+                                const ParticleObstacles<dim>           &obstacles)
+  {
+    using particles::Kind;
+    using particles::Tag;
+    check_inflow(fluid, inflow, obstacles);
+    const auto taken = [&](const dealii::Point<dim> &place) {
+      return occupied.any_near(place, apart * box.spacing) || obstacles.contain(place);
+    };
+    fluid.fill(box, taken);
+    check_room(fluid, taken);
+    dealii::Tensor<1, dim> gravity;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      gravity[axis] = constants.gravity[axis];
+    constants.depth      = fluid.depth(gravity, box.spacing);
+    constants.open_sides = open_sides(fluid.openings, box);
+    n_fluid              = fluid.places.size();
+    n_openings           = fluid.openings.size();
+    n_inflow             = inflow.size();
+    for (std::size_t k = 0; k < n_fluid; ++k)
+      add(fluid.places[k], fluid.velocities[k], Tag::of(Kind::fluid, 0));
+    double fastest = 0;
+    for (const auto &particle : inflow)
+      {
+        add(particle.place,
+            particle.velocity,
+            Tag::of(particle.layer == 0 ? Kind::wall : Kind::dummy, particles::inflow_material));
+        fastest = std::max(fastest, particle.velocity.norm());
+      }
+    if (inflow.empty())
+      return;
+    // What flows in may fill the box, and is faster than what sub-steps are chosen by.
+    if (gravity.norm() > 0)
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        constants.depth =
+          std::max(constants.depth,
+                   std::abs(gravity[axis]) / gravity.norm() * (box.upper[axis] - box.lower[axis]));
+    auto        &numerics = constants.numerics;
+    const double longest  = numerics.speed_share * box.spacing / fastest;
+    numerics.largest_sub_step =
+      numerics.largest_sub_step > 0 ? std::min(numerics.largest_sub_step, longest) : longest;
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::add(const dealii::Point<dim>     &place,
+                          const dealii::Tensor<1, dim> &velocity,
+                          const particles::Tag          tag)
+  {
+    start.identities.push_back(start.positions.size());
+    start.positions.push_back(plain<dim>(place));
+    start.velocities.push_back(plain(velocity));
+    start.pressures.push_back(0);
+    start.tags.push_back(tag);
+  }
+
+
+  template <int dim>
+  std::string
+  ParticleModel<dim>::counts() const
+  {
+    return fmt::format("{} of fluid, {} of {} bodies, {} of walls{}{}; {:.4g} m apart",
+                       n_fluid,
+                       constants.reference.size(),
+                       names.size(),
+                       n_wall,
+                       moving.empty() ? "" : fmt::format(", {} of moving ones", constants.n_moving),
+                       n_inflow == 0 ? "" : fmt::format(", {} behind inflows", n_inflow),
+                       box.spacing);
+  }
+
+
+  template class ParticleModel<2>;
+  template class ParticleModel<3>;
+} // namespace undine

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/particles/elasticity/reference_lattice.h>
+#include <undine/particles/model/lattice.h>
+#include <undine/particles/setup/make_constants.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace undine::particles
+{
+  namespace
+  {
+    template <class Real>
+    ElasticMaterial<Real>
+    material_of(const BodySetup &body, const int dim, const double spacing)
+    {
+      const double E = body.youngs_modulus, nu = body.poissons_ratio;
+      const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
+      const double contact = body.contact_modulus > 0 ? body.contact_modulus : lambda + 2 * mu;
+      return {static_cast<Real>(lambda),
+              static_cast<Real>(mu),
+              static_cast<Real>(body.density),
+              static_cast<Real>(body.hourglass),
+              static_cast<Real>(body.damping),
+              static_cast<Real>(body.bulk_damping),
+              static_cast<Real>(contact * std::pow(spacing, dim - 2))};
+    }
+
+    template <int dim>
+    std::array<long, dim>
+    cell_of(const Vector<dim, double> &x, const double size)
+    {
+      std::array<long, dim> cell;
+      for (int axis = 0; axis < dim; ++axis)
+        cell[axis] = std::lround(std::floor(x[axis] / size));
+      return cell;
+    }
+
+    /// The moment sum w X X^T needs as many directions as space has; a little of its trace keeps
+    /// lone rows of particles regular.
+    template <int dim>
+    Matrix<dim, double>
+    inverse_of_moment(Matrix<dim, double> moment)
+    {
+      double trace = 0;
+      for (int axis = 0; axis < dim; ++axis)
+        trace += moment[axis][axis];
+      for (int axis = 0; axis < dim; ++axis)
+        moment[axis][axis] += trace > 0 ? 1e-6 * trace : 1.;
+      return inverse_transpose(moment);
+    }
+  } // namespace
+
+
+  template <int dim, class Real>
+  ReferenceLattice<dim, Real>::ReferenceLattice(const Setup<dim> &setup)
+    : bodies(setup.body_of)
+    , held(setup.held)
+    , capacity(dim * dim * 4)
+    , spacing(setup.spacing)
+  {
+    for (const auto &x : setup.reference)
+      {
+        ReferencePoint<dim, Real> point;
+        for (int axis = 0; axis < dim; ++axis)
+          point.x[axis] = static_cast<Real>(x[axis]);
+        points.push_back(point);
+      }
+    for (const auto &body : setup.bodies)
+      materials.push_back(material_of<Real>(body, dim, spacing));
+    find_neighbours(setup.numerics.reach, setup.reference);
+  }
+
+
+  template <int dim, class Real>
+  void
+  ReferenceLattice<dim, Real>::find_neighbours(const double reach_in_spacings,
+                                               const std::vector<Vector<dim, double>> &reference)
+  {
+    const int    n     = static_cast<int>(reference.size());
+    const double reach = reach_in_spacings * spacing;
+    const double full  = full_lattice(dim, reach_in_spacings).number_density;
+    std::map<std::array<long, dim>, std::vector<int>> cells;
+    for (int i = 0; i < n; ++i)
+      cells[cell_of<dim>(reference[i], reach)].push_back(i);
+    counts.assign(n, 0);
+    inside.assign(n, 0);
+    indices.assign(list_slot((n + 31) / 32 * 32, 0, capacity), 0);
+    inverse_moments.resize(n);
+    for (int i = 0; i < n; ++i)
+      {
+        auto   moment = Matrix<dim, double>::diagonal(0);
+        double sum    = 0;
+        for (int around = 0; around < std::lround(std::pow(3, dim)); ++around)
+          {
+            auto cell = cell_of<dim>(reference[i], reach);
+            for (int axis = 0, rest = around; axis < dim; ++axis, rest /= 3)
+              cell[axis] += rest % 3 - 1;
+            const auto found = cells.find(cell);
+            if (found == cells.end())
+              continue;
+            for (const int j : found->second)
+              {
+                const auto   X        = reference[j] - reference[i];
+                const double distance = std::sqrt(norm_square(X));
+                if (j == i || bodies[j] != bodies[i] || distance >= reach || counts[i] == capacity)
+                  continue;
+                indices[list_slot(i, counts[i]++, capacity)] = j;
+                const double weight                          = reach / distance - 1;
+                sum += weight;
+                moment.add_outer_product(weight, X, X);
+              }
+          }
+        for (int k = counts[i]; k < capacity; ++k)
+          indices[list_slot(i, k, capacity)] = i;
+        inside[i]    = sum > 0.97 * full ? 1 : 0;
+        double trace = 0;
+        for (int axis = 0; axis < dim; ++axis)
+          trace += moment[axis][axis];
+        points[i].inverse_mean = static_cast<Real>(trace > 0 ? dim / trace : 0.);
+        const auto inverse     = inverse_of_moment(moment);
+        for (int a = 0; a < dim; ++a)
+          for (int b = 0; b < dim; ++b)
+            inverse_moments[i][a][b] = static_cast<Real>(inverse[a][b]);
+      }
+  }
+
+
+  template <int dim, class Real>
+  double
+  ReferenceLattice<dim, Real>::rate() const
+  {
+    double fastest = 0;
+    for (const auto &material : materials)
+      {
+        fastest = std::max(fastest,
+                           std::sqrt(double(material.lambda + 2 * material.mu) / material.density));
+      }
+    return fastest / spacing;
+  }
+
+
+  template struct ReferenceLattice<2, float>;
+  template struct ReferenceLattice<2, double>;
+  template struct ReferenceLattice<3, float>;
+  template struct ReferenceLattice<3, double>;
+} // namespace undine::particles

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/particles/setup/check_state.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace undine::particles
+{
+  namespace
+  {
+    template <int dim>
+    std::string
+    name_of(const ParticleState<dim> &state, const std::size_t i)
+    {
+      std::ostringstream text;
+      text << "particle " << state.identities[i] << " at (";
+      for (int axis = 0; axis < dim; ++axis)
+        text << (axis > 0 ? ", " : "") << state.positions[i][axis];
+      text << ")";
+      return text.str();
+    }
+
+
+    template <int dim>
+    void
+    check_arrays(const Setup<dim> &setup, const ParticleState<dim> &state)
+    {
+      const std::size_t n = state.positions.size(), n_solid = setup.reference.size();
+      if (n == 0)
+        throw InputError("the scene has no particles: there is neither fluid nor a body.");
+      if (state.velocities.size() != n || state.pressures.size() != n || state.tags.size() != n ||
+          state.identities.size() != n)
+        throw InputError("the arrays of the particles differ in length.");
+      if (setup.body_of.size() != n_solid || setup.held.size() != n_solid)
+        throw InputError("the arrays of the bodies' particles differ in length.");
+      std::vector<int> sorted = state.identities;
+      std::sort(sorted.begin(), sorted.end());
+      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+      if (twice != sorted.end())
+        throw InputError("two particles have the identity " + std::to_string(*twice) + ".");
+      for (std::size_t i = 0; i < n_solid + setup.n_moving; ++i)
+        if (i >= n || sorted[i] != static_cast<int>(i))
+          throw InputError("particle " + std::to_string(i) +
+                           " of the bodies or moving walls is missing.");
+    }
+
+
+    template <int dim>
+    void
+    check_tag(const Setup<dim> &setup, const ParticleState<dim> &state, const std::size_t i)
+    {
+      const Tag  tag     = state.tags[i];
+      const int  n_solid = static_cast<int>(setup.reference.size());
+      const bool is_body = state.identities[i] < n_solid;
+      const bool moves   = !is_body && state.identities[i] < n_solid + setup.n_moving;
+      if ((tag.kind() == Kind::solid) != is_body || (tag.material() == moving_material) != moves ||
+          (is_body && tag.material() != setup.body_of[state.identities[i]] + 1) ||
+          (!is_body && !moves && tag.material() != 0 && !tag.is_yielding() &&
+           tag.material() != inflow_material))
+        throw InputError(name_of(state, i) + " does not belong to the body that its tag says.");
+    }
+
+
+    template <int dim>
+    void
+    check_place(const Setup<dim> &setup, const ParticleState<dim> &state, const std::size_t i)
+    {
+      for (int axis = 0; axis < dim; ++axis)
+        {
+          if (!std::isfinite(state.positions[i][axis]) || !std::isfinite(state.velocities[i][axis]))
+            throw InputError(name_of(state, i) + " has a place or velocity that is not a number.");
+          if (state.tags[i].material() != moving_material &&
+              (state.positions[i][axis] < setup.lower[axis] ||
+               state.positions[i][axis] > setup.upper[axis]))
+            throw InputError(name_of(state, i) +
+                             " is outside the domain. Make the domain larger or move what is there "
+                             "inside.");
+        }
+    }
+
+
+    /// Particles in cells of the size of the distance that is asked for.
+    template <int dim>
+    class CloseParticles
+    {
+    public:
+      CloseParticles(const Setup<dim>         &setup,
+                     const ParticleState<dim> &state,
+                     const double              distance)
+        : state(state)
+        , grid(make_cell_grid<dim, double>(setup.lower, setup.upper, open, distance))
+        , distance(distance)
+      {
+        std::copy(setup.periodic, setup.periodic + dim, grid.periodic);
+        const std::size_t n = state.positions.size();
+        order.resize(n);
+        cells.resize(n);
+        for (std::size_t i = 0; i < n; ++i)
+          {
+            order[i] = static_cast<int>(i);
+            cells[i] = grid.cell_of(state.positions[i]);
+          }
+        std::sort(order.begin(), order.end(), [&](const int a, const int b) {
+          return cells[a] < cells[b];
+        });
+      }
+
+      /// Throws if there is a pair.
+      void
+      check() const
+      {
+        for (std::size_t i = 0; i < cells.size(); ++i)
+          grid.for_each_run_around(
+            state.positions[i], [&](const int first, const int end, const auto &) {
+              auto other = std::lower_bound(
+                order.begin(), order.end(), first, [&](const int j, const int cell) {
+                  return cells[j] < cell;
+                });
+              for (; other != order.end() && cells[*other] < end; ++other)
+                if (static_cast<std::size_t>(*other) > i)
+                  check(i, *other);
+            });
+      }
+
+    private:
+      void
+      check(const std::size_t i, const std::size_t j) const
+      {
+        if (may_overlap(state.tags[i], state.tags[j]) || may_overlap(state.tags[j], state.tags[i]))
+          return;
+        const double square = norm_square(grid.difference(state.positions[i], state.positions[j]));
+        if (square >= distance * distance)
+          return;
+        std::ostringstream text;
+        text << name_of(state, i) << " and " << name_of(state, j) << " are only "
+             << std::sqrt(square)
+             << " m apart, less than half a spacing. Do bodies, obstacles or fluid overlap?";
+        throw InputError(text.str());
+      }
+
+      /// Walls yield to moving ones.
+      static bool
+      may_overlap(const Tag moving, const Tag wall)
+      {
+        return moving.material() == moving_material && !wall.is_free();
+      }
+
+      static constexpr bool open[dim] = {};
+
+      const ParticleState<dim> &state;
+      CellGrid<dim, double>     grid;
+      double                    distance;
+      std::vector<int>          order, cells;
+    };
+  } // namespace
+
+
+  template <int dim>
+  void
+  check_state(const Setup<dim> &setup, const ParticleState<dim> &state)
+  {
+    if (!(setup.spacing > 0))
+      throw InputError("the spacing of the particles must be positive.");
+    check_arrays(setup, state);
+    for (std::size_t i = 0; i < state.positions.size(); ++i)
+      {
+        check_tag(setup, state, i);
+        check_place(setup, state, i);
+      }
+    const bool is_computed = !state.guesses.empty(); // in a splash particles come closer than that
+    if (!is_computed)
+      CloseParticles<dim>(setup, state, setup.spacing / 2).check();
+  }
+
+
+  template void
+  check_state(const Setup<2> &, const ParticleState<2> &);
+  template void
+  check_state(const Setup<3> &, const ParticleState<3> &);
+} // namespace undine::particles

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/particles/model/lattice.h>
+#include <undine/particles/setup/make_constants.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace undine::particles
+{
+  namespace
+  {
+    template <int dim, class Real>
+    void
+    set_materials(Constants<dim, Real> &constants, const Setup<dim> &setup)
+    {
+      const std::size_t most = inflow_material - 1;
+      if (setup.bodies.size() > most)
+        throw InputError("the scene has " + std::to_string(setup.bodies.size()) +
+                         " elastic bodies; at most " + std::to_string(most) + " are possible.");
+      constants.densities[0] = static_cast<Real>(setup.fluid_density);
+      constants.compressibilities[0] =
+        setup.fluid_bulk_modulus > 0 ? static_cast<Real>(1 / setup.fluid_bulk_modulus) : Real(0);
+      for (const int material : {inflow_material, moving_material, yielding_material})
+        {
+          constants.densities[material]         = constants.densities[0];
+          constants.compressibilities[material] = constants.compressibilities[0];
+        }
+      for (std::size_t b = 0; b < setup.bodies.size(); ++b)
+        {
+          const auto &body                   = setup.bodies[b];
+          constants.densities[b + 1]         = static_cast<Real>(body.density);
+          constants.compressibilities[b + 1] = Real(0);
+        }
+    }
+
+    /// The longest sub-step that gravity waves allow [s]; 0 without any.
+    template <int dim>
+    double
+    longest_by_waves(const Setup<dim> &setup)
+    {
+      const double speed_square = std::sqrt(norm_square(setup.gravity)) * setup.depth;
+      return speed_square > 0 ? setup.numerics.wave_share * setup.spacing / std::sqrt(speed_square)
+                              : 0;
+    }
+  } // namespace
+
+
+  template <int dim, class Real>
+  Constants<dim, Real>
+  make_constants(const Setup<dim> &setup)
+  {
+    const auto          &numerics = setup.numerics;
+    const double         l0       = setup.spacing;
+    const auto           lattice  = full_lattice(dim, numerics.reach);
+    Constants<dim, Real> constants{};
+    constants.grid =
+      make_cell_grid<dim, Real>(setup.lower, setup.upper, setup.periodic, numerics.reach * l0);
+    constants.spacing        = static_cast<Real>(l0);
+    constants.reach          = static_cast<Real>(numerics.reach * l0);
+    constants.volume         = static_cast<Real>(std::pow(l0, dim));
+    constants.number_density = static_cast<Real>(lattice.number_density);
+    constants.spread         = static_cast<Real>(lattice.spread * l0 * l0);
+    constants.filling        = static_cast<Real>(lattice.filling);
+    constants.surface_lack   = static_cast<Real>(lattice.surface_lack);
+    for (int axis = 0; axis < dim; ++axis)
+      {
+        constants.force.gravity[axis] = static_cast<Real>(setup.gravity[axis]);
+        constants.force.centre[axis]  = static_cast<Real>(setup.centre[axis]);
+      }
+    constants.force.attraction = static_cast<Real>(setup.attraction);
+    constants.viscosity        = static_cast<Real>(setup.fluid_viscosity);
+    constants.wall_friction    = {static_cast<Real>(setup.wall_viscosity),
+                                  static_cast<Real>(setup.wall_roughness)};
+    set_materials(constants, setup);
+    constants.source        = numerics.source;
+    constants.density_share = static_cast<Real>(numerics.density_share);
+    const double gravity    = std::sqrt(norm_square(setup.gravity));
+    constants.relaxation_time =
+      gravity > 0 ? static_cast<Real>(numerics.relaxation_time * std::sqrt(l0 / gravity)) : Real(0);
+    constants.crowd_excess = static_cast<Real>(numerics.crowd_excess);
+    constants.crowd_share  = static_cast<Real>(numerics.crowd_share);
+    const double longest   = longest_by_waves(setup);
+    constants.crowd_rate =
+      longest > 0 ? static_cast<Real>(numerics.crowd_share / longest) : Real(0);
+    constants.surface_density       = static_cast<Real>(numerics.surface_density);
+    constants.body_surface_density  = static_cast<Real>(numerics.body_surface_density);
+    constants.one_sided_density     = static_cast<Real>(numerics.one_sided_density);
+    constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);
+    constants.surface_fade          = static_cast<Real>(numerics.surface_fade);
+    constants.air                   = static_cast<Real>(numerics.air);
+    constants.way_share          = numerics.places == Places::mean_velocity ? Real(0.5) : Real(1);
+    constants.collision_distance = static_cast<Real>(numerics.collision_distance * l0);
+    constants.restitution        = static_cast<Real>(numerics.restitution);
+    constants.pair_force         = numerics.pair_force;
+    constants.coupling           = numerics.coupling;
+    constants.shifting           = static_cast<Real>(numerics.shifting);
+    constants.shifting_limit     = static_cast<Real>(numerics.shifting_limit * l0);
+    return constants;
+  }
+
+
+  template <int dim, class Real>
+  OpenBoundaries<dim, Real>
+  make_open_boundaries(const Setup<dim> &setup)
+  {
+    OpenBoundaries<dim, Real> open{};
+    if (setup.open_sides.size() > OpenBoundaries<dim, Real>::most)
+      throw InputError("the scene has " + std::to_string(setup.open_sides.size()) +
+                       " inflows and outflows; at most " +
+                       std::to_string(OpenBoundaries<dim, Real>::most) + " are possible.");
+    for (const auto &side : setup.open_sides)
+      open.boundaries[open.n++] = {side.axis,
+                                   static_cast<Real>(side.plane),
+                                   static_cast<Real>(side.inward),
+                                   static_cast<Real>(side.depth),
+                                   side.is_inflow};
+    return open;
+  }
+
+
+  double
+  bulk_modulus(const BodySetup &body, const int dim)
+  {
+    const double nu = body.poissons_ratio;
+    return body.youngs_modulus * (nu / ((1 + nu) * (1 - 2 * nu)) + 1 / (dim * (1 + nu)));
+  }
+
+
+  template <int dim>
+  StepBounds
+  make_bounds(const Setup<dim> &setup, const double elastic_rate)
+  {
+    const auto  &numerics = setup.numerics;
+    const double l0       = setup.spacing;
+    const double spread   = full_lattice(dim, numerics.reach).spread * l0 * l0;
+    StepBounds   bounds;
+    bounds.asked = numerics.largest_sub_step > 0 ? numerics.largest_sub_step
+                                                 : std::numeric_limits<double>::max();
+    bounds.waves = longest_by_waves(setup);
+    if (setup.fluid_viscosity > 0)
+      bounds.viscosity = spread / (4 * dim * setup.fluid_viscosity); // half of what is stable
+    bounds.speed_share        = numerics.speed_share * l0;
+    bounds.elastic_rate       = elastic_rate;
+    bounds.elastic_share      = numerics.elastic_share;
+    bounds.most_elastic_steps = numerics.most_elastic_steps;
+    return bounds;
+  }
+
+
+  template OpenBoundaries<2, float>
+  make_open_boundaries(const Setup<2> &);
+  template OpenBoundaries<2, double>
+  make_open_boundaries(const Setup<2> &);
+  template OpenBoundaries<3, float>
+  make_open_boundaries(const Setup<3> &);
+  template OpenBoundaries<3, double>
+  make_open_boundaries(const Setup<3> &);
+  template Constants<2, float>
+  make_constants(const Setup<2> &);
+  template Constants<2, double>
+  make_constants(const Setup<2> &);
+  template Constants<3, float>
+  make_constants(const Setup<3> &);
+  template Constants<3, double>
+  make_constants(const Setup<3> &);
+  template StepBounds
+  make_bounds(const Setup<2> &, double);
+  template StepBounds
+  make_bounds(const Setup<3> &, double);
+} // namespace undine::particles

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/base/parallel/throw_together.h>
+#include <undine/solid/assembly/cell_forces.h>
+#include <undine/solid/assembly/internal_forces.h>
+
+#include <limits>
+
+namespace undine
+{
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+  namespace
+  {
+    /// action(cell, cell_forces) for the locally owned cells; errors reach all ranks.
+    template <int dim, class Action>
+    void
+    for_all_cells(const SolidModel<dim> &model, const Vector &displacement, const Action &action)
+    {
+      const Vector    ghosted = model.ghosted(displacement);
+      CellForces<dim> cell_forces(model);
+      std::string     failure;
+      try
+        {
+          for (unsigned int cell = 0; cell < model.geometry().n_cells(); ++cell)
+            {
+              cell_forces.reinit(cell, ghosted);
+              action(cell, cell_forces);
+            }
+        }
+      catch (const SolveError &error)
+        {
+          failure = error.what();
+        }
+      throw_together(failure, model.communicator());
+    }
+  } // namespace
+
+
+  template <int dim>
+  Vector
+  internal_forces(const SolidModel<dim> &model, const Vector &displacement)
+  {
+    Vector result = model.vector();
+    for_all_cells(model, displacement, [&](const unsigned int cell, CellForces<dim> &forces) {
+      result.add(model.geometry().dofs(cell), forces.forces());
+    });
+    result.compress(dealii::VectorOperation::add);
+    return result;
+  }
+
+
+  template <int dim>
+  Matrix
+  internal_stiffness(const SolidModel<dim> &model, const Vector &displacement)
+  {
+    Matrix result = model.matrix();
+    for_all_cells(model, displacement, [&](const unsigned int cell, CellForces<dim> &forces) {
+      result.add(model.geometry().dofs(cell), forces.tangent());
+    });
+    result.compress(dealii::VectorOperation::add);
+    return result;
+  }
+
+
+  template <int dim>
+  double
+  elastic_energy(const SolidModel<dim> &model, const Vector &displacement)
+  {
+    double sum = 0;
+    for_all_cells(model, displacement, [&](const unsigned int, CellForces<dim> &forces) {
+      sum += forces.energy();
+    });
+    return dealii::Utilities::MPI::sum(sum, model.communicator());
+  }
+
+
+  template <int dim>
+  double
+  rounding_of_forces(const SolidModel<dim> &model, const double size)
+  {
+    const auto                         &geometry = model.geometry();
+    Vector                              forces   = model.vector();
+    std::vector<dealii::Tensor<1, dim>> gradients;
+    for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
+      {
+        const double modulus = model.bodies()[geometry.body(cell)].material->p_wave_modulus();
+        std::vector<double> local(geometry.dofs(cell).size(), 0.);
+        for (unsigned int q = 0; q < geometry.n_points(); ++q)
+          {
+            geometry.gradients(gradients, cell, q);
+            for (unsigned int dof = 0; dof < local.size(); ++dof)
+              {
+                const double gradient = gradients[dof / dim].norm();
+                local[dof] += modulus * gradient * (1 + size * gradient) * geometry.JxW(cell, q);
+              }
+          }
+        forces.add(geometry.dofs(cell), local);
+      }
+    forces.compress(dealii::VectorOperation::add);
+    return std::numeric_limits<double>::epsilon() * forces.l2_norm();
+  }
+
+
+#define UNDINE_INSTANTIATE(dim)                                                \
+  template Vector internal_forces(const SolidModel<dim> &, const Vector &);    \
+  template Matrix internal_stiffness(const SolidModel<dim> &, const Vector &); \
+  template double elastic_energy(const SolidModel<dim> &, const Vector &);     \
+  template double rounding_of_forces(const SolidModel<dim> &, const double);
+
+  UNDINE_INSTANTIATE(2)
+  UNDINE_INSTANTIATE(3)
+#undef UNDINE_INSTANTIATE
+} // namespace undine

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/solid/assembly/loads.h>
+#include <undine/solid/solvers/tangent_solver.h>
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_gmres.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  template <int dim>
+  TangentSolver<dim>::TangentSolver(const SolidModel<dim> &model)
+    : model(model)
+    , direct(solves_directly(model))
+    , symmetric(!has_pressure_loads(model))
+  {
+  }
+
+
+  template <int dim>
+  bool
+  TangentSolver<dim>::is_direct() const
+  {
+    return direct || (gave_up && model.numerics().linear_solver == "auto");
+  }
+
+
+  template <int dim>
+  typename TangentSolver<dim>::Vector
+  TangentSolver<dim>::solve(const Matrix &A,
+                            const Vector &b,
+                            const Vector &displacement,
+                            const double  negligible)
+  {
+    if (!is_direct())
+      {
+        // First with the hierarchy of an earlier matrix, if there is one.
+        Vector x = model.vector();
+        if (multigrid && iterate(x, A, b, negligible))
+          return x;
+        multigrid        = make_multigrid(A, model, displacement);
+        first_iterations = 0;
+        x                = 0;
+        if (multigrid && iterate(x, A, b, negligible))
+          return x;
+        multigrid.reset();
+        gave_up   = true;
+        all_notes = "multigrid did not converge (the tangent is indefinite, or cells are badly "
+                    "shaped): solved directly";
+      }
+    factorisation.factorise(A);
+    return factorisation.solve(b);
+  }
+
+
+  template <int dim>
+  bool
+  TangentSolver<dim>::iterate(Vector &x, const Matrix &A, const Vector &b, const double negligible)
+  {
+    const unsigned int    maximum_iterations = 300;
+    const double          relative           = model.numerics().linear_tolerance;
+    const double          tolerance          = std::max(negligible, relative * b.l2_norm());
+    dealii::SolverControl control(maximum_iterations, tolerance);
+    bool                  failed = false;
+    try
+      {
+        using GMRES = dealii::SolverGMRES<Vector>;
+        if (symmetric)
+          dealii::SolverCG<Vector>(control).solve(A, x, b, multigrid->hierarchy);
+        else
+          GMRES(control, typename GMRES::AdditionalData(100, true)) // preconditioned from the right
+            .solve(A, x, b, multigrid->hierarchy);
+      }
+    catch (const std::exception &)
+      {
+        failed = true;
+      }
+    all_iterations += control.last_step();
+    if (dealii::Utilities::MPI::max(int(failed), model.communicator()) > 0)
+      return false;
+    if (first_iterations == 0)
+      first_iterations = std::max(control.last_step(), 1u);
+    else if (control.last_step() > first_iterations + first_iterations / 2 + 2)
+      multigrid.reset();
+    return true;
+  }
+
+
+  template <int dim>
+  void
+  TangentSolver<dim>::begin_stage()
+  {
+    multigrid.reset();
+    gave_up        = false;
+    all_iterations = 0;
+    all_notes.clear();
+  }
+
+
+  template <int dim>
+  unsigned int
+  TangentSolver<dim>::iterations() const
+  {
+    return all_iterations;
+  }
+
+
+  template <int dim>
+  const std::string &
+  TangentSolver<dim>::note() const
+  {
+    return all_notes;
+  }
+
+
+  template class TangentSolver<2>;
+  template class TangentSolver<3>;
+} // namespace undine

@@ -1,0 +1,482 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/solid/assembly/internal_forces.h>
+#include <undine/solid/assembly/loads.h>
+#include <undine/solid/assembly/prescribed_motion.h>
+#include <undine/solid/assembly/sparse.h>
+#include <undine/solid/assembly/sums_by_body.h>
+#include <undine/solid/solvers/mass_solve.h>
+#include <undine/solid/step/solid_equations.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace undine
+{
+  template <int dim>
+  SolidEquations<dim>::SolidEquations(const SolidModel<dim>       &model,
+                                      const Matrix                &mass,
+                                      const SolidState            &old_state,
+                                      const SolidEnvironment<dim> &environment,
+                                      const double                 time,
+                                      const double                 dt,
+                                      TimingTree                  &timing,
+                                      const Vector                &nodal_forces,
+                                      const ContactStart          &contact_start)
+    : model(model)
+    , mass(mass)
+    , old_state(old_state)
+    , environment(environment)
+    , time(time)
+    , dt(dt)
+    , timing(timing)
+    , nodal_forces(nodal_forces)
+    , contact(environment.contact.get())
+    , contact_start(contact_start)
+    , coefficients(model.numerics().integrator->coefficients(dt))
+    , has_pressure(has_pressure_loads(model))
+    , own_rounding(rounding_of_forces(
+        model, old_state.displacement.linfty_norm() + dt * old_state.velocity.linfty_norm()))
+    , dead(model.vector())
+    , known(model.vector())
+  {
+    const auto timed = timing.section("assemble forces");
+    timing.memory.hold("deformable bodies", mass.memory_consumption());
+    if (contact)
+      contact->begin_stage();
+    if (environment.stiffness_damping > 0 && coefficients.damping != 0)
+      find_damping_stiffness();
+    find_known_forces();
+  }
+
+
+  template <int dim>
+  void
+  SolidEquations<dim>::find_damping_stiffness()
+  {
+    const auto timed        = timing.section("damping");
+    Vector     displacement = old_state.displacement;
+    displacement.add(coefficients.damping_position * dt, old_state.velocity);
+    try
+      {
+        damping_stiffness.reinit(model.matrix());
+        add_matrix(damping_stiffness, 1, internal_stiffness(model, displacement));
+      }
+    catch (const SolveError &)
+      {
+        // The extrapolation may invert a cell where d^n does not.
+        add_matrix(damping_stiffness, 1, internal_stiffness(model, old_state.displacement));
+      }
+    timing.memory.hold_briefly("damping", damping_stiffness.memory_consumption());
+  }
+
+
+  template <int dim>
+  void
+  SolidEquations<dim>::note_size(const Vector &term, const double factor)
+  {
+    largest_term = std::max(largest_term, std::abs(factor) * term.l2_norm());
+  }
+
+
+  /// M (m u + m_u u^n + m_a a^n).
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::inertia(const Vector &velocity) const
+  {
+    Vector change = model.vector(), result = model.vector();
+    change.add(coefficients.mass, velocity, coefficients.mass_old_velocity, old_state.velocity);
+    if (coefficients.mass_old_acceleration != 0)
+      change.add(coefficients.mass_old_acceleration, old_state.acceleration);
+    mass.vmult(result, change);
+    return result;
+  }
+
+
+  /// forces += factor C velocity.
+  template <int dim>
+  void
+  SolidEquations<dim>::add_damping(Vector       &forces,
+                                   const Vector &velocity,
+                                   const double  factor) const
+  {
+    if (environment.mass_damping == 0 && damping_stiffness.m() == 0)
+      return;
+    const auto timed   = timing.section("damping");
+    Vector     product = model.vector();
+    if (environment.mass_damping > 0)
+      {
+        mass.vmult(product, velocity);
+        forces.add(factor * environment.mass_damping, product);
+      }
+    if (damping_stiffness.m() > 0)
+      {
+        damping_stiffness.vmult(product, velocity);
+        forces.add(factor * environment.stiffness_damping, product);
+      }
+  }
+
+
+  /// forces += w_e [K(d_e) - P(d_e, t_e)], P being the follower pressures.
+  template <int dim>
+  void
+  SolidEquations<dim>::add_stage(Vector                        &forces,
+                                 const StepCoefficients::Stage &stage,
+                                 const Vector                  &displacement)
+  {
+    const Vector internal = internal_forces(model, displacement);
+    note_size(internal, stage.weight);
+    forces.add(stage.weight, internal);
+    if (has_pressure)
+      {
+        const Vector pressure = pressure_loads(model, displacement, time + stage.position * dt);
+        note_size(pressure, stage.weight);
+        forces.add(-stage.weight, pressure);
+      }
+  }
+
+
+  template <int dim>
+  void
+  SolidEquations<dim>::find_known_forces()
+  {
+    if (coefficients.mass != 0)
+      own_rounding += std::numeric_limits<double>::epsilon() * inertia(model.vector()).l2_norm();
+    if (coefficients.damping_old_velocity != 0)
+      add_damping(known, old_state.velocity, coefficients.damping_old_velocity);
+    for (const auto &stage : coefficients.stages)
+      {
+        const Vector loads = dead_loads(model, environment, time + stage.position * dt, &timing);
+        note_size(loads, stage.weight);
+        dead.add(stage.weight, loads);
+        if (stage.position == 0)
+          add_stage(known, stage, old_state.displacement);
+      }
+    known.add(-1., dead);
+    largest_known = largest_term;
+    if (nodal_forces.size() > 0)
+      {
+        const Vector forces = nodal_forces;
+        nodal_forces        = 0;
+        add_forces(forces);
+      }
+  }
+
+
+  template <int dim>
+  void
+  SolidEquations<dim>::add_forces(const Vector &more)
+  {
+    if (nodal_forces.size() == 0)
+      nodal_forces = model.vector();
+    nodal_forces.add(1., more);
+    note_size(more, 1);
+    largest_known = std::max(largest_known, more.l2_norm());
+    dead.add(1., more);
+    known.add(-1., more);
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::guess() const
+  {
+    Vector velocity = old_state.velocity;
+    prescribe_velocity(velocity, model, time + dt, dt);
+    return velocity;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::guess_at_rest() const
+  {
+    Vector velocity = model.vector();
+    velocity.add(-coefficients.displacement_velocity / coefficients.displacement,
+                 old_state.velocity);
+    if (coefficients.displacement_acceleration != 0)
+      velocity.add(-coefficients.displacement_acceleration / coefficients.displacement,
+                   old_state.acceleration);
+    prescribe_velocity(velocity, model, time + dt, dt);
+    return velocity;
+  }
+
+
+  /// d^{n+1} - d^n at free degrees of freedom [m].
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::free_increment(const Vector &velocity) const
+  {
+    Vector result = velocity;
+    result *= coefficients.displacement;
+    result.add(coefficients.displacement_velocity, old_state.velocity);
+    if (coefficients.displacement_acceleration != 0)
+      result.add(coefficients.displacement_acceleration, old_state.acceleration);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::increment(const Vector &velocity) const
+  {
+    Vector result = free_increment(velocity);
+    clear_fixed(result, model);
+    result.add(1., prescribed_increment());
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::displacement(const Vector &velocity) const
+  {
+    Vector result = free_increment(velocity);
+    result.add(1., old_state.displacement);
+    prescribe_displacement(result, model, time + dt);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::stage_displacement(const Vector &end_displacement,
+                                          const double  position) const
+  {
+    Vector result = end_displacement;
+    result.sadd(position, 1 - position, old_state.displacement);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::full_residual(const Vector &velocity)
+  {
+    const auto timed  = timing.section("assemble forces");
+    Vector     result = known;
+    largest_term      = largest_known;
+    if (coefficients.mass != 0)
+      {
+        const Vector change = inertia(velocity);
+        note_size(change, 1);
+        result.add(1., change);
+      }
+    if (coefficients.damping != 0)
+      add_damping(result, velocity, coefficients.damping);
+    const Vector end = displacement(velocity);
+    for (const auto &stage : coefficients.stages)
+      if (stage.position > 0)
+        add_stage(result, stage, stage_displacement(end, stage.position));
+    const Vector pushes = contact_forces(end);
+    if (pushes.size() > 0)
+      {
+        note_size(pushes, 1);
+        result.add(-1., pushes);
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::residual(const Vector &velocity)
+  {
+    Vector result = full_residual(velocity);
+    clear_fixed(result, model);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Matrix
+  SolidEquations<dim>::jacobian(const Vector &velocity) const
+  {
+    const Vector end    = displacement(velocity);
+    Matrix       result = full_jacobian(end, end);
+    fix_rows_and_columns(result, model.all_fixed());
+    return result;
+  }
+
+
+  /// d d^{n+1} - d^n at fixed degrees of freedom, zero elsewhere [m].
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::prescribed_increment() const
+  {
+    Vector result = model.vector();
+    prescribe_displacement(result, model, time + dt);
+    for (const auto &fixed : model.fixed())
+      result(fixed.dof) -= old_state.displacement(fixed.dof);
+    result.compress(dealii::VectorOperation::add);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::LinearSystem
+  SolidEquations<dim>::motion_predictor() const
+  {
+    Vector jump = prescribed_increment();
+    jump *= -1 / coefficients.displacement;
+    LinearSystem system{full_jacobian(old_state.displacement, last_place()), model.vector()};
+    system.matrix.vmult(system.right_side, jump);
+    clear_fixed(system.right_side, model);
+    fix_rows_and_columns(system.matrix, model.all_fixed());
+    return system;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Matrix
+  SolidEquations<dim>::full_jacobian(const Vector &end, const Vector &in_contact) const
+  {
+    const auto timed  = timing.section("assemble tangent");
+    Matrix     result = model.matrix();
+    for (const auto &stage : coefficients.stages)
+      if (stage.position > 0)
+        {
+          const double factor = stage.weight * stage.position * coefficients.displacement;
+          const Vector d      = stage_displacement(end, stage.position);
+          add_matrix(result, factor, internal_stiffness(model, d));
+          if (has_pressure)
+            add_matrix(result, -factor, pressure_stiffness(model, d, time + stage.position * dt));
+        }
+    const double mass_factor = coefficients.mass + coefficients.damping * environment.mass_damping;
+    if (mass_factor != 0)
+      add_matrix(result, mass_factor, mass);
+    if (damping_stiffness.m() > 0)
+      add_matrix(result, coefficients.damping * environment.stiffness_damping, damping_stiffness);
+    if (contact)
+      {
+        const auto timed = timing.section("contact");
+        contact->add_stiffness(
+          result, contact_start.weight * coefficients.displacement, in_contact, time + dt);
+      }
+    timing.memory.hold_briefly("deformable bodies", result.memory_consumption());
+    return result;
+  }
+
+
+  template <int dim>
+  bool
+  SolidEquations<dim>::is_static() const
+  {
+    return coefficients.mass == 0;
+  }
+
+
+  template <int dim>
+  double
+  SolidEquations<dim>::scale() const
+  {
+    return largest_term;
+  }
+
+
+  template <int dim>
+  double
+  SolidEquations<dim>::rounding() const
+  {
+    return own_rounding;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::reactions(const Vector &velocity)
+  {
+    const Vector forces = full_residual(velocity);
+    Vector       result = model.vector();
+    // Given nodal forces act un-averaged, and so do supports against them.
+    const double weight = coefficients.sum_of_weights();
+    for (const auto &fixed : model.fixed())
+      {
+        const double given = nodal_forces.size() > 0 ? nodal_forces(fixed.dof) : 0.;
+        result(fixed.dof)  = (forces(fixed.dof) + given) / weight - given;
+      }
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+
+  /// Of reactions() what the balance of the step holds at fixed degrees of freedom [N].
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::weighted(const Vector &reactions) const
+  {
+    Vector       result = model.vector();
+    const double weight = coefficients.sum_of_weights();
+    for (const auto &fixed : model.fixed())
+      {
+        const double given = nodal_forces.size() > 0 ? nodal_forces(fixed.dof) : 0.;
+        result(fixed.dof)  = weight * (reactions(fixed.dof) + given) - given;
+      }
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  SolidEquations<dim>::momentum_residuals(const Vector &velocity, const Vector &reactions) const
+  {
+    Vector defect = inertia(velocity);
+    if (environment.mass_damping > 0)
+      {
+        Vector drag = model.vector(), product = model.vector();
+        drag.add(coefficients.damping, velocity);
+        drag.add(coefficients.damping_old_velocity, old_state.velocity);
+        mass.vmult(product, drag);
+        defect.add(environment.mass_damping, product);
+      }
+    defect.add(-1., dead);
+    defect.add(-1., weighted(reactions));
+    if (has_pressure)
+      for (const auto &stage : coefficients.stages)
+        defect.add(-stage.weight,
+                   pressure_loads(model,
+                                  stage_displacement(displacement(velocity), stage.position),
+                                  time + stage.position * dt));
+    const Vector pushes = contact_forces(displacement(velocity));
+    if (pushes.size() > 0)
+      defect.add(-1., pushes);
+    // Where nothing acts, rounding is no lack of balance.
+    const double        tolerance = model.numerics().newton.relative_tolerance;
+    const double        size      = std::max(scale(), rounding() / tolerance);
+    std::vector<double> result;
+    for (const auto &force : sums_by_body(model, defect))
+      result.push_back(size > 0 ? force.norm() / size : 0);
+    return result;
+  }
+
+
+  template <int dim>
+  SolidState
+  SolidEquations<dim>::end_state(const Vector &velocity, const Vector &contact_velocity) const
+  {
+    SolidState state;
+    state.displacement = displacement(velocity);
+    state.velocity     = velocity;
+    state.acceleration = model.vector();
+    state.acceleration.add(
+      coefficients.acceleration, velocity, coefficients.acceleration_velocity, old_state.velocity);
+    if (contact_velocity.size() > 0)
+      state.acceleration.add(-coefficients.acceleration, contact_velocity);
+    const auto &integrator = *model.numerics().integrator;
+    if (integrator.uses_acceleration())
+      {
+        state.acceleration.add(coefficients.acceleration_acceleration, old_state.acceleration);
+        if (nodal_forces.size() > 0)
+          state.acceleration.add(-coefficients.acceleration * dt,
+                                 solve_mass(model, mass, nodal_forces, model.vector()));
+        prescribe_acceleration(
+          state.acceleration, model, time + (1 + integrator.acceleration_shift()) * dt, dt);
+      }
+    return state;
+  }
+
+
+  template class SolidEquations<2>;
+  template class SolidEquations<3>;
+} // namespace undine

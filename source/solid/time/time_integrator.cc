@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/solid/time/time_integrator.h>
+
+namespace undine
+{
+  double
+  StepCoefficients::sum_of_weights() const
+  {
+    double sum = 0;
+    for (const auto &stage : stages)
+      sum += stage.weight;
+    return sum;
+  }
+
+
+  Stages
+  TimeIntegrator::stages(const double dt, const bool) const
+  {
+    return {single_stage(dt)};
+  }
+
+
+  bool
+  TimeIntegrator::uses_acceleration() const
+  {
+    return false;
+  }
+
+
+  double
+  TimeIntegrator::acceleration_shift() const
+  {
+    return 0;
+  }
+
+
+  std::unique_ptr<TimeIntegrator>
+  choose_time_integrator(const Options &scene)
+  {
+    return scene.section("Time").choose<TimeIntegrator>(
+      "Integrator", "trapezoid_bdf2", "How bodies and fluid advance in time.");
+  }
+} // namespace undine

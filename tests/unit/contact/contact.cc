@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/contact/barrier.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <contact/contact_scene.h>
+#include <message_of.h>
+
+#include <cmath>
+
+using namespace undine_tests;
+
+namespace
+{
+  template <int dim>
+  void
+  check_derivatives(const unsigned int degree, const double aside, const double size)
+  {
+    INFO(dim << "D, degree " << degree << ", " << aside << " aside");
+    // Facets of one body face facets, ridges and corners of the other; nodes face the wall.
+    const Scene<dim> scene(two_boxes<dim>(.06, aside, degree), .2, -.1);
+    const Vector     place = scene.field(size, 0), change = scene.field(1, 1);
+    const auto       at = [&](const double path) {
+      Vector result = place;
+      result.add(path, change);
+      return result;
+    };
+    const double step   = 1e-6;
+    const Vector forces = scene.contact.forces(place, 0);
+    REQUIRE(forces.size() > 0);
+    CHECK((scene.contact.energy(at(step), 0) - scene.contact.energy(at(-step), 0)) / (2 * step) ==
+          Approx(-(forces * change)).epsilon(1e-7));
+
+    auto matrix = scene.model.matrix();
+    scene.contact.add_stiffness(matrix, 2, place, 0);
+    Vector by_matrix = scene.model.vector();
+    matrix.vmult(by_matrix, change);
+    Vector by_difference = scene.contact.forces(at(step), 0);
+    by_difference.add(-1., scene.contact.forces(at(-step), 0));
+    by_difference *= -2 / (2 * step);
+    by_difference.add(-1., by_matrix);
+    CHECK(by_difference.l2_norm() < 1e-6 * by_matrix.l2_norm());
+  }
+
+
+  /// Force and moment on all bodies [N], [N m].
+  template <int dim>
+  void
+  check_balance()
+  {
+    const Scene<dim>       scene(two_boxes<dim>(.06, .3, 2), .2);
+    const Vector           place  = scene.field(.02, 0);
+    const Vector           forces = scene.contact.forces(place, 0);
+    dealii::Tensor<1, dim> force;
+    dealii::Tensor<2, dim> moment;
+    double                 size = 0;
+    for (const auto dof : scene.model.locally_owned())
+      {
+        force[scene.model.axis(dof)] += forces(dof);
+        size += std::abs(forces(dof));
+      }
+    const BodySurface<dim> surface(scene.model);
+    const auto             x = surface.positions(place);
+    const auto             f = surface.gather(forces);
+    for (unsigned int node = 0; node < x.size(); ++node)
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int b = 0; b < dim; ++b)
+          moment[a][b] += x[node][a] * f[node][b] - x[node][b] * f[node][a];
+    force = dealii::Utilities::MPI::sum(force, MPI_COMM_WORLD);
+    size  = dealii::Utilities::MPI::sum(size, MPI_COMM_WORLD);
+    CHECK(size > 1e-3);
+    CHECK(force.norm() < 1e-14 * size);
+    CHECK(moment.norm() < 1e-14 * size);
+  }
+
+
+  /// A flat face of several facets is one surface: each node before it counts once, with half its
+  /// area, at its distance, wherever the rims of the facets are.
+  template <int dim>
+  void
+  check_flat_face()
+  {
+    const double               distance = .09;
+    const Scene<dim>           scene(two_boxes<dim>(1, 0), .2);
+    const ContactSurfaces<dim> surfaces(scene.settings(.2, -10), scene.model, nullptr, nullptr);
+    for (const double aside : {0., 1e-9, .01, .2, .25, .5})
+      {
+        dealii::Tensor<1, dim> path;
+        path[0] = distance - 1;
+        for (unsigned int axis = 1; axis < dim; ++axis)
+          path[axis] = aside;
+        const auto   places = surfaces.places(scene.shift(path), 0);
+        unsigned int found  = 0;
+        for (const auto &term : find_contact_terms(surfaces, places, .2))
+          if (const auto node = term.nodes[0]; surfaces.surface_of_node(node) == 1)
+            {
+              const auto &x      = places[node];
+              bool        inside = true;
+              for (unsigned int axis = 1; axis < dim; ++axis)
+                inside = inside && x[axis] <= 1;
+              if (!inside)
+                continue;
+              ++found;
+              CHECK(term.distance == Approx(distance).epsilon(1e-12));
+              CHECK(term.area == surfaces.area(node) / 2);
+              CHECK(term.direction[0] == Approx(1));
+            }
+        INFO(dim << "D, " << aside << " aside");
+        const unsigned int in_a_row = aside == 0 ? 3 : aside <= .5 ? 2 : 1;
+        CHECK(found == dealii::Utilities::pow(in_a_row, dim - 1));
+      }
+  }
+
+
+  template <int dim>
+  void
+  check_ways()
+  {
+    const Scene<dim>       scene(two_boxes<dim>(1, .3), .1, -.5);
+    dealii::Tensor<1, dim> path;
+    const Vector           start = scene.model.vector();
+    const auto             part  = [&](const double length) {
+      path[0] = length;
+      return scene.contact.free_part({start, 0.}, {scene.shift(path), 0.});
+    };
+    CHECK(part(.7) == 1);
+    CHECK(part(-.9) == 1);
+    // Up to half of the gap, through the other body and far beyond.
+    for (const double length : {1., 2., 10., 1e3})
+      {
+        CHECK(part(-length) * length > .94);
+        CHECK(part(-length) * length < .9501);
+      }
+    Vector fall = start;
+    fall.add(-4.);
+    CHECK(scene.contact.free_part({start, 0.}, {fall, 0.}) * 4 == Approx(.45));
+    CHECK(scene.contact.forces(start, 0.).size() == 0);
+  }
+} // namespace
+
+
+TEST_CASE("forces and stiffness of contact are derivatives of its energy", "[contact][mpi]")
+{
+  for (const unsigned int degree : {1, 2})
+    {
+      check_derivatives<2>(degree, .3, .02);
+      check_derivatives<3>(degree, .3, .02);
+      // Edges are nearly parallel.
+      check_derivatives<3>(degree, .01, .004);
+    }
+  for (const double s : {.1, .5, .9, .999})
+    {
+      const double h = 1e-6;
+      CHECK((barrier(s + h) - barrier(s - h)) / (2 * h) == Approx(barrier_slope(s)).epsilon(1e-6));
+      CHECK((barrier_slope(s + h) - barrier_slope(s - h)) / (2 * h) ==
+            Approx(barrier_curvature(s)).epsilon(1e-6));
+    }
+  CHECK(barrier(1) == 0);
+  CHECK(barrier_slope(1) == 0);
+  CHECK(barrier_curvature(1) == 0);
+}
+
+
+TEST_CASE("forces of contact between bodies balance, and so do their moments", "[contact][mpi]")
+{
+  check_balance<2>();
+  check_balance<3>();
+}
+
+
+TEST_CASE("a flat face is one surface, wherever the rims of its facets are", "[contact]")
+{
+  check_flat_face<2>();
+  check_flat_face<3>();
+}
+
+
+TEST_CASE("no way leads through another body or a wall", "[contact][mpi]")
+{
+  check_ways<2>();
+  check_ways<3>();
+}
+
+
+TEST_CASE("bodies that overlap at the start are refused", "[contact]")
+{
+  using Catch::Contains;
+  const auto complaint = [](const double gap, const double wall) {
+    const Scene<2> scene(two_boxes<2>(gap, .3), .1, wall);
+    return message_of([&] { scene.contact.check_start(scene.model.vector(), 0); });
+  };
+  CHECK(complaint(.01, -.01) == "no error");
+  CHECK_THAT(complaint(-.01, -1), Contains("overlaps") && Contains("Try: leave a gap"));
+  CHECK_THAT(complaint(.01, .2), Contains("'one' is not on the free side of wall 'wall'"));
+}

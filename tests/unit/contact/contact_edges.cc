@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/contact/contact_potential.h>
+#include <undine/surface/nearest_of_edges.h>
+
+#include <contact/contact_scene.h>
+
+using namespace undine_tests;
+
+namespace
+{
+  using Point = dealii::Point<3>;
+
+
+  /// Two cubes, the upper one with an edge along x at the least, the lower one with an edge along y
+  /// at the top; `gap` between them, nodes are far.
+  std::string
+  cubes_on_edges(const double gap)
+  {
+    const std::string keys = "\nset Density = 1\nset Young's modulus = 1\nset Poisson's ratio = "
+                             "0\nset Cells = 2, 2, 2\nset Lower corner = -1, -1, -1\nset Upper "
+                             "corner = 1, 1, 1\n";
+    return "subsection Bodies\nsubsection low" + keys +
+           "set Map = (x - z) / 2^.5; y; (x + z) / 2^.5\nend\nsubsection high" + keys +
+           fmt::format("set Map = x + .4; (y - z) / 2^.5 + .3; (y + z) / 2^.5 + {:.17g}\n",
+                       2 * std::sqrt(2.) + gap) +
+           "end\nend\nsubsection Solid numerics\nset Element degree = 1\nend\n";
+  }
+} // namespace
+
+
+TEST_CASE("the points of two edges nearest to each other", "[contact]")
+{
+  // Inside both: the way between them is upright to both.
+  const std::array<Point, 4> crossing{
+    {Point(0, 0, 0), Point(2, 1, 0), Point(1, -1, .5), Point(.5, 3, 1)}};
+  const auto nearest = nearest_of_edges<3>(crossing);
+  CHECK(nearest.inside[0]);
+  CHECK(nearest.inside[1]);
+  CHECK(std::abs(nearest.from * (crossing[1] - crossing[0])) < 1e-14);
+  CHECK(std::abs(nearest.from * (crossing[3] - crossing[2])) < 1e-14);
+  CHECK(nearest.distance == Approx(nearest.from.norm()));
+
+  // No point of a fine sample is nearer, wherever the second edge is.
+  for (const double shift : {-5., -2., -.5, 0., 1., 4.})
+    {
+      auto x = crossing;
+      x[2][0] += shift;
+      x[3] += shift * (x[1] - x[0]);
+      const double distance = nearest_of_edges<3>(x).distance;
+      double       sampled  = 1e9;
+      for (unsigned int i = 0; i <= 200; ++i)
+        for (unsigned int j = 0; j <= 200; ++j)
+          sampled = std::min(
+            sampled, (x[0] + i / 200. * (x[1] - x[0]) - x[2] - j / 200. * (x[3] - x[2])).norm());
+      CHECK(distance <= sampled * (1 + 1e-14));
+      CHECK(distance > sampled - .02);
+    }
+  // Parallel ones.
+  CHECK(nearest_of_edges<3>({{Point(0, 0, 0), Point(1, 0, 0), Point(.5, 0, .3), Point(3, 0, .3)}})
+          .distance == Approx(.3));
+}
+
+
+TEST_CASE("edges of a box are sharp, those of a ball are not", "[contact]")
+{
+  const auto edges = [](const std::string &text) {
+    const Scene<3> scene(text, .1);
+    return ContactSurfaces<3>(scene.settings(.1, -10), scene.model, nullptr, nullptr).sharp_edges();
+  };
+  const auto of_boxes = edges(two_boxes<3>(.5, .3));
+  CHECK(of_boxes.size() == 2 * 12 * 2);
+  for (const auto &edge : of_boxes)
+    {
+      CHECK(edge.length == Approx(.5));
+      CHECK(edge.area == Approx(2. / 3 * .125));
+    }
+  CHECK(edges("subsection Bodies\nsubsection ball\nset Shape = ball\nset Refinements = 2\nset "
+              "Density = 1\nset Young's modulus = 1\nset Poisson's ratio = 0\nend\nend\n")
+          .empty());
+}
+
+
+TEST_CASE("edges that cross push each other and do not pass", "[contact][mpi]")
+{
+  const double              gap = .04;
+  const Scene<3>            scene(cubes_on_edges(gap), .1);
+  const ContactSurfaces<3>  surfaces(scene.settings(.1, -10), scene.model, nullptr, nullptr);
+  const Vector              start  = scene.model.vector();
+  const auto                places = surfaces.places(start, 0);
+  const auto                terms  = find_contact_terms(surfaces, places, .1);
+  const ContactPotential<3> potential(.1, 3);
+  REQUIRE(terms.size() == 1);
+  CHECK(terms[0].n == 4);
+  CHECK(terms[0].distance == Approx(gap));
+  CHECK(std::abs(terms[0].direction[2]) == Approx(1));
+  CHECK(scene.contact.energy(start, 0) == Approx(potential.energy(terms[0], places)));
+  CHECK(potential.energy(terms[0], places) > 0);
+
+  // Down by the gap and further: to a fifth of it.
+  for (const double length : {.1, 1., 30.})
+    {
+      Vector fall = start;
+      for (const auto dof : scene.model.locally_owned())
+        if (scene.model.axis(dof) == 2 && scene.model.rest_position(dof)[2] > std::sqrt(2.))
+          fall(dof) = -length;
+      fall.compress(dealii::VectorOperation::insert);
+      const double path = scene.contact.free_part({start, 0.}, {fall, 0.}) * length;
+      CHECK(path < .8 * gap * (1 + 1e-12));
+      CHECK(path > .79 * gap);
+    }
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_tests_contact_contact_scene_h
+#define undine_tests_contact_contact_scene_h
+
+#include <undine/contact/body_contact.h>
+
+#include <catch2/catch.hpp>
+#include <solid/solid_scene.h>
+
+#include <cmath>
+
+namespace undine_tests
+{
+  /// Two boxes, the second to the right of the first and shifted aside, so that nodes do not meet.
+  template <int dim>
+  std::string
+  two_boxes(const double gap, const double aside, const unsigned int degree = 1)
+  {
+    const std::string keys = "\nset Density = 1\nset Young's modulus = 1\nset Poisson's ratio = 0\n"
+                             "set Cells = " +
+                             plane_or_space<dim>("2, 2", "2, 2, 2") + "\n";
+    const auto corners = [&](const double x, const double y) {
+      return fmt::format(plane_or_space<dim>("set Lower corner = {0}, {1}\nset Upper corner = "
+                                             "{2}, {3}",
+                                             "set Lower corner = {0}, {1}, {1}\nset Upper corner "
+                                             "= {2}, {3}, {3}"),
+                         x,
+                         y,
+                         x + 1,
+                         y + 1);
+    };
+    return "subsection Bodies\nsubsection one\n" + corners(0, 0) + keys +
+           "end\nsubsection other\n" + corners(1 + gap, aside) + keys +
+           fmt::format("end\nend\nsubsection Solid numerics\nset Element degree = {}\nend\n",
+                       degree);
+  }
+
+
+  /// Contact of the bodies of a text with each other and with the plane x = wall.
+  template <int dim>
+  struct Scene
+  {
+    Scene(const std::string &text, const double gap, const double wall = -10)
+      : options(read_scene_text(text))
+      , model(options, MPI_COMM_WORLD)
+      , contact(settings(gap, wall), model, nullptr, nullptr)
+    {
+    }
+
+    ContactSettings<dim>
+    settings(const double gap, const double wall) const
+    {
+      ContactSettings<dim> result{options};
+      result.gap       = gap;
+      result.stiffness = 3;
+      result.walls.push_back({"wall",
+                              wall * dealii::Point<dim>::unit_vector(0),
+                              dealii::Tensor<1, dim>(dealii::Point<dim>::unit_vector(0))});
+      return result;
+    }
+
+    /// The same function of place for any distribution.
+    Vector
+    field(const double size, const double phase) const
+    {
+      Vector result = model.vector();
+      for (const auto dof : model.locally_owned())
+        {
+          const auto &x = model.rest_position(dof);
+          result(dof)   = size * std::sin(3 * x[0] + 5 * x[dim - 1] + 7 * model.axis(dof) + phase);
+        }
+      result.compress(dealii::VectorOperation::insert);
+      return result;
+    }
+
+    /// A way of the second body, the first one stands still.
+    Vector
+    shift(const dealii::Tensor<1, dim> &path) const
+    {
+      Vector result = model.vector();
+      for (const auto dof : model.locally_owned())
+        result(dof) = model.rest_position(dof)[0] > 1 ? path[model.axis(dof)] : 0;
+      result.compress(dealii::VectorOperation::insert);
+      return result;
+    }
+
+    const Options          options;
+    const SolidModel<dim>  model;
+    const BodyContact<dim> contact;
+  };
+} // namespace undine_tests
+
+#endif
