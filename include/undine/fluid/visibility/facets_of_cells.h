@@ -12,7 +12,7 @@
 
 namespace undine
 {
-  /// The facets in each cell, so that one need not look at others.
+  /// The facets in each cell, so that queries need not visit others.
   template <int dim>
   class FacetsOfCells
   {
@@ -35,6 +35,7 @@ namespace undine
                   const Obstruction<dim> &surfaces,
                   const IndexBox<dim>    &box);
 
+    /// Find the facets in a cell.
     void
     add(const GridIndex<dim> &cell);
 
@@ -54,13 +55,15 @@ namespace undine
     in(const IndexBox<dim> &cells) const;
 
     /// A slab around all facets in a box of cells if it is parted by a wall, see Obstruction: what
-    /// is on one side of it is hidden from the other; exactly that if the wall is plane, otherwise
-    /// perhaps some of what could be seen past a rim just outside the cells. Else nothing.
+    /// is on one side of it is hidden from the other. This is exact if the wall is plane; otherwise
+    /// it may hide some of what is visible past a rim just outside the cells. Nothing if there is
+    /// no such wall.
     std::optional<Slab>
     wall(const IndexBox<dim> &cells) const;
 
-    /// Call action(facet) for the facets in those of the cells that a way passes and that are not
-    /// on one side of it, until it returns true; for some more than once.
+    /// Call action(image) for the facets in those of the cells that the segment from `from` to `to`
+    /// passes, unless both its ends are on the same side of the facet, until it returns true; for
+    /// some facets more than once.
     template <class Action>
     void
     until_facet(const IndexBox<dim>      &cells,
@@ -83,7 +86,7 @@ namespace undine
     }
 
   private:
-    /// Does a straight way come through a cell, or past it within rounding?
+    /// Does a segment pass through a cell, or past it within rounding?
     bool
     is_passed(const GridIndex<dim>     &cell,
               const dealii::Point<dim> &from,

@@ -13,17 +13,17 @@
 
 namespace undine
 {
-  /// Which samples of fields there are at the points of their lattice for others to see: the value
-  /// of a point that is whole, those of the parts of a divided one, and none where a point is
-  /// closed or a surface has passed over a sample since it was taken.
+  /// Which samples a field has at the points of its lattice, before it is asked whether a query
+  /// point sees them: the value of a point that is whole, those of the sub-cells or sub-faces of a
+  /// divided one, and none where a point is closed or a sample is freshly cleared.
   template <int dim>
   class SampledPoints
   {
   public:
     using Place = typename BodyVicinity<dim>::Place;
 
-    /// Of fields like this one, with ghost layers of this width and boundary points, on what bodies
-    /// left of the grid before their last motion. Collective.
+    /// Of fields like this one, with ghost layers of this width and boundary points, on the
+    /// topology of the fluid before the last motion of bodies. Collective.
     SampledPoints(const Field<dim>        &like,
                   const GridIndex<dim>    &width,
                   const Obstruction<dim>  &obstruction,
@@ -58,7 +58,7 @@ namespace undine
     Values
     values(const Field<dim> &field) const;
 
-    /// Has the field these points, parts and ghost layers?
+    /// Has the field these points, this topology and these ghost layers?
     bool
     is_for(const Field<dim> &field) const
     {
@@ -121,7 +121,7 @@ namespace undine
     void
     find_kinds(const GridIndex<dim> &width, const Obstruction<dim> &obstruction);
 
-    /// The parts of this rank that each may see.
+    /// The sub-cells or sub-faces of this rank that each rank has within its ghost layers.
     void
     find_parts_for_ranks(const GridIndex<dim> &width);
 

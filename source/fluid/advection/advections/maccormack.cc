@@ -85,7 +85,7 @@ namespace undine
       BoundedValue   found;
     };
 
-    /// Of each field where the way back may correct it: at the same points.
+    /// Of each field where the step back may correct it: at the same points.
     using Predictions = std::vector<std::vector<Prediction>>;
   };
 
