@@ -41,7 +41,7 @@ namespace undine
                  const double            dynamic_viscosity,
                  const double            time);
 
-  /// "Force on lid, x" and so on, for walls only.
+  /// The columns "Force on lid, x" and so on [N], `what` being their first words; for walls only.
   template <int dim>
   Columns
   force_columns(const std::string                         &what,

@@ -21,8 +21,7 @@ namespace undine
     int            piece; ///< of a divided face: which one; else -1
   };
 
-  /// action(SideFace, place) for all of them. `topology`: what bodies leave of the grid; nullptr:
-  /// everything.
+  /// action(SideFace, place) for all of them. `topology`: of the fluid; nullptr: nothing is cut.
   template <int dim, class Action>
   void
   for_each_side_face(const MacGrid<dim>       &grid,

@@ -109,6 +109,7 @@ namespace undine
       return result;
     }
 
+    /// The points that are in both boxes.
     IndexBox
     intersection(const IndexBox &other) const
     {

@@ -22,8 +22,8 @@ namespace undine
   };
 
 
-  /// The regions of the fluid on whose boundary the pressure is given nowhere and nothing gives
-  /// way: there it is known up to a constant, and what flows in must flow out.
+  /// The regions of the fluid on whose boundary neither the pressure is given nor a surface yields
+  /// to it: there the pressure is known up to a constant, and what flows in must flow out.
   template <int dim>
   class ClosedRegions
   {
@@ -32,23 +32,24 @@ namespace undine
 
     using Number = typename PressureNumbers<dim>::Number;
 
-    /// `yielding`: owned pressures at surfaces of bodies that move as pressure makes them. The
-    /// references must outlive it. Collective.
+    /// `yielding`: owned pressures at surfaces of bodies that yield to the pressure. The references
+    /// must outlive it. Collective.
     ClosedRegions(const FluidModel<dim>      &model,
                   const PressureNumbers<dim> &numbers,
                   const std::vector<Number>  &yielding = {});
 
-    /// One pressure of each closed region, if this rank owns it.
+    /// Those of the lowest pressure numbers of the closed regions that this rank owns.
     const std::vector<Number> &
     pinned() const
     {
       return pins;
     }
 
-    /// The fluxes pushed by bodies, changed within their uncertainties so that the volume of each
-    /// closed region is kept; where surfaces yield, they move as far as that takes. Throws
-    /// InputError if more enters or leaves a region: through held faces of `velocity`, or pushed by
-    /// bodies. Collective.
+    /// The swept-volume fluxes of bodies, [FluidTopology::cells] [m^dim/s], changed within their
+    /// uncertainties so that the volume of each closed region is conserved; where surfaces yield,
+    /// they move as far as that takes. Throws InputError (NoOutletError, if something is cut) if
+    /// more than the uncertainty enters or leaves a region through faces with a given velocity and
+    /// through surfaces. Collective.
     std::vector<double>
     balanced_fluxes(const Velocity<dim>   &velocity,
                     const SweptVolumeFlux &pushed,
@@ -60,10 +61,11 @@ namespace undine
     fix_pressure_level(Vector &pressure) const;
 
     /// Make the entries of each closed region sum to zero, by changes in proportion to volume.
+    /// Collective.
     void
     balance(Vector &right_side) const;
 
-    /// Make the mean of the pressure over each closed region zero.
+    /// Make the mean of the pressure over each closed region zero. Collective.
     void
     remove_means(Field<dim> &pressure) const;
 
