@@ -312,7 +312,7 @@ namespace undine
   }
 
 
-  /// Of bodies that are awake; true if one has been quiet for long enough.
+  /// Of bodies that are awake; true if one has been slow for long enough.
   template <int dim>
   bool
   SleepingBodies<dim>::count_quiet_time(State<dim> &state, const double dt) const

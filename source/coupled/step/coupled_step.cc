@@ -97,8 +97,8 @@ namespace undine
   }
 
 
-  /// Newton's method for u^{n+1} and p, and around it for how fast fluid enters through outflows
-  /// (see stabilise_backflow()).
+  /// Newton's method for u^{n+1} and p, and around it for the backflow through outflows (see
+  /// stabilise_backflow()).
   template <int dim>
   SolidReport<dim>
   CoupledStep<dim>::solve()

@@ -28,7 +28,7 @@ namespace undine
   }
 
 
-  /// Those that the fluid sticks to where there is friction.
+  /// The bodies with their no-slip surfaces, where there is friction.
   template <int dim>
   typename CharacteristicTracer<dim>::Bodies
   FluidSide<dim>::no_slip_bodies(const State<dim> &state, const Stage &stage)
@@ -44,8 +44,8 @@ namespace undine
   }
 
 
-  /// Where the surfaces push the fluid in this stage, at `time` [s]. Bodies get there only as far
-  /// as they do not run into each other or into walls.
+  /// Where the surfaces of the surface flux are in this stage, at `time` [s]. Bodies get there only
+  /// as far as they do not run into each other or into walls.
   template <int dim>
   typename FluidGeometry<dim>::Positions
   FluidSide<dim>::expected_places(const State<dim> &state,

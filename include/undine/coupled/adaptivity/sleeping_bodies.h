@@ -42,8 +42,9 @@ namespace undine
     void
     initialize(State<dim> &state, double dt, Report &report) override;
 
-    /// Until nobody wakes in the step: what does is awake from its begin. Where bodies that sleep
-    /// leave the step without a solution, as in a chamber that only they close, all wake.
+    /// Repeats the step until no body wakes in it, with those that woke awake from its begin. Where
+    /// sleeping bodies leave the step without a solution, as in a chamber that only they close, all
+    /// wake.
     void
     advance(State<dim> &state, const Stages &stages, Report &report) override;
 

@@ -45,7 +45,7 @@ namespace undine
       return solid ? solid->communicator() : fluid->grid().communicator();
     }
 
-    /// Does the fluid stick to surfaces?
+    /// Are surfaces no-slip surfaces? They are if an effect asks for friction.
     bool
     has_friction() const
     {
@@ -65,7 +65,7 @@ namespace undine
       return result;
     }
 
-    /// The same without what is built for it.
+    /// The same without Contact, which has to be built.
     SolidEnvironment<dim>
     wishes_of_effects() const
     {
@@ -75,7 +75,7 @@ namespace undine
       return result;
     }
 
-    /// nullptr: bodies do not feel each other. Collective.
+    /// The contact of all bodies; nullptr if the scene has none. Collective.
     std::shared_ptr<const Contact<dim>>
     contact_of_bodies() const
     {

@@ -20,6 +20,7 @@ namespace undine
   public:
     virtual ~Scheme() = default;
 
+    /// Declare and read the keys of this scheme.
     virtual void
     add_options(const Options &options) = 0;
 
@@ -49,7 +50,7 @@ namespace undine
     using Follower = std::function<bool(const std::string &)>;
 
     /// From now on tell `follower` of steps that take longer than a second, about every second.
-    /// Schemes whose steps nobody can look into tell nothing.
+    /// Schemes that do not know how far a step is tell nothing.
     virtual void
     follow(Follower)
     {

@@ -13,6 +13,7 @@ namespace undine
   template <int dim>
   struct SleepState
   {
+    /// True if bodies may sleep.
     bool
     in_use() const
     {
@@ -57,7 +58,7 @@ namespace undine
     std::vector<bool>   asleep;         ///< [body]
     std::vector<double> quiet; ///< [body] for how long it has been slow without a break [s]
 
-    /// In the nodes of the bodies' surfaces what fluid and contact did to those that sleep when
+    /// Loads of fluid and contact in the nodes of the bodies' surfaces, of those that sleep when
     /// they fell asleep [N]; empty where nothing acts on surfaces.
     std::vector<dealii::Tensor<1, dim>> loads;
   };

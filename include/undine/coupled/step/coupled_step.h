@@ -14,8 +14,8 @@
 
 namespace undine
 {
-  /// The part of one step in which bodies and fluid are solved together: everything that is set up
-  /// for it and given up after it.
+  /// The simultaneous solution (C1) of bodies and fluid in one stage of a step, with everything
+  /// that lives only that long.
   template <int dim>
   class CoupledStep
   {
@@ -35,7 +35,8 @@ namespace undine
     };
 
     /// `state` holds u^n and, in the fluid, v*, which gets the velocities of inflows and walls.
-    /// `boundary_flux`: see make_surface_flux(). Collective. Throws InputError, SolveError.
+    /// `boundary_flux`: `initial` or `swept`, see make_surface_flux(). Collective. Throws
+    /// InputError, SolveError.
     CoupledStep(const Parts          &parts,
                 const FluidStep<dim> &fluid,
                 State<dim>           &state,
@@ -45,7 +46,7 @@ namespace undine
     SolidReport<dim>
     solve();
 
-    /// max |D v + B u| per face of a cell and speed [1].
+    /// max |D v + B u| per face of a cell and speed after solve() [1].
     double
     divergence() const;
 

@@ -16,7 +16,8 @@
 
 namespace undine
 {
-  /// What a step does to the fluid whatever is in it: all but the pressures.
+  /// The part of a stage that the fluid goes through in every scheme: cutting the grid, transport,
+  /// forces and implicit terms, and what follows the pressures; all but the pressures themselves.
   template <int dim>
   class FluidSide
   {
@@ -36,7 +37,7 @@ namespace undine
     predict(State<dim> &state, const Stage &stage);
 
     /// The end of the stage that predict() began, after the velocity has been made divergence-free
-    /// up to `divergence` [1]. Collective.
+    /// up to `divergence` [1]; adds to the report. Collective.
     void
     finish(FluidStep<dim> &fluid, State<dim> &state, Report &report, double divergence);
 
