@@ -13,8 +13,8 @@ namespace undine
 {
   namespace
   {
-    /// Contacts nearer than this share of a cell's width count as so near: what sticks to a wall
-    /// at that distance moves with it, and the equations keep their condition.
+    /// Contacts nearer than this share of a cell's width count as if they were that far away: at
+    /// that distance fluid already moves with the wall, and the equations stay well conditioned.
     constexpr double least_distance = 0.01;
 
 

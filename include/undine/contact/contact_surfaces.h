@@ -12,7 +12,8 @@
 
 namespace undine
 {
-  /// One of several surfaces, by itself; nodes keep their numbers.
+  /// One of several surfaces by itself; nodes keep their numbers. `surface`: its number in
+  /// all.body_names().
   template <int dim>
   Surface<dim>
   one_surface(const Surface<dim> &all, unsigned int surface);
@@ -33,10 +34,11 @@ namespace undine
                     const FluidModel<dim>      *fluid,
                     const Obstacles<dim>       *obstacles);
 
-    /// The same in which only some bodies move, or none: `bodies` has been made from all of them.
+    /// The same in which only some bodies move, or none: `bodies` has been made from
+    /// `all.bodies()`. The obstacles must outlive it.
     ContactSurfaces(const ContactSurfaces &all, const BodySurface<dim> &bodies);
 
-    /// Of all nodes [m]. Collective.
+    /// Positions of all nodes [m] at `time` [s]. Collective.
     Places
     places(const Vector &displacement, double time) const;
 
@@ -99,16 +101,16 @@ namespace undine
       return all_edges;
     }
 
-    /// Does the body rest on the wall or reach through it, held there by a support? Then it does
-    /// not feel it.
+    /// Is the body held by a support where it rests on the wall or reaches through it? Then there
+    /// is no contact between them.
     bool
     is_held_at(const unsigned int body, const unsigned int wall) const
     {
       return held[body][wall];
     }
 
-    /// Do these surfaces feel each other? Not if both are obstacles, or if a support of one begins
-    /// in the other or on it.
+    /// Is there contact between these surfaces? Not if both are obstacles, or if a support of one
+    /// begins in the other or on it.
     bool
     meet(const unsigned int a, const unsigned int b) const
     {

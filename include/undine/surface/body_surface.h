@@ -26,8 +26,8 @@ namespace undine
     /// Collective.
     explicit BodySurface(const SolidModel<dim> &model);
 
-    /// The same nodes and facets, of which only those of a part of the bodies move: vectors are
-    /// those of the part. The others stay where `displacement`, of all bodies, has taken them.
+    /// The same nodes and facets, of which only those of some bodies move: vectors are those of
+    /// `part`. The other nodes stay at their positions under `displacement` [m], of all bodies.
     /// Collective.
     BodySurface(const BodySurface &all, const PartOfBodies<dim> &part, const Vector &displacement);
 

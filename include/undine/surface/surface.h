@@ -45,6 +45,7 @@ namespace undine
       return all_facets;
     }
 
+    /// The body that a facet belongs to, counted in body_names().
     unsigned int
     body(const unsigned int facet) const
     {
@@ -97,8 +98,8 @@ namespace undine
               const unsigned int                     facet,
               const std::vector<dealii::Point<dim>> &positions);
 
-  /// Its mean while all nodes go straight on from `before` to `after` [m^(dim-1)], exactly: the
-  /// area vector is linear in time in 2D, quadratic in 3D.
+  /// Its mean while all nodes move straight from `before` to `after` [m^(dim-1)], exactly: the area
+  /// vector is linear in time in 2D, quadratic in 3D.
   template <int dim>
   dealii::Tensor<1, dim>
   mean_area_vector(const Surface<dim>                    &surface,
@@ -111,8 +112,8 @@ namespace undine
   std::vector<double>
   body_volumes(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions);
 
-  /// What makes positions impossible, naming the body: one that is not finite, or a volume that is
-  /// not positive. Empty if nothing does.
+  /// A message about positions that are impossible, naming the body: one that is not finite, or a
+  /// volume that is not positive. Empty if there is none.
   template <int dim>
   std::string
   positions_complaint(const Surface<dim>                    &surface,

@@ -6,10 +6,10 @@
 
 namespace undine
 {
-  /// What the material of all bodies answers to a displacement over the locally owned degrees of
-  /// freedom. Rows of fixed degrees of freedom are as full as any other: reactions are read there.
-  /// Collective. Throws SolveError on all ranks, naming body and place, where a point is inverted.
-  /// @{
+  /// Forces, stiffness and energy of the material of all bodies for a displacement over the locally
+  /// owned degrees of freedom. Rows of fixed degrees of freedom are as full as any other: reactions
+  /// are read there. Collective. Throws SolveError on all ranks, naming body and place, where a
+  /// point is inverted. @{
 
   /// K_i(d) = int P(I + grad d) : grad N_i dX [N].
   template <int dim>

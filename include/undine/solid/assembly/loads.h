@@ -23,7 +23,7 @@ namespace undine
              double                       time,
              TimingTree                  *timing = nullptr);
 
-  /// What of them is due to which effect.
+  /// The contribution of each effect to them, by its name [N].
   template <int dim>
   std::map<std::string, dealii::TrilinosWrappers::MPI::Vector>
   effect_loads(const SolidModel<dim> &model, const SolidEnvironment<dim> &environment, double time);

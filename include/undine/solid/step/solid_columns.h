@@ -44,7 +44,7 @@ namespace undine
                    const dealii::TrilinosWrappers::MPI::Vector &displacement,
                    const dealii::TrilinosWrappers::MPI::Vector &velocity);
 
-  /// What a body measures now.
+  /// Mass, volume and centre of mass of a body.
   template <int dim>
   struct BodyMeasure
   {
