@@ -26,7 +26,7 @@ namespace undine
   template <int dim>
   struct CutCells
   {
-    /// What a piece joins if not two components. @{
+    /// The ends of a piece that are not components. @{
     static constexpr int outside = -1; ///< the domain's outside, or cells that the block lacks
     static constexpr int uncut   = -2; ///< a cell that is fluid all over
     /// @}
@@ -42,7 +42,7 @@ namespace undine
       unsigned int   flags; ///< CutFlag
     };
 
-    /// A connected part of the fluid in a cell: one pressure unknown.
+    /// A component, a connected part of the fluid in a cell: one pressure unknown.
     struct Component
     {
       int                cell;
@@ -58,7 +58,7 @@ namespace undine
       int            first_piece;
     };
 
-    /// A connected open part of a face: one velocity unknown.
+    /// A piece, a connected open part of a face: one velocity unknown.
     struct Piece
     {
       int    face;
@@ -87,15 +87,15 @@ namespace undine
       product(const unsigned int i, const unsigned int j) const;
     };
 
-    /// Where the surface is on the way in the corners of a fragment: a polygon in 3D, a segment in
-    /// 2D, in the order of the facet.
+    /// Positions of the corners of fragments [m]: a polygon in 3D, a segment in 2D, in the order of
+    /// the facet.
     struct Corners
     {
       std::vector<int>                first; ///< of each fragment, and one past the last
       std::vector<dealii::Point<dim>> points;
     };
 
-    /// What was met on the way: counts of this block.
+    /// Counts of special cases met while cutting this block.
     struct Counts
     {
       int    sampled_cells   = 0; ///< not resolved exactly: see SampledRegions

@@ -45,7 +45,7 @@ namespace undine
       return planes[axis][cell + 1] - planes[axis][cell];
     }
 
-    /// Which way the perturbation moves a plane: 1 up, -1 down.
+    /// The direction in which the perturbation moves a plane: 1 up, -1 down.
     static double
     shift(const int plane)
     {

@@ -15,7 +15,7 @@
 
 namespace undine
 {
-  /// What the user reads during a run: the screen and log.txt, from the first rank only.
+  /// The messages of a run to the user: standard output and log.txt, from the first rank only.
   class Log
   {
   public:
@@ -27,6 +27,7 @@ namespace undine
     void
     open(const std::filesystem::path &directory, std::ios::openmode mode);
 
+    /// A line, formatted by {fmt}; nothing on other ranks than the first.
     template <class... Values>
     void
     print(fmt::format_string<Values...> format, Values &&...values)

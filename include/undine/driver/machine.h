@@ -10,7 +10,7 @@
 
 namespace undine
 {
-  /// Room for something on a machine, and what says so.
+  /// Free memory or disk space of a machine, and the limit by which it is known.
   struct Room
   {
     double      bytes = std::numeric_limits<double>::infinity(); ///< infinity: nothing bounds it

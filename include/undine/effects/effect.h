@@ -76,7 +76,7 @@ namespace undine
     /// What a stage of a step computes for the effect on every cell of the grid.
     struct Work
     {
-      unsigned int carried  = 0; ///< fields that go along with the flow
+      unsigned int carried  = 0; ///< fields that the flow carries
       unsigned int implicit = 0; ///< fields for which a linear system is solved
     };
 
@@ -89,7 +89,7 @@ namespace undine
     virtual std::size_t
     memory_consumption(const FluidState<dim> &state) const;
 
-    /// Does it need to know where the planes of the grid meet the surfaces in the fluid?
+    /// Does it need NoSlipSurfaces: where the planes of the grid meet the surfaces in the fluid?
     virtual bool
     needs_no_slip_surfaces() const;
 

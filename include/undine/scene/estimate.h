@@ -8,7 +8,8 @@
 
 namespace undine
 {
-  /// What a run of a scene will take, from its size and what runs have taken (cost_figures.h).
+  /// The memory, time and disk space that a run of a scene will take, from its size and
+  /// measurements of other runs (cost_figures.h).
   struct Estimate
   {
     /// By which factors a run may take more or less, as far as has been measured.

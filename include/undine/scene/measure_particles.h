@@ -7,7 +7,7 @@
 namespace undine
 {
   /// How many particles a scene of the scheme 'particle' has, and how many sub-steps a frame. The
-  /// region of the fluid is looked at in a sample of places; no particle is made. Throws
+  /// region of the fluid is evaluated at a sample of places; no particle is made. Throws
   /// InputError, FileError.
   template <int dim>
   ParticleSize

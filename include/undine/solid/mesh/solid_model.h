@@ -47,8 +47,8 @@ namespace undine
     /// Read these sections and build. Collective. Throws InputError, FileError.
     SolidModel(const Options &options, MPI_Comm communicator);
 
-    /// Some of the bodies by themselves, as if the others were not there. Bodies keep their
-    /// numbers; those that are not `kept` have no cells. Collective.
+    /// A model of some of the bodies, as if there were no others. Bodies keep their numbers; those
+    /// that are not `kept` have no cells. Collective.
     SolidModel(const SolidModel &all, const std::vector<bool> &kept);
 
     const std::vector<Body<dim>> &

@@ -16,8 +16,8 @@ namespace undine
   /// rigid-body motions. Where follower pressures make the tangent unsymmetric, GMRES takes the
   /// place of conjugate gradients. An iteration that does not converge, as when the tangent is not
   /// positive definite, gives way to the factorisation, with `auto` for all of the stage. The
-  /// analysis of the sparsity pattern is kept from one system to the next, the multigrid hierarchy
-  /// in a stage until the number of iterations has grown by half.
+  /// analysis of the sparsity pattern is reused from one system to the next, the multigrid
+  /// hierarchy within a stage until the number of iterations has grown by half.
   template <int dim>
   class TangentSolver
   {

@@ -9,7 +9,7 @@ namespace undine
   ///     W = lambda/2 (tr eps)^2 + mu eps : eps
   ///     P = lambda tr(eps) I + 2 mu eps
   ///
-  /// It takes a rotation for a strain, and does not see inversion.
+  /// It takes a rotation for a strain, and does not detect inversion.
   class LinearElastic : public IsotropicMaterial
   {
   public:
