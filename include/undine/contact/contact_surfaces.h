@@ -42,6 +42,7 @@ namespace undine
     Places
     places(const Vector &displacement, double time) const;
 
+    /// The surfaces of bodies.
     const BodySurface<dim> &
     bodies() const
     {
@@ -61,6 +62,7 @@ namespace undine
       return body_surface.surface().body_names().size();
     }
 
+    /// Is it the surface of a body? The others are those of obstacles.
     bool
     is_body(const unsigned int surface) const
     {
@@ -74,6 +76,7 @@ namespace undine
       return all_facets;
     }
 
+    /// The plane walls of the scene and, if the scene wants it, those of the fluid's domain.
     const std::vector<ContactWall<dim>> &
     walls() const
     {
@@ -95,6 +98,7 @@ namespace undine
       return areas[node];
     }
 
+    /// The sharp edges of all surfaces at rest; none in 2D.
     const std::vector<SharpEdge> &
     sharp_edges() const
     {

@@ -18,9 +18,11 @@ namespace undine
     dealii::Point<dim>     lower, upper;
     bool                   empty = true; ///< nothing has been included
 
+    /// Enlarge the extent by a place [m].
     void
     include(const dealii::Point<dim> &place);
 
+    /// Add the sums and the extent of another part.
     void
     add(const PartSums &other);
 

@@ -34,6 +34,7 @@ namespace undine
     /// The component of fragments that no fluid touches (bodies in contact, debris).
     static constexpr int no_component = -1;
 
+    /// A cut cell.
     struct Cell
     {
       GridIndex<dim> index;
@@ -132,6 +133,7 @@ namespace undine
       return windings[block.key(uncut_cell)] != 0;
     }
 
+    /// One past the last component of a cell, by its number in `cells`.
     int
     end_component(const int cell) const
     {
@@ -139,6 +141,7 @@ namespace undine
                                                        : components.size();
     }
 
+    /// One past the last fragment of a cell.
     int
     end_fragment(const int cell) const
     {
@@ -146,6 +149,7 @@ namespace undine
                                                        : fragments.size();
     }
 
+    /// One past the last piece of a face, by its number in `faces`.
     int
     end_piece(const int face) const
     {
@@ -153,6 +157,7 @@ namespace undine
                                                        : pieces.size();
     }
 
+    /// Remove everything but the block and the windings.
     void
     clear();
 

@@ -54,6 +54,7 @@ namespace undine
          const GridIndex<dim>                  &node,
          const unsigned int                     axis);
 
+    /// An interval by its number, see Edge.
     const Interval &
     interval(const int number) const
     {

@@ -25,6 +25,7 @@ namespace undine
     /// `positions` of the planes normal to each axis, ascending [m].
     explicit GridPlanes(const std::array<std::vector<double>, dim> &positions);
 
+    /// Number of slabs between the planes normal to `axis`.
     int
     n_cells(const unsigned int axis) const
     {
@@ -94,12 +95,14 @@ namespace undine
       return *grid_planes;
     }
 
+    /// The cells that this rank owns.
     const IndexBox<dim> &
     owned() const
     {
       return owned_cells;
     }
 
+    /// The owned cells and the halo.
     const IndexBox<dim> &
     cells() const
     {

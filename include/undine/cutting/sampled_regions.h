@@ -22,6 +22,7 @@ namespace undine
 
     using Simplex = std::array<dealii::Point<dim>, dim>;
 
+    /// A connected part of the fluid.
     struct Region
     {
       double             volume = 0; ///< [m^dim]

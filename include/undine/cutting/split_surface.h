@@ -80,6 +80,7 @@ namespace undine
     void
     clear();
 
+    /// The next edge number.
     int
     new_edge()
     {

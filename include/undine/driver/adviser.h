@@ -15,6 +15,7 @@ namespace undine
   /// Advice of a run about the effects that a scene calls for.
   struct Advice
   {
+    /// A dimensionless number of the run.
     struct Number
     {
       std::string name;

@@ -36,11 +36,12 @@ namespace undine
       dealii::Tensor<1, dim> value; ///< int_{Gamma_c} N_node n dGamma [m^(dim-1)]
     };
 
+    /// B where the surface was cut. Not collective.
     BoundaryFlux(const CutCells<dim> &cut, const Surface<dim> &surface);
 
     /// The mean of B over a motion in which all nodes go straight on from `before`, where the
-    /// surface was cut, to `after`, each fragment with its facet: with w = (after - before) / h,
-    /// h B w is the volume that the surface sweeps, exactly.
+    /// surface was cut, to `after`, each fragment with its facet: with w = (after - before) / h, h
+    /// B w is the volume that the surface sweeps, exactly. Positions [nodes] [m].
     BoundaryFlux(const CutCells<dim>                   &cut,
                  const Surface<dim>                    &surface,
                  const std::vector<dealii::Point<dim>> &before,

@@ -12,6 +12,7 @@ namespace undine
   class CompactNumbering
   {
   public:
+    /// `n`: how many numbers there are.
     template <class Predicate>
     CompactNumbering(const int n, const Predicate &is_kept)
     {

@@ -30,6 +30,7 @@ namespace undine
       return !components.empty() && components[component] != fluid;
     }
 
+    /// True if the whole cell at this position of GridBlock::cells() is in a void region.
     bool
     holds_cell(const std::size_t position) const
     {

@@ -30,6 +30,7 @@ namespace undine
     }
   };
 
+  /// The estimate for a scene of this size on `n_ranks` ranks.
   Estimate
   estimate(const SceneSize &size, unsigned int n_ranks);
 

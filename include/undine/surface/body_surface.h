@@ -34,12 +34,14 @@ namespace undine
     /// The same where no body moves, whatever the vectors. Collective.
     BodySurface(const BodySurface &all, const Vector &displacement);
 
+    /// Facets and bodies of all nodes, those that do not move included.
     const Surface<dim> &
     surface() const
     {
       return all_facets;
     }
 
+    /// Number of nodes of all bodies, the same on all ranks.
     unsigned int
     n_nodes() const
     {

@@ -31,6 +31,7 @@ namespace undine
     /// `all.bodies()`. The grid must outlive this.
     ImmersedSurface(const ImmersedSurface &all, const BodySurface<dim> &bodies);
 
+    /// Nodes and facets of bodies, then of obstacles.
     const Surface<dim> &
     surface() const
     {

@@ -13,6 +13,7 @@ namespace undine
   template <int dim>
   struct Obstacle
   {
+    /// Read the keys of the section `name`. Throws InputError.
     Obstacle(const std::string &name, const Options &options)
       : description(name, options)
     {

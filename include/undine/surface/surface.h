@@ -33,12 +33,14 @@ namespace undine
             const std::vector<unsigned int> &body_of_facet,
             const std::vector<std::string>  &body_names);
 
+    /// Number of nodes, those that no facet uses included.
     unsigned int
     n_nodes() const
     {
       return number_of_nodes;
     }
 
+    /// The numbers of the nodes of each facet.
     const std::vector<Facet> &
     facets() const
     {
@@ -52,6 +54,7 @@ namespace undine
       return bodies[facet];
     }
 
+    /// Names of all bodies, in the order of their numbers.
     const std::vector<std::string> &
     body_names() const
     {

@@ -29,6 +29,7 @@ namespace undine
   class StepError
   {
   public:
+    /// What limits the choice of steps.
     struct Settings
     {
       double tolerance     = 0; ///< [1]

@@ -49,6 +49,7 @@ namespace undine
     /// `models` must outlive it. `has_stages`: steps have stages that keep rates.
     Budget(const Models<dim> &models, bool is_on, bool has_stages = false);
 
+    /// False: all functions do nothing and there are no columns.
     bool
     is_on() const
     {

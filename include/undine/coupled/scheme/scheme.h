@@ -31,6 +31,7 @@ namespace undine
       particles
     };
 
+    /// The method by which fluid and bodies are discretised.
     virtual Method
     method() const
     {

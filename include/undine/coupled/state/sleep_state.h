@@ -20,12 +20,14 @@ namespace undine
       return !asleep.empty();
     }
 
+    /// Does any body sleep?
     bool
     any_asleep() const
     {
       return std::find(asleep.begin(), asleep.end(), true) != asleep.end();
     }
 
+    /// The body is awake, and its time at rest begins anew.
     void
     wake(const unsigned int body)
     {
@@ -33,6 +35,7 @@ namespace undine
       quiet[body]  = 0;
     }
 
+    /// wake() all bodies.
     void
     wake_all()
     {

@@ -53,6 +53,7 @@ namespace undine
       return cut.get();
     }
 
+    /// Gravity of the effects [m/s^2].
     const dealii::Tensor<1, dim> &
     gravity() const
     {

@@ -72,6 +72,7 @@ namespace undine
     const Bodies &
     bodies() const;
 
+    /// Which cells are near bodies.
     const BodyVicinity<dim> &
     vicinity() const;
 

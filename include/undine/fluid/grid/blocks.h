@@ -31,9 +31,11 @@ namespace undine
     unsigned int
     rank() const;
 
+    /// Number of cells of the whole grid in each direction.
     const GridIndex<dim> &
     n_cells() const;
 
+    /// Is the domain periodic along `axis`?
     bool
     periodic(const unsigned int axis) const;
 

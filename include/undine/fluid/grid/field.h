@@ -42,6 +42,7 @@ namespace undine
       return points;
     }
 
+    /// The topology of the fluid; nullptr: nothing is cut.
     const std::shared_ptr<const FluidTopology<dim>> &
     topology() const
     {

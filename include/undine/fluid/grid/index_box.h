@@ -58,6 +58,7 @@ namespace undine
     GridIndex<dim> lower{};
     GridIndex<dim> upper{};
 
+    /// Is there no point in it?
     bool
     empty() const
     {

@@ -40,6 +40,7 @@ namespace undine
     const GridIndex<dim> &
     cells_along() const;
 
+    /// Is the domain periodic along `axis`?
     bool
     periodic(const unsigned int axis) const;
 

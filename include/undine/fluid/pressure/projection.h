@@ -32,6 +32,7 @@ namespace undine
   class Projection
   {
   public:
+    /// How a projection went.
     struct Report
     {
       unsigned int iterations = 0;

@@ -20,6 +20,7 @@ namespace undine
     using FacetImage = typename Obstruction<dim>::FacetImage;
     using Slab       = typename Obstruction<dim>::Slab;
 
+    /// A facet, or one of its images, and the slab and box around it.
     struct Facet
     {
       FacetImage                       image;

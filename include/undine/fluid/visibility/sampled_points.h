@@ -29,6 +29,8 @@ namespace undine
                   const Obstruction<dim>  &obstruction,
                   const BodyVicinity<dim> &vicinity);
 
+    /// One sample: its place, its number in Values and its measure: 1 for a whole point, else that
+    /// of the sub-cell or sub-face.
     struct Sample
     {
       Place       place;

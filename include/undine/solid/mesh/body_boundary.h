@@ -15,6 +15,7 @@ namespace undine
   template <int dim>
   struct BodyBoundary
   {
+    /// Kinds of boundary conditions.
     enum class Kind
     {
       clamp,             ///< d = initial d

@@ -23,8 +23,12 @@ namespace undine
 
     unsigned int
     n_cells() const; ///< locally owned
+
+    /// Quadrature points of each cell.
     unsigned int
     n_points() const;
+
+    /// Nodes of each cell.
     unsigned int
     n_nodes() const;
 

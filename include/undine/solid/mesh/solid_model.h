@@ -51,6 +51,7 @@ namespace undine
     /// that are not `kept` have no cells. Collective.
     SolidModel(const SolidModel &all, const std::vector<bool> &kept);
 
+    /// All bodies of the scene, also those without cells in this model.
     const std::vector<Body<dim>> &
     bodies() const;
 
@@ -70,6 +71,8 @@ namespace undine
     dof_handler() const;
     const dealii::Mapping<dim> &
     mapping() const;
+
+    /// Quadrature on the locally owned cells at rest.
     const RestGeometry<dim> &
     geometry() const;
 
@@ -77,6 +80,7 @@ namespace undine
     const std::vector<LoadedFace<dim>> &
     faces() const;
 
+    /// Numbers of the degrees of freedom that this rank owns.
     const dealii::IndexSet &
     locally_owned() const;
 

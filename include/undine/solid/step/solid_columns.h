@@ -71,6 +71,7 @@ namespace undine
   template <int dim>
   struct SolidMeasures
   {
+    /// The measures of one body.
     struct OfBody
     {
       BodyMeasure<dim>                    measure;
@@ -98,6 +99,7 @@ namespace undine
                 double                       time,
                 const SolidReport<dim>      &report);
 
+  /// The columns of `statistics` for these measures; `bodies` gives the names.
   template <int dim>
   Columns
   columns_of(const SolidMeasures<dim> &measures, const std::vector<Body<dim>> &bodies);

@@ -60,6 +60,7 @@ namespace undine
     double
     free_part(const Vector &velocity, const Vector &correction) const;
 
+    /// matrix times the unknown = right_side.
     struct LinearSystem
     {
       Matrix matrix;
