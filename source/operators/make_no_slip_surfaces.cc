@@ -187,8 +187,7 @@ namespace undine
     }
 
 
-    /// Of a fragment, each once: where an edge of the surface meets an edge of the grid there are
-    /// two.
+    /// The corners on a plane, each once: two coincide where edges of surface and grid meet.
     template <int dim>
     std::vector<dealii::Point<dim>>
     WallFinder<dim>::corners_on_plane(const int          fragment,

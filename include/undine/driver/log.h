@@ -40,8 +40,8 @@ namespace undine
     bool
     has_notes(const Report &report) const;
 
-    /// What `report` says that a user may want to know; a warning only if the report before had
-    /// none of the same subject.
+    /// The note and the warnings of `report`; a warning only if the report before had none of the
+    /// same subject.
     void
     print_notes(const Report &report);
 

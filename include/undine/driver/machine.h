@@ -27,12 +27,12 @@ namespace undine
   Room
   free_memory_of_process();
 
-  /// What each rank may still take, if those of a host share its memory evenly: the least of all
-  /// ranks. Collective.
+  /// The memory that each rank may still take, if those of a host share its memory evenly: the
+  /// least of all ranks. Collective.
   Room
   free_memory_of_each_rank(MPI_Comm communicator);
 
-  /// What this process has in memory now [bytes]; 0 if the system does not tell.
+  /// Memory in use by this process now [bytes]; 0 if the system does not tell.
   double
   memory_in_use();
 

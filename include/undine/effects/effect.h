@@ -93,11 +93,12 @@ namespace undine
     virtual bool
     needs_no_slip_surfaces() const;
 
-    /// Say what the effect does to the bodies.
+    /// Add what the effect does to the bodies to their environment.
     virtual void
     affect(SolidEnvironment<dim> &environment) const;
 
-    /// Say what the effect does to particles. Returns false if they do not know it.
+    /// Add what the effect does to particles to their setup. Returns false if particles do not have
+    /// the effect.
     virtual bool
     affect_particles(particles::Setup<dim> &setup) const;
 

@@ -24,7 +24,7 @@ namespace undine
   ///  4. project:    v = v* - g grad p / rho,  div v = 0                          (Projection)
   ///  5. finish:     a = (v - v') / g,  q = p - mu div w
   ///
-  /// with pressures q of the last stage. Friction sees the flow that will be left after 4, not one
+  /// with pressures q of the last stage. Friction acts on the flow that 4 will leave, not on one
   /// that still slips along walls: step 3 borrows the old pressure gradient and gives it back, the
   /// incremental pressure correction in its rotational form (Guermond, Minev & Shen 2006).
   ///

@@ -72,7 +72,7 @@ namespace undine
     positions(const Vector &displacement) const;
 
     /// Add values in the nodes, such as forces [N], the same on all ranks, to a vector over the
-    /// locally owned degrees of freedom.
+    /// locally owned degrees of freedom. Collective.
     void
     add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const;
 

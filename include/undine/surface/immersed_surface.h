@@ -105,7 +105,7 @@ namespace undine
     check(const std::vector<dealii::Point<dim>> &positions) const;
 
     /// Add values in the nodes, the same on all ranks, to a vector of the bodies' owned degrees of
-    /// freedom; obstacles do not feel them.
+    /// freedom; values in nodes of obstacles are ignored. Collective.
     void
     add_to_bodies(typename SolidModel<dim>::Vector          &vector,
                   const std::vector<dealii::Tensor<1, dim>> &values) const;

@@ -9,7 +9,7 @@
 
 namespace undine
 {
-  /// What a scene says about one obstacle, on grids and for particles.
+  /// The description of one obstacle in a scene, on grids and for particles.
   template <int dim>
   struct Obstacle
   {

@@ -81,8 +81,9 @@ namespace undine
   }
 
 
-  /// A state from a file lies on parts of its own. If no surface has moved since, those are the
-  /// same as ours, and nothing is carried over from the ones to the others: it goes on bit by bit.
+  /// The fields of a state from a file have a topology object of their own. If no surface has moved
+  /// since, it equals the present one, and the fields share that without being remapped: the run
+  /// continues to the bit.
   template <int dim>
   void
   FluidSide<dim>::share_parts(FluidState<dim> &state) const
@@ -128,7 +129,7 @@ namespace undine
   }
 
 
-  /// `act` on every effect, and book what each has done.
+  /// `act` on every effect, and add what each has done to the budget.
   template <int dim>
   template <class Action>
   void

@@ -56,7 +56,8 @@ namespace undine
       return on;
     }
 
-    /// From now on bodies that sleep are booked as obstacles; `surface`: with those that move.
+    /// From now on bodies that sleep count as obstacles; `surface`: that in which only the others
+    /// move.
     void
     follow(const ImmersedSurface<dim> *surface);
 
@@ -106,7 +107,8 @@ namespace undine
     /// The terms as gains of fluid and bodies, energies in J, momenta in kg m/s (in 2D per metre).
     /// After them "energy by NAME" for every effect that is on: what of the terms is due to it.
     /// "energy closure": |gain - sum of terms| over energy and |terms|. "momentum closure": the
-    /// same over h sum_i |(B^T p)_i| or, where surfaces feel nothing, over |terms|. None if off.
+    /// same over h sum_i |(B^T p)_i| or, where no surface feels the fluid, over |terms|. None if
+    /// off.
     Columns
     columns() const;
 

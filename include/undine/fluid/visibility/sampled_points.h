@@ -13,9 +13,9 @@
 
 namespace undine
 {
-  /// Which samples a field has at the points of its lattice, before it is asked whether a query
-  /// point sees them: the value of a point that is whole, those of the sub-cells or sub-faces of a
-  /// divided one, and none where a point is closed or a sample is freshly cleared.
+  /// Which samples a field has at the points of its lattice, irrespective of whether they are
+  /// visible from a query point: the value of a point that is whole, those of the sub-cells or
+  /// sub-faces of a divided one, and none where a point is closed or a sample is freshly cleared.
   template <int dim>
   class SampledPoints
   {

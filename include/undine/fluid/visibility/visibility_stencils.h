@@ -126,7 +126,7 @@ namespace undine
     void
     add_screens(Cube &cube, const IndexBox<dim> &cells);
 
-    /// Tell the occluder which samples of the cube are on which side of it.
+    /// Set on which side of the occluder the samples of the cube are.
     void
     part(const Cube &cube, Occluder &occluder) const;
 

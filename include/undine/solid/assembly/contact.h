@@ -68,9 +68,9 @@ namespace undine
   };
 
 
-  /// What a stage of a step (Stage) has to know for contact. Forces of contact count for the whole
-  /// duration of the stage, by its end alone, and are no rates that later stages use: with the
-  /// trapezoidal rule they would produce energy when bodies part.
+  /// The data that contact needs at the start of a stage (Stage). Forces of contact count for the
+  /// whole duration of the stage, by its end alone, and are no rates that later stages use: with
+  /// the trapezoidal rule they would produce energy when bodies part.
   struct ContactStart
   {
     /// Where the bodies were last, apart from each other [m]; empty: where the stage starts.

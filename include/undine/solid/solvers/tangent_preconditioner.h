@@ -15,8 +15,8 @@ namespace undine
   /// its factors where solves_directly(), otherwise some steps of conjugate gradients with
   /// multigrid. These are no fixed linear operator: outer iterations must be flexible. Factors also
   /// serve a tangent that is indefinite (a body that buckles); conjugate gradients that meet a
-  /// direction in which it is not positive, and do not converge, give way to them until the next
-  /// matrix comes.
+  /// direction in which it is not positive, and do not converge, are replaced by them until the
+  /// next matrix comes.
   template <int dim>
   class TangentPreconditioner
   {

@@ -14,9 +14,9 @@ namespace undine
   /// Solves linear systems with the Jacobian of the bodies' equations, as `Linear solver` says: by
   /// factorisation, or by conjugate gradients with smoothed aggregation (ML) that knows the
   /// rigid-body motions. Where follower pressures make the tangent unsymmetric, GMRES takes the
-  /// place of conjugate gradients. An iteration that does not converge, as when the tangent is not
-  /// positive definite, gives way to the factorisation, with `auto` for all of the stage. The
-  /// analysis of the sparsity pattern is reused from one system to the next, the multigrid
+  /// place of conjugate gradients. Where the iteration does not converge, as when the tangent is
+  /// not positive definite, a factorisation takes its place, with `auto` for the rest of the stage.
+  /// The analysis of the sparsity pattern is reused from one system to the next, the multigrid
   /// hierarchy within a stage until the number of iterations has grown by half.
   template <int dim>
   class TangentSolver

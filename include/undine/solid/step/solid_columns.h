@@ -66,8 +66,8 @@ namespace undine
                  const dealii::TrilinosWrappers::MPI::Vector &velocity);
   /// @}
 
-  /// What `statistics` says of the bodies at a time, in 2D per metre of depth. Of bodies that a
-  /// model leaves out all is zero.
+  /// The measures of the bodies in `statistics` at one time, in 2D per metre of depth. All of them
+  /// are zero for bodies that a model leaves out.
   template <int dim>
   struct SolidMeasures
   {
