@@ -69,7 +69,8 @@ namespace undine
       return surface < n_bodies();
     }
 
-    /// Of bodies and obstacles, as are all numbers of surfaces below.
+    /// The surfaces of bodies, then of obstacles. All numbers of surfaces and nodes below are those
+    /// of this surface.
     const Surface<dim> &
     surface() const
     {

@@ -4,7 +4,7 @@
 
 namespace undine
 {
-  /// What is wrong with a cut cell, face or grid edge; any sum of these.
+  /// Errors of a cut cell, face or grid edge; any sum of these.
   enum CutFlag : unsigned int
   {
     cut_winding          = 1,   ///< a node that lies in two bodies, or in one that is inside out

@@ -109,7 +109,7 @@ namespace undine
       return all_cells;
     }
 
-    /// Where planes cross, the rim of the block included.
+    /// The crossings of planes, those on the rim of the block included.
     const IndexBox<dim> &
     nodes() const
     {

@@ -86,7 +86,8 @@ namespace undine
     void
     find_relative_windings();
 
-    /// What to add to relative windings: a corner off the surface tells, or most corners do.
+    /// The number to add to relative windings, from a corner that is not on the surface or, if
+    /// there is none, by the majority of corners.
     int
     first_winding(const CornerWindings         &corner_windings,
                   const dealii::Tensor<1, dim> &lower_shifts) const;

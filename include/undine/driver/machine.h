@@ -36,7 +36,7 @@ namespace undine
   double
   memory_in_use();
 
-  /// Of the disk on which `folder`, or where it will be, is.
+  /// Free space on the disk on which `folder` is or will be.
   Room
   free_disk(const std::filesystem::path &folder);
 } // namespace undine

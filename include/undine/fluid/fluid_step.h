@@ -83,7 +83,7 @@ namespace undine
     const CharacteristicTracer<dim> tracer;                ///< carries everything
     unsigned int                    linear_iterations = 0; ///< summed over implicit solves
 
-    /// What effects leave for finish(). @{
+    /// Results of effects for finish(). @{
     std::optional<Velocity<dim>> carried;             ///< v' [m/s], by convection
     std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
     std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces

@@ -8,7 +8,7 @@
 
 namespace undine
 {
-  /// Those of the numbers 0, 1, ..., n - 1 for which is_kept(number), in ascending order.
+  /// The numbers k of 0, 1, ..., n - 1 for which is_kept(k), in ascending order.
   class CompactNumbering
   {
   public:
@@ -25,7 +25,7 @@ namespace undine
       n_below.push_back(kept.size());
     }
 
-    /// Those from `begin` to before `end`, 0 <= begin <= end <= n.
+    /// The kept numbers from `begin` to before `end`, 0 <= begin <= end <= n.
     dealii::ArrayView<const int>
     between(const int begin, const int end) const
     {

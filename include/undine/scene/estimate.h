@@ -22,7 +22,7 @@ namespace undine
     double picture    = 0; ///< a file of results [bytes]
     double checkpoint = 0; ///< [bytes]
 
-    /// What a rank takes while the scene is read and run [bytes].
+    /// Memory that a rank takes while the scene is read and run [bytes].
     double
     growth_of_rank(unsigned int n_ranks) const
     {

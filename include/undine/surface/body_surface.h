@@ -67,7 +67,7 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>>
     gather(const Vector &vector) const;
 
-    /// Where the nodes are: X + d [m], on every rank. Collective.
+    /// Positions X + d of the nodes [m], on every rank. Collective.
     std::vector<dealii::Point<dim>>
     positions(const Vector &displacement) const;
 

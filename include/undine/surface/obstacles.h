@@ -31,7 +31,7 @@ namespace undine
       return *all_facets;
     }
 
-    /// Whether any one moves.
+    /// Does any obstacle move?
     bool
     move() const;
 

@@ -54,7 +54,7 @@ namespace undine
   private:
     using Vectors = std::vector<dealii::Tensor<1, dim>>;
 
-    /// What takes the place of all bodies where some sleep.
+    /// The models in place of those of all bodies, where some sleep.
     struct Part
     {
       std::unique_ptr<const SolidModel<dim>>   asleep;

@@ -120,14 +120,14 @@ namespace undine
             double                        time,
             const Velocities             &friction = {}) const;
 
-    /// How the cutting went: what is wrong with the surfaces, where.
+    /// Statistics of the cutting, and what is wrong with the surfaces and where.
     const CutReport &
     cut_report() const
     {
       return last_report;
     }
 
-    /// Of the lists of cut cells, pieces, components and entries of B, on this rank [bytes].
+    /// Memory of the lists of cut cells, pieces, components and entries of B on this rank [bytes].
     std::size_t
     memory_consumption() const;
 

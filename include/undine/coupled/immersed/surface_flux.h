@@ -88,8 +88,8 @@ namespace undine
   template <int dim>
   struct BodiesInStage
   {
-    /// Of a stage of the step that begins at `time` = t^n; the bodies in `state` are those at its
-    /// start. Collective.
+    /// For a stage of the step that begins at `time` = t^n [s]; the bodies in `state` are those at
+    /// its start. Collective.
     BodiesInStage(const Models<dim> &models,
                   const State<dim>  &state,
                   const Stage       &stage,

@@ -9,7 +9,8 @@
 
 namespace undine
 {
-  /// How the block systems of the simultaneous scheme are solved: the section `Coupling`.
+  /// The settings by which the block systems of the simultaneous scheme are solved: keys of the
+  /// section `Coupling`.
   struct BlockSolverSettings
   {
     /// Read the keys of the section.
@@ -50,19 +51,19 @@ namespace undine
           const Vector      &displacement,
           const double       reduction);
 
-    /// Of all solves since start_step(), and the most that one took. @{
+    /// Number of iterations of all solves since start_step(), and the largest of one. @{
     unsigned int
     iterations() const;
     unsigned int
     most_iterations() const;
     /// @}
 
-    /// Of the approximation of the Schur complement, on this rank [bytes]. Trilinos does not tell
-    /// the size of its factors and hierarchies.
+    /// Memory of the approximation of the Schur complement on this rank [bytes]. Trilinos does not
+    /// tell the size of its factors and hierarchies.
     std::size_t
     memory_consumption() const;
 
-    /// What was unusual since start_step(); empty if nothing was.
+    /// A note on anything unusual since start_step(); empty if there was nothing.
     const std::string &
     note() const;
 

@@ -17,7 +17,7 @@
 
 namespace undine
 {
-  /// What a scene is made of; constant during a run.
+  /// The models that a scene consists of; constant during a run.
   template <int dim>
   struct Models
   {
@@ -26,10 +26,10 @@ namespace undine
     Effects<dim>                           effects;
     Direction                              direction = Direction::two_way;
 
-    /// Of fluid and bodies, in place of the two models above; nullptr: there are none.
+    /// Particles of fluid and bodies, in place of the two models above; nullptr: there are none.
     std::unique_ptr<const ParticleModel<dim>> particles;
 
-    /// Of everything that stands in the fluid; nullptr: nothing does.
+    /// The surfaces of all bodies and obstacles in the fluid; nullptr: there are none.
     std::shared_ptr<const ImmersedSurface<dim>> surface;
     std::shared_ptr<const VoidRegions<dim>>     void_regions; ///< nullptr: there are none
 
@@ -54,7 +54,7 @@ namespace undine
       });
     }
 
-    /// What the effects do to the bodies. Collective.
+    /// The effects on the bodies, with the contact of all of them. Collective.
     SolidEnvironment<dim>
     environment() const
     {

@@ -24,7 +24,7 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
-    /// What fluid and bodies are made of: which models the scheme works with.
+    /// The discretisation of fluid and bodies, which decides on the models that the scheme gets.
     enum class Method
     {
       grid_and_elements,

@@ -27,7 +27,7 @@ namespace undine
 
     particles::ParticleState<dim> particles;
 
-    /// What a stage of a step starts from (Stage).
+    /// The bodies from which a stage of a step starts (Stage).
     struct StageStart
     {
       SolidState                            solid;
@@ -41,7 +41,7 @@ namespace undine
     ContactStart                          contact;    ///< of the bodies in this stage
     /// @}
 
-    /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].
+    /// Positions of the nodes of ImmersedSurface when the fluid's fields were computed [m].
     std::vector<dealii::Point<dim>> surface_positions;
 
     /// Forces other than friction on the nodes of bodies in the last stage (SurfaceFriction) [N].

@@ -11,7 +11,7 @@
 namespace undine
 {
   /// What StepError needs of earlier steps to choose the next one. Empty where steps are constant.
-  /// Of a fluid only faces count that no body cuts: the others are zero.
+  /// Only faces of the fluid that no body cuts count: values on the others are zero.
   template <int dim>
   struct StepHistory
   {

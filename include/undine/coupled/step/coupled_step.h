@@ -22,7 +22,7 @@ namespace undine
   public:
     using Vector = BlockSystem::Vector;
 
-    /// What it works with; all must outlive it.
+    /// The objects that it uses; all must outlive it.
     struct Parts
     {
       const Models<dim>                      &models;
@@ -50,7 +50,7 @@ namespace undine
     double
     divergence() const;
 
-    /// What solve() did, for the budget. Collective. @{
+    /// The terms of the budget after solve(). Collective. @{
     PressureBalance<dim>
     pressure_balance() const;
     SurfaceExchange<dim>

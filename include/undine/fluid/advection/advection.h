@@ -11,8 +11,8 @@
 
 namespace undine
 {
-  /// How a field is carried with the flow for one step: ds/dt + v.grad s = 0. The same code serves
-  /// scalars in cells and velocities on faces.
+  /// A method by which the flow carries a field for one step: ds/dt + v.grad s = 0. The same code
+  /// serves scalars in cells and velocities on faces.
   template <int dim>
   class Advection
   {

@@ -22,7 +22,7 @@ namespace undine
   public:
     using Place = typename BodyVicinity<dim>::Place;
 
-    /// Where a particle is at the other end of its path.
+    /// The other end of the path of a particle.
     struct Trace
     {
       Place foot;

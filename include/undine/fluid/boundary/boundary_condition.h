@@ -7,16 +7,15 @@
 
 namespace undine
 {
-  /// What a field that is carried and diffused does on the domain's boundary: it is held at a
-  /// value, or its normal derivative vanishes. Where fluid enters through an opening, it brings a
-  /// value with it.
+  /// The boundary condition of a field that is carried and diffused: it is held at a value, or its
+  /// normal derivative vanishes. Where fluid enters through an opening, it brings a value with it.
   template <int dim>
   class BoundaryCondition
   {
   public:
     virtual ~BoundaryCondition() = default;
 
-    /// Whether the field is held on `boundary`.
+    /// Is the field held at a value on `boundary`?
     virtual bool
     holds(const Boundary<dim> &boundary) const = 0;
 

@@ -13,15 +13,16 @@
 
 namespace undine
 {
-  /// What passes through the boundaries of the domain and acts on them. All are collective and
-  /// equal on all ranks. @{
+  /// Fluxes through the boundaries of the domain and forces on them. All are collective and equal
+  /// on all ranks. @{
 
   /// Volume that leaves through each boundary of boundaries.all(), [m^dim/s].
   template <int dim>
   std::vector<double>
   boundary_fluxes(const BoundaryMap<dim> &boundaries, const Velocity<dim> &velocity);
 
-  /// What is wrong with the fluxes through the boundaries of a domain without opening, or "".
+  /// A message if the net flux through the boundaries of a domain without opening is not zero, else
+  /// "".
   template <int dim>
   std::string
   net_flux_complaint(const BoundaryMap<dim> &boundaries, const Velocity<dim> &velocity);

@@ -19,8 +19,8 @@ namespace undine
     double middle = 0; ///< coordinate along the edge [m]; 0 in 2D
   };
 
-  /// Of a piece: [2 d + end], its rim on the side normal to d. Those along the face's axis are
-  /// empty.
+  /// The rims of a piece: [2 d + end], the one on the side normal to d. Those along the face's axis
+  /// are empty.
   template <int dim>
   using Rims = std::array<Rim, 2 * dim>;
 

@@ -66,7 +66,7 @@ namespace undine
   double
   outward_flux(const MacGrid<dim> &grid, const Velocity<dim> &velocity, const SideFace<dim> &face);
 
-  /// Where the pressure next to a side is.
+  /// Where the pressure inside, next to a face on a side, sits.
   template <int dim>
   PressurePlace<dim>
   place_inside(const FluidTopology<dim> *topology, const SideFace<dim> &face);

@@ -141,7 +141,7 @@ namespace undine
     set_owned_values(const std::vector<double> &owned_values);
     /// @}
 
-    /// Of the values on this rank [bytes].
+    /// Memory of the values on this rank [bytes].
     std::size_t
     memory_consumption() const
     {

@@ -36,7 +36,7 @@ namespace undine
     }
   };
 
-  /// Of the values on this rank [bytes].
+  /// Memory of the values on this rank [bytes].
   template <int dim>
   std::size_t
   memory_consumption(const Velocity<dim> &velocity)
@@ -61,7 +61,7 @@ namespace undine
       scalar_rates; ///< Ds/Dt of the last stage [1/s], of scalars that have one
   };
 
-  /// What the stage that follows starts from (Stage); only within a step.
+  /// The fields from which the stage that follows starts (Stage); only within a step.
   template <int dim>
   struct FluidStageStart
   {

@@ -16,7 +16,7 @@ namespace undine
   template <int dim>
   struct FluidTopology
   {
-    /// What a piece joins if not two components. @{
+    /// Ends of a piece that are not components. @{
     static constexpr int outside = -1; ///< beyond the domain, or beyond the cells this rank knows
     static constexpr int whole   = -2; ///< a cell that is not divided
     /// @}

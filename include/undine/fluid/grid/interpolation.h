@@ -29,7 +29,7 @@ namespace undine
   dealii::Tensor<1, dim>
   interpolate(const Velocity<dim> &velocity, const dealii::Point<dim> &place);
 
-  /// That of one field, with the smallest and the largest of the 2^dim samples.
+  /// Multilinear interpolation of a field, with the smallest and the largest of the 2^dim samples.
   template <int dim>
   BoundedValue
   interpolate_with_bounds(const Field<dim> &field, const dealii::Point<dim> &place);

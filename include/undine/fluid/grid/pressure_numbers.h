@@ -80,7 +80,7 @@ namespace undine
       return open;
     }
 
-    /// Those of this rank.
+    /// The numbers of the pressures that this rank owns.
     const dealii::IndexSet &
     owned() const
     {

@@ -88,7 +88,8 @@ namespace undine
     void
     vmult(Vector &product, const Vector &pressure) const;
 
-    /// What is subtracted from the diagonal: number of a row among those of this rank, and value.
+    /// The values that are subtracted from the diagonal, with the number of the row among those of
+    /// this rank.
     const std::vector<std::pair<std::size_t, double>> &
     subtracted() const
     {

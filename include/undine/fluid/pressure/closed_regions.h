@@ -38,7 +38,7 @@ namespace undine
                   const PressureNumbers<dim> &numbers,
                   const std::vector<Number>  &yielding = {});
 
-    /// Those of the lowest pressure numbers of the closed regions that this rank owns.
+    /// The lowest pressure number of every closed region, as far as this rank owns them.
     const std::vector<Number> &
     pinned() const
     {
@@ -69,33 +69,35 @@ namespace undine
     void
     remove_means(Field<dim> &pressure) const;
 
-    /// How many there are.
+    /// Number of closed regions.
     std::size_t
     size() const
     {
       return region_volumes.size();
     }
 
-    /// Of each of them [m^dim].
+    /// The volume of each closed region [m^dim].
     const std::vector<double> &
     volumes_of_regions() const
     {
       return region_volumes;
     }
 
-    /// The middle of the largest cell or component of each of them. Collective.
+    /// The centroid of the largest cell or component of each closed region [m]. Collective.
     std::vector<dealii::Point<dim>>
     places_within() const;
 
-    /// What leaves each of them through walls and inflows at `time` [m^dim/s]. Collective.
+    /// The volume flux out of each closed region through walls and inflows at `time` [s],
+    /// [m^dim/s]. Collective.
     std::vector<double>
     held_outflow(const double time) const;
 
-    /// Sums over each of them of values in FluidTopology::cells. Collective.
+    /// Sums over each closed region of `values` [FluidTopology::cells]. Collective.
     std::vector<double>
     sums_on_components(const std::vector<double> &values) const;
 
-    /// The closed region of each of FluidTopology::cells; negative: none.
+    /// The number of the closed region of each of FluidTopology::cells; negative: none. Not
+    /// collective.
     std::vector<int>
     of_components() const;
 
@@ -120,8 +122,8 @@ namespace undine
     std::vector<double>
     sums_of(const Field<dim> &field, const Function &function) const;
 
-    /// What flows out of a region through the surface of each body, and through boundaries, and
-    /// where it lies. Collective.
+    /// A message: where a region lies, and the fluxes out of it through the surface of each body
+    /// and through boundaries. Collective.
     std::string
     describe(const int              region,
              const SweptVolumeFlux &pushed,

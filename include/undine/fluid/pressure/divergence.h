@@ -7,8 +7,8 @@
 namespace undine
 {
   /// (D v)_c = sum_f +-a_f v_f over the faces of every owned cell, or over the pieces of faces
-  /// around every component: the volume that leaves it, [m^dim/s]; zero in bodies. One ghost layer
-  /// of the velocity must be up to date.
+  /// around every component (F2), (I1): the volume that leaves it [m^dim/s]; zero in bodies. One
+  /// ghost layer of the velocity must be up to date.
   template <int dim>
   Field<dim>
   divergence(const FluidModel<dim> &model, const Velocity<dim> &velocity);

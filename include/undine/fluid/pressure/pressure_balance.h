@@ -8,8 +8,9 @@
 
 namespace undine
 {
-  /// What the impulses h p of a step do to the fluid, each term from its own formula. Sums run over
-  /// faces and pieces, n points out of the fluid, Gamma are the surfaces in it:
+  /// The energy and momentum that the impulses h p of a step give to the fluid, each term from its
+  /// own formula. Sums run over faces and pieces, n points out of the fluid, Gamma are the surfaces
+  /// in it:
   ///
   ///     momentum = sum rho V (v^{n+1} - v*) = - h (sides + openings + int_Gamma p n)
   ///     sum rho V (|v^{n+1}|^2 - |v*|^2)/2  = h (power of sides + of openings - p.B w) - loss

@@ -9,9 +9,9 @@
 
 namespace undine
 {
-  /// What pressure does to the faces' velocities: the adjoint of divergence(), and what openings
-  /// add to it. Faces on walls and inflows have a given velocity, which counts in D v; pressure
-  /// does not accelerate them. @{
+  /// The acceleration of the faces' velocities by pressure (F3): the adjoint of divergence(), and
+  /// the contribution of openings. Faces on walls and inflows have a given velocity, which counts
+  /// in D v; pressure does not accelerate them. @{
 
   /// One through which fluid may leave or enter freely.
   template <int dim>
@@ -43,7 +43,7 @@ namespace undine
                         const Field<dim>                 &pressure,
                         const std::vector<OpenFace<dim>> &openings);
 
-  /// a_f^2 / (rho V_f), the entry that a whole face contributes to L = D (rho V)^-1 D^T.
+  /// a_f^2 / (rho V_f), the entry that a whole face contributes to L = D (rho V)^-1 D^T (F4).
   template <int dim>
   double
   pressure_coupling(const FluidModel<dim> &model,

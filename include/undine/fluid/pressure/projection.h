@@ -32,18 +32,18 @@ namespace undine
   class Projection
   {
   public:
-    /// How a projection went.
+    /// The result of a projection.
     struct Report
     {
       unsigned int iterations = 0;
       double       divergence = 0; ///< max |div v| dx / max |v| afterwards [1]
 
-      /// Of a step: v* with the velocity on walls and inflows, and the openings with the pressures
-      /// that have acted.
+      /// After project(): v* with the velocity on walls and inflows, and the openings with the
+      /// pressures that have acted.
       Velocity<dim>              before;
       std::vector<OpenFace<dim>> openings;
 
-      /// Of that step, which led to `state`. Collective.
+      /// The balance of energy and momentum of the projection that led to `state`. Collective.
       PressureBalance<dim>
       balance(const FluidModel<dim> &model, const FluidState<dim> &state) const;
     };
@@ -65,7 +65,7 @@ namespace undine
             const double           dt,
             const SweptVolumeFlux &pushed = {});
 
-    /// The same with v* in the place of v^n.
+    /// The same with v* in the place of v^n and without surfaces. Collective.
     Report
     project(FluidState<dim> &state, const double time, const double dt);
 

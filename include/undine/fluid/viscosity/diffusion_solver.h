@@ -29,7 +29,7 @@ namespace undine
     unsigned int
     solve(Vector &solution, const Vector &load) const;
 
-    /// Of matrix and hierarchy on this rank [bytes].
+    /// Memory of matrix and hierarchy on this rank [bytes].
     std::size_t
     memory_consumption() const;
 

@@ -54,7 +54,7 @@ namespace undine
       return last_forces;
     }
 
-    /// Of the equations on this rank [bytes].
+    /// Memory of the equations on this rank [bytes].
     std::size_t
     memory_consumption() const;
 

@@ -33,7 +33,8 @@ namespace undine
     unsigned int
     step(Field<dim> &field, const double time, const double dt);
 
-    /// Of the matrix and what deal.II says of the preconditioner, on this rank [bytes].
+    /// Memory of the matrix and, as far as deal.II reports it, of the preconditioner on this rank
+    /// [bytes].
     std::size_t
     memory_consumption() const;
 

@@ -30,8 +30,8 @@ namespace undine
     /// No facets, no cells.
     FacetsOfCells() = default;
 
-    /// Of those cells of `box`, images beyond periodic sides included, that add() is called for.
-    /// Keeps references.
+    /// For cells of `box`, images beyond periodic sides included; add() has to be called for each
+    /// cell with facets. Keeps references.
     FacetsOfCells(const MacGrid<dim>     &grid,
                   const Obstruction<dim> &surfaces,
                   const IndexBox<dim>    &box);
@@ -40,7 +40,7 @@ namespace undine
     void
     add(const GridIndex<dim> &cell);
 
-    /// Are these among the cells?
+    /// Are these cells within `box`?
     bool
     know(const IndexBox<dim> &cells) const
     {
@@ -51,7 +51,7 @@ namespace undine
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     corners(const IndexBox<dim> &cells) const;
 
-    /// Those in a box of cells, each once.
+    /// The facets in a box of cells, each once.
     std::vector<const Facet *>
     in(const IndexBox<dim> &cells) const;
 

@@ -34,7 +34,7 @@ namespace undine
       dealii::Tensor<1, dim> to_facet; ///< shift from the image to the facet
     };
 
-    /// Those that may have a part in `box`.
+    /// The facets, and images of facets, that may have a part in `box`.
     virtual std::vector<FacetImage>
     facets_near(const dealii::BoundingBox<dim> &box) const = 0;
 

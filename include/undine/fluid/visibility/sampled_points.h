@@ -22,7 +22,7 @@ namespace undine
   public:
     using Place = typename BodyVicinity<dim>::Place;
 
-    /// Of fields like this one, with ghost layers of this width and boundary points, on the
+    /// For fields like this one, with ghost layers of this width and boundary points, on the
     /// topology of the fluid before the last motion of bodies. Collective.
     SampledPoints(const Field<dim>        &like,
                   const GridIndex<dim>    &width,
@@ -38,7 +38,7 @@ namespace undine
       double      measure;
     };
 
-    /// What a field has at the samples, by their numbers.
+    /// The values of a field at the samples, by their numbers.
     class Values
     {
     public:
@@ -56,7 +56,7 @@ namespace undine
       std::vector<double> parts;
     };
 
-    /// Of a field for which is_for() holds, which must outlive them. Collective.
+    /// The values of a field for which is_for() holds, which must outlive them. Collective.
     Values
     values(const Field<dim> &field) const;
 
@@ -68,7 +68,7 @@ namespace undine
              field.stored() == stored;
     }
 
-    /// What is_for() asks for.
+    /// The points that such a field must store.
     const IndexBox<dim> &
     stored_points() const
     {

@@ -25,7 +25,7 @@ namespace undine
 
     using Values = typename SampledPoints<dim>::Values;
 
-    /// Of the cubes between stored points of fields like this one, see SampledPoints. Keeps
+    /// For the cubes between stored points of fields like this one, see SampledPoints. Keeps
     /// references to the surfaces and the vicinity. Collective.
     VisibilityStencils(const Field<dim>        &like,
                        const GridIndex<dim>    &width,

@@ -22,7 +22,7 @@ namespace undine
   public:
     using Place = typename BodyVicinity<dim>::Place;
 
-    /// Of a field for which stencils->points().is_for() holds. The references must outlive it.
+    /// For a field for which stencils->points().is_for() holds. The references must outlive it.
     /// Collective.
     VisibleSamples(const Field<dim>                               &field,
                    const std::shared_ptr<VisibilityStencils<dim>> &stencils,

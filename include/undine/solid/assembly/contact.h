@@ -73,7 +73,7 @@ namespace undine
   /// the trapezoidal rule they would produce energy when bodies part.
   struct ContactStart
   {
-    /// Where the bodies were last, apart from each other [m]; empty: where the stage starts.
+    /// The last displacement at which no gap was closed [m]; empty: that at which the stage starts.
     dealii::TrilinosWrappers::MPI::Vector place;
     double                                time   = 0; ///< of that [s]
     double                                weight = 1; ///< duration over length of the stage [1]

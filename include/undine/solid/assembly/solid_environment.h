@@ -46,7 +46,8 @@ namespace undine
 
     std::optional<SleepSettings> sleep_settings; ///< none: bodies do not sleep
 
-    /// Of the bodies that sleep: they count in `statistics`, and nowhere else; nullptr: none do.
+    /// Measures of the bodies that sleep, which count in `statistics` and nowhere else; nullptr:
+    /// none sleep.
     std::shared_ptr<const SolidMeasures<dim>> asleep;
   };
 } // namespace undine

@@ -12,7 +12,7 @@
 
 namespace undine
 {
-  /// How large the mesh of a shape is, and the shape.
+  /// The size of a shape and of its mesh.
   struct ShapeSize
   {
     /// How many of each there are in the whole mesh: vertices, lines, quadrilaterals, hexahedra.

@@ -92,7 +92,7 @@ namespace undine
     unsigned int
     axis(Index dof) const;
 
-    /// Where the node of a degree of freedom, known to any rank, is at rest [m].
+    /// Position at rest of the node of a degree of freedom, known to any rank [m].
     const dealii::Point<dim> &
     rest_position(Index dof) const;
 
@@ -100,7 +100,7 @@ namespace undine
     const std::vector<FixedDof> &
     fixed() const;
 
-    /// Those of all ranks.
+    /// The fixed degrees of freedom of all ranks.
     const dealii::IndexSet &
     all_fixed() const;
 

@@ -36,7 +36,7 @@ namespace undine
     void
     vmult(Vector &x, const Vector &b);
 
-    /// What was unusual since initialize(); empty if nothing was.
+    /// A note on anything unusual since initialize(); empty if there was nothing.
     const std::string &
     note() const;
 

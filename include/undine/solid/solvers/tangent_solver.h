@@ -39,11 +39,11 @@ namespace undine
     void
     begin_stage();
 
-    /// Of the iterative solver, since begin_stage().
+    /// Iterations of the iterative solver since begin_stage().
     unsigned int
     iterations() const;
 
-    /// What was unusual since then; empty if nothing was.
+    /// A note on anything unusual since then; empty if there was nothing.
     const std::string &
     note() const;
 

@@ -88,8 +88,8 @@ namespace undine
     std::vector<OfBody>    bodies;
   };
 
-  /// Of the bodies that the model has. `report` is that of the step that led to `state`: with an
-  /// empty one, balances and reactions are zero. Collective.
+  /// The measures of the bodies that the model has. `report` is that of the step that led to
+  /// `state`: with an empty one, balances and reactions are zero. Collective.
   template <int dim>
   SolidMeasures<dim>
   measure_solid(const SolidModel<dim>       &model,

@@ -44,7 +44,8 @@ namespace undine
     double             acceleration_velocity     = 0; ///< b_u [1/s]
     double             acceleration_acceleration = 0; ///< b_a [1]
 
-    /// Of the stages [1]: reactions and the pressure's share of the acceleration are divided by it.
+    /// Sum of the stages' weights [1]: reactions and the pressure's share of the acceleration are
+    /// divided by it.
     double
     sum_of_weights() const;
   };
@@ -57,7 +58,7 @@ namespace undine
     double       constant; ///< C [1]
   };
 
-  /// A way to advance the bodies in time. One integrator is one .cc file that registers itself.
+  /// A method to advance the bodies in time. One integrator is one .cc file that registers itself.
   class TimeIntegrator
   {
   public:
