@@ -72,8 +72,10 @@ namespace undine
     };
 
     /// The part of a facet in one cell. For functions f, g linear on the facet with values f_i, g_j
-    /// in its nodes: integral of f n = sum_i f_i mean[i] N and integral of f g n
-    /// = sum_ij f_i g_j product(i, j) N.
+    /// in its nodes:
+    ///
+    ///     integral of f n   = sum_i f_i mean[i] N
+    ///     integral of f g n = sum_ij f_i g_j product(i, j) N
     struct Fragment
     {
       int                                    component;

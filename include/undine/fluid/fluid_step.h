@@ -29,8 +29,9 @@ namespace undine
   /// incremental pressure correction in its rotational form (Guermond, Minev & Shen 2006).
   ///
   /// Stages that keep rates (T9) start from v^0 = v^n + w a^n and so on, a being the acceleration
-  /// of the fluid's parcels; the flow that carries is that in the middle of the stage, v + duration
-  /// dv/dt / 2.
+  /// of the fluid's parcels; the flow that carries is that in the middle of the stage,
+  ///
+  ///     v + (duration of the stage) / 2 dv/dt.
   ///
   /// A step of a single stage that keeps none is first order in time: forces act at t^{n+1} as a
   /// whole, which damps. Steady flows, however, hardly depend on h: v' = A(v^n + c h a^n) - c h a^n

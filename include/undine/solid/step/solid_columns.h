@@ -14,15 +14,15 @@ namespace undine
 {
   /// Integrals over the bodies, all collective. @{
 
-  /// u M u / 2 [J].
+  /// The kinetic energy u.M u / 2 [J].
   template <int dim>
   double
   kinetic_energy(const SolidModel<dim>                        &model,
                  const dealii::TrilinosWrappers::SparseMatrix &mass,
                  const dealii::TrilinosWrappers::MPI::Vector  &velocity);
 
-  /// - d . f of the dead loads at `time` [J]. Follower pressures have no potential and are left
-  /// out.
+  /// The potential -d.f of the dead loads f at `time` [s], [J]. Follower pressures have no
+  /// potential and are left out.
   template <int dim>
   double
   load_potential(const SolidModel<dim>                       &model,
@@ -30,14 +30,14 @@ namespace undine
                  const dealii::TrilinosWrappers::MPI::Vector &displacement,
                  double                                       time);
 
-  /// int rho u dX of all bodies [kg m/s].
+  /// The linear momentum int rho u dX of all bodies [kg m/s].
   template <int dim>
   dealii::Tensor<1, dim>
   linear_momentum(const SolidModel<dim>                       &model,
                   const dealii::TrilinosWrappers::MPI::Vector &velocity);
 
-  /// int rho (X + d) x u dX of all bodies about the origin [kg m^2/s]: one component in 2D, three
-  /// in 3D.
+  /// The angular momentum int rho (X + d) x u dX of all bodies about the origin [kg m^2/s]; in 2D
+  /// only the third component is not zero.
   template <int dim>
   dealii::Tensor<1, 3>
   angular_momentum(const SolidModel<dim>                       &model,

@@ -88,14 +88,18 @@ namespace undine
     Vector
     residual(const Vector &velocity);
 
-    /// The same with the fixed degrees of freedom, where it is the force of the supports, divided
-    /// by the sum of the stages' weights [N].
+    /// Forces of the supports on the bodies at fixed degrees of freedom [N], zero elsewhere: the
+    /// left side of the balance there, divided by the sum of the stages' weights, except given
+    /// nodal forces, which are not averaged. Throws as residual() does. Collective.
     Vector
     reactions(const Vector &velocity);
 
-    /// For each body |sum over its degrees of freedom of M (m u + m_u u^n + m_a a^n) +
-    /// alpha M (c u + c_u u^n) - loads - contact - supports| / scale [1]: the balance of linear
-    /// momentum, in which inner forces cancel. `reactions` are those of the same u.
+    /// The balance of linear momentum of each body, in which inner forces cancel, [bodies] [1]:
+    ///
+    ///     | sum over its nodes of  M (m u + m_u u^n + m_a a^n) + alpha M (c u + c_u u^n)
+    ///                              - loads - contact - supports |  /  scale
+    ///
+    /// `reactions` are those of the same u. Collective. Throws SolveError as residual() does.
     std::vector<double>
     momentum_residuals(const Vector &velocity, const Vector &reactions) const;
 
