@@ -22,8 +22,7 @@ namespace undine
     explicit Log(MPI_Comm communicator);
 
     /// Also write to DIRECTORY/log.txt, what was printed so far included; after what is there if
-    /// `mode` is std::ios::app.
-    /// Throws FileError on all ranks if it cannot be opened.
+    /// `mode` is std::ios::app. Collective. Throws FileError on all ranks if it cannot be opened.
     void
     open(const std::filesystem::path &directory, std::ios::openmode mode);
 

@@ -54,11 +54,11 @@ namespace undine
     virtual std::vector<std::string>
     scalars() const;
 
-    /// Set up the fields named by scalars(): initial values.
+    /// Set the fields named by scalars() to their initial values.
     virtual void
     initialize(const FluidModel<dim> &model, FluidState<dim> &state) const;
 
-    /// The fluid step runs these three phases for every effect, in this order. @{
+    /// The fluid step runs these three phases for every effect, in this order. Collective. @{
 
     /// Carry velocity and scalars with the flow.
     virtual void

@@ -57,13 +57,13 @@ namespace undine
     /// and on periodic sides.
     std::array<std::vector<int>, dim> cut_pieces;
 
-    /// Values of the components of open->cells, ordered as CutCells::components; zero where
+    /// `values` [open->cells] of components, ordered as [CutCells::components]; zero where
     /// open_components is -1. Not collective.
     std::vector<double>
     of_cut_cells(const std::vector<double> &values) const;
 
-    /// The inverse: values of CutCells::components, ordered as the components of open->cells; zero
-    /// where cut_components is -1. Not collective.
+    /// The inverse: `values` [CutCells::components], ordered as [open->cells]; zero where
+    /// cut_components is -1. Not collective.
     std::vector<double>
     of_fluid_topology(const std::vector<double> &values) const;
   };

@@ -62,8 +62,8 @@ namespace undine
       return dofs[node];
     }
 
-    /// The values of a vector over the locally owned degrees of freedom in all nodes, on every
-    /// rank; zero in those that do not move. Collective.
+    /// The values of a vector over the locally owned degrees of freedom in all nodes, [nodes], in
+    /// its unit, on every rank; zero in nodes that do not move. Collective.
     std::vector<dealii::Tensor<1, dim>>
     gather(const Vector &vector) const;
 

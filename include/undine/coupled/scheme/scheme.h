@@ -39,7 +39,7 @@ namespace undine
     }
 
     /// Bring an empty state to t = 0; the report holds the columns of that state. The references
-    /// must outlive the scheme.
+    /// must outlive the scheme. Collective. Throws InputError, SolveError.
     virtual Report
     initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) = 0;
 
@@ -59,6 +59,7 @@ namespace undine
 
     /// Advance fluid and bodies (of the clock only Clock::longest_step) by at most `dt` [s]. Throws
     /// SolveError if no step can be accepted; the state is then the one before the step.
+    /// Collective.
     virtual Report
     step(State<dim> &state, double dt) = 0;
   };

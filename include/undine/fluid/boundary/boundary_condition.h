@@ -19,7 +19,8 @@ namespace undine
     virtual bool
     holds(const Boundary<dim> &boundary) const = 0;
 
-    /// The value at a place on a held boundary that is normal to `normal_axis`.
+    /// The value, in the unit of the field, at a place [m] on a held boundary that is normal to
+    /// `normal_axis`, at `time` [s].
     virtual double
     held_value(const Boundary<dim>      &boundary,
                const unsigned int        normal_axis,

@@ -19,12 +19,13 @@ namespace undine
   double
   flux_area(const MacGrid<dim> &grid, const GridIndex<dim> &cell);
 
-  /// max over cells of |(D v)_c| / flux_area, [m/s], from the result of divergence().
+  /// max over cells of |(D v)_c| / flux_area [m/s], from the result of divergence(). Collective.
+  /// Throws SolveError if a value is not finite.
   template <int dim>
   double
   largest_divergence(const FluidModel<dim> &model, const Field<dim> &fluxes);
 
-  /// The same for a velocity.
+  /// The same for a velocity, whose ghost values need not be up to date. Collective.
   template <int dim>
   double
   largest_divergence(const FluidModel<dim> &model, const Velocity<dim> &velocity);

@@ -28,8 +28,8 @@ namespace undine
                       const BoundaryCondition<dim>       &condition,
                       const double                        diffusivity);
 
-    /// s* in `field` becomes s^{n+1} at `time` = t^{n+1}. Returns the number of iterations. Throws
-    /// SolveError. Collective.
+    /// s* in `field` becomes s^{n+1} at `time` = t^{n+1}, `dt` = h [s]. Returns the number of
+    /// iterations. Throws SolveError. Collective.
     unsigned int
     step(Field<dim> &field, const double time, const double dt);
 

@@ -16,7 +16,8 @@ namespace undine
   /// The balance of momentum over one step (T1), with StepCoefficients, as equations for the end
   /// velocity u = u^{n+1}: residual, Jacobian and what u makes of the state. Fixed degrees of
   /// freedom have a zero residual and a diagonal Jacobian; u has to carry the prescribed velocity
-  /// there, which guess() does, and d^{n+1} is the prescribed displacement exactly.
+  /// there, which guess() does, and d^{n+1} is the prescribed displacement exactly. All functions
+  /// that take or return vectors are collective.
   template <int dim>
   class SolidEquations
   {
