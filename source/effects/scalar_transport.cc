@@ -184,7 +184,7 @@ namespace undine
 
   /// Fields that the flow carries, such as smoke or temperature:
   ///
-  ///     ds/dt + v.grad s = D Laplace(s) + q
+  ///     ds/dt + v.grad s = D Laplace(s) + q                                               (E4)
   ///
   /// along the flow by the stages of the step (T9) with ds/dt = D Laplace(s) + q as the rate, of
   /// second order in time; in steps of one stage with the source in the middle and implicit

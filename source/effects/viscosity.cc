@@ -15,7 +15,7 @@ namespace undine
 {
   /// Friction in a fluid of constant viscosity, implicit in time (implicit Euler):
   ///
-  ///     (1 - h nu Laplace) w = v'' - h grad q^n / rho,   v* = w + h grad q^n / rho
+  ///     (1 - h nu Laplace) w = v'' - h grad q^n / rho,   v* = w + h grad q^n / rho        (E3)
   ///
   /// for each component, with no-slip walls, inflow, and no friction on openings (see FluidStep for
   /// the old pressure gradient).

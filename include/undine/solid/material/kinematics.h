@@ -37,7 +37,7 @@ namespace undine
 
   /// How the displacement gradient H = du/dX [1] of a body in `dim` dimensions becomes the
   /// deformation gradient F of a material point in three dimensions, and how stress and tangent
-  /// come back:
+  /// come back (S7), (S8):
   ///
   ///     3D            F = I + H
   ///     plane strain  F = I + H in the plane, F_33 = 1, F_a3 = F_3a = 0
