@@ -128,7 +128,7 @@ namespace undine
   }
 
 
-  /// The same velocity on what bodies leave of the grid now.
+  /// The same velocity on the present topology of the fluid.
   template <int dim>
   Velocity<dim>
   FluidStep<dim>::remapped_velocity(const Velocity<dim> &velocity) const

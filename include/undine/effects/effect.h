@@ -30,7 +30,7 @@ namespace undine
     {
       const FluidModel<dim>   *fluid;         ///< nullptr: none
       const SolidModel<dim>   *solid;         ///< nullptr: none
-      bool                     has_obstacles; ///< something stands in the fluid
+      bool                     has_obstacles; ///< there are obstacles in the fluid
       std::vector<std::string> effects;       ///< names of those that the scene calls for
       std::vector<std::string> scalars;       ///< names of the scalar fields that are carried
       bool                     has_fluid_particles = false; ///< a fluid, but not on a grid

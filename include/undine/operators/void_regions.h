@@ -41,11 +41,11 @@ namespace undine
       return regions.empty();
     }
 
-    /// The void regions, given the topology `all` that bodies leave of the grid. `last` is the mask
-    /// before the bodies moved, empty at the start. Throws SolveError, naming the region, if the
-    /// seed lies in a body or too near to one, if two regions join each other, or if the region is
-    /// connected with fluid: if it has an inflow or an opening, holds cells that held fluid, or
-    /// leaves no fluid at all. Collective.
+    /// The void regions, given the topology `all` that the surfaces of bodies and obstacles leave
+    /// of the grid. `last` is the mask before the bodies moved, empty at the start. Throws
+    /// SolveError, naming the region, if the seed lies in a body or too near to one, if two regions
+    /// join each other, or if the region is connected with fluid: if it has an inflow or an
+    /// opening, holds cells that held fluid, or leaves no fluid at all. Collective.
     VoidMask
     find(const CutCells<dim>    &cut,
          const CutTopology<dim> &all,
