@@ -68,10 +68,11 @@ namespace undine
     of_fluid_topology(const std::vector<double> &values) const;
   };
 
-  /// `cut` must come from a block of this rank's cells with a halo, see block_of_rank(). Bodies may
-  /// come near to periodic sides but not reach them: the pieces there are whole faces; where
-  /// sampled cells say otherwise, the face is closed. Cells and components that are void count as
-  /// closed. Collective.
+  /// The topology of the fluid of the whole grid, from the cells that each rank has cut. `cut` must
+  /// come from a block of this rank's cells with a halo, see block_of_rank(). Bodies may come near
+  /// to periodic sides but not reach them: the pieces there are whole faces; where sampled cells
+  /// say otherwise, the face is closed. Cells and components that are void count as closed.
+  /// Collective.
   template <int dim>
   CutTopology<dim>
   make_fluid_topology(const MacGrid<dim>  &grid,

@@ -23,8 +23,8 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
-    /// `name` and `options` are those of the probe's subsection. Throws InputError if what the
-    /// probe measures does not exist. Collective.
+    /// Prepare the measurement; `name` and `options` are those of the probe's subsection. Throws
+    /// InputError if what the probe measures does not exist. Collective.
     virtual void
     start(const std::string &name, const Options &options, const Models<dim> &models) = 0;
 
