@@ -28,8 +28,8 @@ namespace undine
     dealii::Tensor<1, dim> momentum_before;       ///< of v* [kg m/s]
   };
 
-  /// From v* = `before`, with the velocity on walls and inflows in place, to v^{n+1} = `after` by
-  /// `pressure`; `openings` with the pressures that have acted. Collective.
+  /// The balance of the change from v* = `before`, with the velocity on walls and inflows in place,
+  /// to v^{n+1} = `after` by `pressure`; `openings` with the pressures that have acted. Collective.
   template <int dim>
   PressureBalance<dim>
   pressure_balance(const FluidModel<dim>            &model,
