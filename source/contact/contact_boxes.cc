@@ -71,7 +71,7 @@ namespace undine
     }
 
 
-    /// Around all ways of the nodes of each surface.
+    /// Boxes around the paths of all nodes of each surface.
     template <int dim>
     std::vector<Ends<dim>>
     boxes_of_surfaces(const ContactSurfaces<dim>                  &surfaces,
@@ -88,7 +88,7 @@ namespace undine
     }
 
 
-    /// Around the ways of some nodes.
+    /// The box around the paths of some nodes.
     template <int dim, class Nodes>
     Ends<dim>
     ends_of(const Nodes                                 &nodes,

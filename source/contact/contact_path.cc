@@ -9,7 +9,7 @@ namespace undine
 {
   namespace
   {
-    /// A node and a facet on their straight ways.
+    /// A node and a facet on their straight paths.
     template <int dim>
     struct NodeAndFacet
     {
@@ -61,13 +61,14 @@ namespace undine
     }
 
 
-    /// Two edges on their straight ways.
+    /// Two edges on their straight paths.
     template <int dim>
     struct TwoEdges
     {
-      std::array<dealii::Point<dim>, 4>     begin;
-      std::array<dealii::Tensor<1, dim>, 4> ways;      ///< less their mean
-      double                                speed = 0; ///< bound for the change of the distance
+      std::array<dealii::Point<dim>, 4> begin;
+      std::array<dealii::Tensor<1, dim>, 4>
+             ways;      ///< displacement increments of the nodes, less their mean
+      double speed = 0; ///< bound for the change of the distance
 
       double
       distance(const double part) const
@@ -105,9 +106,9 @@ namespace undine
     }
 
 
-    /// The part of the ways, at most `limit`, on which the distance stays above `least`: by steps
-    /// that the speed bounds [the additive advancement of Li, Kaufman, Jiang, ACM Trans. Graph. 40
-    /// (2021)].
+    /// The part of the paths, at most `limit` [1], on which the distance stays above a fifth of its
+    /// first value or, if that is less, above `closest` [m]: by steps that the speed bounds [the
+    /// additive advancement of Li, Kaufman, Jiang, ACM Trans. Graph. 40 (2021)].
     template <class Pair>
     double
     part_without_hit(const Pair &pair, const double closest, const double limit)

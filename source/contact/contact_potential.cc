@@ -94,8 +94,9 @@ namespace undine
       const double      turning = term.wall == term.no_wall ? slope / term.distance : 0;
 
       // The nearest points move along their simplices.
-      std::array<dealii::Point<dim>, dim>                          ways;  // behind the origin
-      std::array<std::array<dealii::Tensor<1, dim>, dim + 1>, dim> mixed; // [way][node]
+      std::array<dealii::Point<dim>, dim> ways; // after the origin: difference vectors
+      std::array<std::array<dealii::Tensor<1, dim>, dim + 1>, dim>
+        mixed; // [difference vector][node]
       for (unsigned int a = 0; a < term.n_ways; ++a)
         {
           const auto &path = term.ways[a];

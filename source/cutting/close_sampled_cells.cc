@@ -25,7 +25,7 @@ namespace undine
         return area_vector - area_vector.norm() / wall_area * walls;
       }
 
-      /// What it shall contribute: shares close, and excess finds a way out.
+      /// Its contribution afterwards: shares close, and excess can leave through the pieces.
       dealii::Tensor<1, dim>
       closing(const dealii::Tensor<1, dim> &area_vector) const
       {

@@ -70,7 +70,7 @@ namespace undine
     }
 
 
-    /// One that is as it was last time.
+    /// A cached cell.
     template <int dim>
     void
     add_kept_cell(CutCells<dim> &cut, CutWorkspace<dim> &work, const std::int64_t key)

@@ -63,7 +63,7 @@ namespace undine
   bool
   CutCellCache<dim>::knows(const CutCells<dim> &cut, const PlacedSurface<dim> &placed)
   {
-    // The block that is kept keeps its planes: no others can have their address.
+    // The remembered block keeps its planes alive: no others can have their address.
     const bool known = block && &block->planes() == &cut.block.planes() &&
                        block->cells() == cut.block.cells() && facets == placed.surface.facets() &&
                        positions.size() == placed.positions.size();
@@ -203,7 +203,7 @@ namespace undine
     fragments.clear();
     corners.clear();
     pieces.clear();
-    // What is unusual is looked at anew each time.
+    // Cells with anything unusual are computed anew each time.
     const bool is_usual = work.grid_edges.n_reordered() == 0 && work.split.failures == 0;
     for (int c = 0; is_usual && c < static_cast<int>(cut.cells.size()); ++c)
       {

@@ -60,7 +60,7 @@ namespace undine
     }
 
 
-    /// Whether components take no part in the flow.
+    /// Whether components are excluded from the flow.
     template <int dim>
     std::vector<char>
     find_negligible_components(const CutCells<dim> &cut)

@@ -42,7 +42,8 @@ namespace undine
   void
   FacetSplitter<2>::split_facet(const unsigned int facet)
   {
-    // The solid is on the left of the segment, so that the fluid is on the left of the way back.
+    // The solid is on the left of the segment, so that the fluid is on the left of the reversed
+    // segment.
     links.clear();
     chord_splitter.split_chord(
       links, facet, 2, 0, {}, surface.facets()[facet][1], surface.facets()[facet][0]);

@@ -69,7 +69,7 @@ namespace undine
         bool inside = false;
         for (int i = fragment.begin; i < fragment.end; ++i)
           {
-            // Both fragments at an edge see it in the same direction.
+            // The edge has the same direction for both fragments that meet in it.
             auto a = work.split.corners[i];
             auto b = work.split.corners[i + 1 < fragment.end ? i + 1 : fragment.begin];
             if (a.vertex > b.vertex)

@@ -194,7 +194,7 @@ namespace undine
           }
         const int relative =
           windings[samples.position(here)] + crossings(sample(here), place, here, nowhere<dim>());
-        // Parts of facets in the sides of the box may be missed on the way to a corner on them.
+        // Facets that lie in the sides of the box may be missed by the segment to a corner on them.
         if (!has_facet_near(place))
           return corner_windings[corner] - relative;
         ++votes[corner_windings[corner] - relative];

@@ -18,7 +18,7 @@
 
 namespace
 {
-  /// True if every rank comes here within a few seconds: they have all seen the same error.
+  /// True if every rank comes here within a few seconds: all of them have the same error.
   bool
   all_ranks_are_here()
   {
@@ -35,8 +35,8 @@ namespace
   }
 
 
-  /// Print why the run ends and leave with `code`. What all ranks have seen is printed by the
-  /// first; an error that only some have seen must end the others too, which wait for them.
+  /// Print why the run ends and leave with `code`. An error of all ranks is printed by the first;
+  /// one that only some ranks have must end the others too, which wait for them.
   int
   leave(const std::string &message, const int code)
   {

@@ -76,7 +76,7 @@ namespace undine
 } // namespace undine
 
 
-// Libraries in C and Fortran look at what malloc() returns late or never (ML goes on with a null
+// Libraries in C and Fortran check the result of malloc() late or never (ML goes on with a null
 // pointer), or take it for something else (MUMPS for a singular matrix). So these names, by which
 // all libraries allocate, lead here first. Sanitizers have their own.
 #if defined(__has_feature) // of Clang, which does not define the names of GCC

@@ -7,13 +7,13 @@
 
 namespace undine
 {
-  /// A force that the scene prescribes, as a function of place and time: on the fluid, explicit at
-  /// the end of the step, and on bodies that it names, there of the place at rest. Its work is
-  /// sum rho V h a (v + h a / 2) on the fluid and int f dX times the change of d on bodies.
+  /// A force that the scene prescribes (E7), as a function of place and time: on the fluid,
+  /// explicit at the end of the step, and on bodies that it names, there of the place at rest. Its
+  /// work is sum rho V h a (v + h a / 2) on the fluid and int f dX times the change of d on bodies.
   ///
-  /// Where bodies cut the grid a force acts on a piece of area A_f as pressure does, along the way
-  /// from one pressure to the other: with (A_f / V_f) a.(x_1 - x_0) for a, a uniform force is the
-  /// gradient of a pressure, exactly, and fluid that it cannot move stays at rest.
+  /// Where bodies cut the grid a force acts on a piece of area A_f as pressure does, along the
+  /// segment from one pressure to the other: with (A_f / V_f) a.(x_1 - x_0) for a, a uniform force
+  /// is the gradient of a pressure, exactly, and fluid that it cannot move stays at rest.
   template <int dim>
   class BodyForce : public Effect<dim>
   {

@@ -11,7 +11,7 @@
 namespace undine
 {
   /// Lift by small differences of density, rho (1 - beta (s - s0)) (Boussinesq): the faces are
-  /// accelerated by -beta (s - s0) g for every field named. Weight itself is in the reduced
+  /// accelerated by -beta (s - s0) g (E2) for every field named. Weight itself is in the reduced
   /// pressure.
   template <int dim>
   class Buoyancy : public Effect<dim>

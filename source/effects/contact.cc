@@ -6,8 +6,8 @@
 
 namespace undine
 {
-  /// Bodies push each other, walls and obstacles away without friction, by a barrier that begins at
-  /// a small gap (BodyContact), and never overlap.
+  /// Bodies repel each other, walls and obstacles without friction, by a barrier that begins at a
+  /// small gap (BodyContact), and never overlap.
   template <int dim>
   class ContactEffect : public Effect<dim>
   {

@@ -7,9 +7,9 @@
 
 namespace undine
 {
-  /// The fluid carries its own momentum: dv/dt + (v.grad) v = a for one step, where the
-  /// acceleration a by forces is carried along by half (see FluidStep). Without convection the flow
-  /// is a Stokes flow.
+  /// The fluid carries its own momentum: dv/dt + (v.grad) v = a for one step, where in steps of one
+  /// stage a share of the acceleration a by forces is carried along (see FluidStep). Without
+  /// convection the flow is a Stokes flow.
   template <int dim>
   class Convection : public Effect<dim>
   {

@@ -5,8 +5,8 @@
 
 namespace undine
 {
-  /// Rayleigh damping of bodies, C = alpha M + eta K'(d^n): with the tangent at the present
-  /// deformation, so that rigid rotation is not damped.
+  /// Rayleigh damping of bodies (E5), C = alpha M + eta K'(d^n + r h u^n): with the tangent at the
+  /// present deformation, so that rigid rotation is not damped.
   template <int dim>
   class Damping : public Effect<dim>
   {

@@ -7,7 +7,7 @@ namespace undine
 {
   /// Uniform gravity g. The fluid's pressure is the reduced one, p - rho g.x, in which the weight
   /// of a fluid of constant density is contained: nothing is added to its velocity, and fluid at
-  /// rest stays at rest exactly. Bodies and particles feel their weight.
+  /// rest stays at rest exactly. Bodies and particles get their weight as a load.
   template <int dim>
   class Gravity : public Effect<dim>
   {

@@ -14,8 +14,7 @@ namespace undine
 {
   namespace
   {
-    /// One carried field, with what the scene says about it. Held where the scene says so and at
-    /// inflows; no flux through other boundaries.
+    /// A carried field, held at inflows and where the scene says so, without flux elsewhere.
     template <int dim>
     class CarriedScalar : public BoundaryCondition<dim>
     {
@@ -185,12 +184,12 @@ namespace undine
 
   /// Fields that the flow carries, such as smoke or temperature:
   ///
-  ///     ds/dt + v.grad s = D Laplace(s) + q
+  ///     ds/dt + v.grad s = D Laplace(s) + q                                               (E4)
   ///
   /// along the flow by the stages of the step (T9) with ds/dt = D Laplace(s) + q as the rate, of
   /// second order in time; in steps of one stage with the source in the middle and implicit
-  /// diffusion, of first order. Advection is not conservative: the integral of s drifts
-  /// with the error of the interpolation.
+  /// diffusion, of first order. Advection is not conservative: the integral of s drifts with the
+  /// error of the interpolation.
   template <int dim>
   class ScalarTransport : public Effect<dim>
   {
@@ -263,7 +262,7 @@ namespace undine
         }
     }
 
-    /// All of a stage, so that forces see the fields at its end.
+    /// All terms of a stage, so that forces use the fields at its end.
     void
     transport(FluidStep<dim> &step) const override
     {

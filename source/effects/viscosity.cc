@@ -15,10 +15,10 @@ namespace undine
 {
   /// Friction in a fluid of constant viscosity, implicit in time (implicit Euler):
   ///
-  ///     (1 - h nu Laplace) w = v'' - h grad q^n / rho,   v* = w + h grad q^n / rho
+  ///     (1 - h nu Laplace) w = v'' - h grad q^n / rho,   v* = w + h grad q^n / rho        (E3)
   ///
-  /// for each component, with walls that stick, inflow, and no friction on openings (see FluidStep
-  /// for the old pressure gradient).
+  /// for each component, with no-slip walls, inflow, and no friction on openings (see FluidStep for
+  /// the old pressure gradient).
   template <int dim>
   class Viscosity : public Effect<dim>
   {

@@ -9,7 +9,7 @@ namespace undine
 {
   namespace
   {
-    /// The same values on points, and on parts the mean of their point.
+    /// The same values on points, and in sub-cells or sub-faces the value of their point.
     template <int dim>
     Field<dim>
     moved_to(const Field<dim> &old, const std::shared_ptr<const FluidTopology<dim>> &topology)
@@ -23,7 +23,7 @@ namespace undine
     }
 
 
-    /// The flow in the middle of the stage's way.
+    /// The flow in the middle of the stage.
     template <int dim>
     Velocity<dim>
     carrying_velocity(const FluidState<dim> &state, const Stage &stage)
@@ -109,7 +109,7 @@ namespace undine
       component = Field<dim>(component.shared_lattice(), now);
     if (!now)
       return;
-    // Parts have no acceleration to be carried: a body may just have uncovered them.
+    // Pieces have no acceleration to be carried: they may be freshly cleared.
     for (auto &component : state.acceleration.components)
       {
         std::fill(component.parts().begin(), component.parts().end(), 0.);
@@ -128,7 +128,7 @@ namespace undine
   }
 
 
-  /// The same velocity on what bodies leave of the grid now.
+  /// The same velocity on the present topology of the fluid.
   template <int dim>
   Velocity<dim>
   FluidStep<dim>::remapped_velocity(const Velocity<dim> &velocity) const

@@ -8,7 +8,7 @@ namespace undine
 {
   namespace
   {
-    /// Images of parts are where their points have images.
+    /// Sub-cells and sub-faces at images of points are shifted along.
     template <int dim>
     void
     move_images(std::vector<typename SubLattice<dim>::Part> &parts, const Lattice<dim> &lattice)

@@ -13,8 +13,8 @@ namespace undine
 {
   namespace
   {
-    /// Contacts nearer than this share of a cell's width count as so near: what sticks to a wall
-    /// at that distance moves with it, and the equations keep their condition.
+    /// Contacts nearer than this share of a cell's width count as if they were that far away: at
+    /// that distance fluid already moves with the wall, and the equations stay well conditioned.
     constexpr double least_distance = 0.01;
 
 
@@ -187,8 +187,7 @@ namespace undine
     }
 
 
-    /// Of a fragment, each once: where an edge of the surface meets an edge of the grid there are
-    /// two.
+    /// The corners on a plane, each once: two coincide where edges of surface and grid meet.
     template <int dim>
     std::vector<dealii::Point<dim>>
     WallFinder<dim>::corners_on_plane(const int          fragment,

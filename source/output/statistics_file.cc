@@ -60,7 +60,7 @@ namespace undine
     }
 
 
-    /// What is kept of an older file.
+    /// The part of an older file that stays.
     struct Kept
     {
       std::string header;

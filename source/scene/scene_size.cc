@@ -72,7 +72,7 @@ namespace undine
     }
 
 
-    /// What stands in the fluid: cells that it cuts, each about as large as the mean.
+    /// The surfaces in the fluid: number of cells that they cut, each about as large as the mean.
     template <int dim>
     void
     add_surface(GridSize &grid, const ShapeSize &shape, const double mean_width)

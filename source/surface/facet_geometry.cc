@@ -10,12 +10,12 @@ namespace undine
 {
   namespace
   {
-    /// The part of a way that is left after cutting off half-spaces.
+    /// The part of a segment that is left after cutting off half-spaces.
     class ClippedSegment
     {
     public:
-      /// Keep what has a distance <= 0 from a plane, given the distances of both ends of the way.
-      /// False if nothing is left.
+      /// Keep what has a distance <= 0 from a plane, given the distances of both ends of the
+      /// segment. False if nothing is left.
       bool
       keep_behind(const double at_start, const double at_end)
       {
@@ -32,7 +32,7 @@ namespace undine
     };
 
 
-    /// The point of a segment nearest to a place, as share of the way from a to b.
+    /// The point of a segment from a to b nearest to a place, as share of the segment.
     template <int dim>
     double
     nearest_share(const dealii::Point<dim> &a,
@@ -164,7 +164,7 @@ namespace undine
   ThickFacet<dim>::first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const
   {
     constexpr double nowhere = std::numeric_limits<double>::infinity();
-    // Most ways stay on one side of its plane. Ends far away lose digits: those in doubt go on.
+    // Most segments stay on one side of its plane. Ends far away lose digits: those in doubt go on.
     const double above_start = normal * (from - in_plane), above_end = normal * (to - in_plane);
     const double doubt = thickness + 1e-12 * (std::abs(above_start) + std::abs(above_end));
     if (std::min(above_start, above_end) > doubt || std::max(above_start, above_end) < -doubt)
@@ -177,7 +177,7 @@ namespace undine
     if (!has_area)
       return nowhere;
 
-    // Distances of places near the facet: of far ends of a long way they would lose digits.
+    // Distances of places near the facet: those of the ends of a long segment would lose digits.
     const dealii::Point<dim> start = from + in_box.enter * (to - from);
     const dealii::Point<dim> end   = from + in_box.leave * (to - from);
     ClippedSegment           segment;

@@ -20,7 +20,8 @@ namespace undine
     }
 
 
-    /// The part of the way from `begin` to `end` nearest to a place.
+    /// The point of the segment from `begin` to `end` nearest to a place, as part of the segment
+    /// [1].
     template <int dim>
     double
     nearest_part(const dealii::Point<dim> &begin,

@@ -150,7 +150,7 @@ namespace undine
       share        = coordinates;
     };
 
-    // The facet with the nearest box tells how far one has to look at most.
+    // The facet with the nearest box bounds the distance of the search.
     tree->facets.query(index::nearest(place, 1), boost::make_function_output_iterator(consider));
     auto box = dealii::BoundingBox<dim>({place, place});
     box.extend(std::sqrt(least));

@@ -107,7 +107,7 @@ namespace undine
     }
 
     Tree<dim>                facets; ///< where they are
-    Tree<dim>                swept;  ///< what those that moved have passed over
+    Tree<dim>                swept;  ///< what those that moved have swept
     dealii::BoundingBox<dim> box;    ///< around the former
     dealii::BoundingBox<dim> swept_box;
   };
@@ -307,7 +307,7 @@ namespace undine
         velocity += coordinates[k] * moved.velocities[moved.surface->facets()[facet][k]];
     };
 
-    // The facet with the nearest box tells how far one has to look at most.
+    // The facet with the nearest box bounds the distance of the search.
     namespace index = boost::geometry::index;
     auto reach      = trees->box;
     reach.extend(*std::max_element(periods.begin(), periods.end()));

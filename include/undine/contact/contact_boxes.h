@@ -9,9 +9,9 @@
 namespace undine
 {
   /// Calls action(node, facet) for nodes and facets of surfaces that meet each other, whose boxes
-  /// around the straight ways `from` ... `to` come as near as `distance` [m]: in ascending order of
-  /// nodes, then facets. Surfaces whose boxes are far from all others cost nothing but these; in
-  /// what is left facets are found by an R-tree.
+  /// around their straight paths from `from` to `to` come as near as `distance` [m]: in ascending
+  /// order of nodes, then facets. Surfaces whose boxes are far from all others cost only the
+  /// comparison of boxes; for the others facets are found by an R-tree. Not collective.
   template <int dim>
   void
   for_each_near_pair(const ContactSurfaces<dim>                            &surfaces,

@@ -10,10 +10,10 @@
 
 namespace undine
 {
-  /// Places in the bodies' tangent for pairs of nodes in contact, beside those of
+  /// Entries in the bodies' tangent for pairs of nodes in contact, besides those of
   /// SolidModel::matrix(). A pattern once made serves as long as it has places for all pairs that
-  /// are asked for, and grows with new ones: while bodies touch, neither it nor the analysis that
-  /// a factorisation makes of it has to be made again for every node that comes or goes.
+  /// are asked for, and grows with new ones: while bodies touch, neither it nor the analysis that a
+  /// factorisation makes of it has to be made again for every node that comes or goes.
   template <int dim>
   class ContactPattern
   {
@@ -29,7 +29,7 @@ namespace undine
     void
     make_room(Matrix &A, const Pairs &needed);
 
-    /// Have no places for pairs.
+    /// Forget the pattern: there are no entries for pairs.
     void
     clear();
 

@@ -13,7 +13,8 @@ namespace undine
   template <int dim>
   using NodeMatrices = std::array<std::array<dealii::Tensor<2, dim>, dim + 1>, dim + 1>;
 
-  /// What a term of contact costs, and its derivatives by the places of its nodes:
+  /// The potential energy of a term of contact, and its derivatives with respect to the positions
+  /// of its nodes:
   ///
   ///     E = k A D m(c) b(d / D)                                                       (S16), (S17)
   template <int dim>

@@ -12,7 +12,8 @@
 
 namespace undine
 {
-  /// One of several surfaces, by itself; nodes keep their numbers.
+  /// One of several surfaces by itself; nodes keep their numbers. `surface`: its number in
+  /// all.body_names().
   template <int dim>
   Surface<dim>
   one_surface(const Surface<dim> &all, unsigned int surface);
@@ -33,13 +34,15 @@ namespace undine
                     const FluidModel<dim>      *fluid,
                     const Obstacles<dim>       *obstacles);
 
-    /// The same in which only some bodies move, or none: `bodies` has been made from all of them.
+    /// The same in which only some bodies move, or none: `bodies` has been made from
+    /// `all.bodies()`. The obstacles must outlive it.
     ContactSurfaces(const ContactSurfaces &all, const BodySurface<dim> &bodies);
 
-    /// Of all nodes [m]. Collective.
+    /// Positions of all nodes [m] at `time` [s]. Collective.
     Places
     places(const Vector &displacement, double time) const;
 
+    /// The surfaces of bodies.
     const BodySurface<dim> &
     bodies() const
     {
@@ -59,19 +62,22 @@ namespace undine
       return body_surface.surface().body_names().size();
     }
 
+    /// Is it the surface of a body? The others are those of obstacles.
     bool
     is_body(const unsigned int surface) const
     {
       return surface < n_bodies();
     }
 
-    /// Of bodies and obstacles, as are all numbers of surfaces below.
+    /// The surfaces of bodies, then of obstacles. All numbers of surfaces and nodes below are those
+    /// of this surface.
     const Surface<dim> &
     surface() const
     {
       return all_facets;
     }
 
+    /// The plane walls of the scene and, if the scene wants it, those of the fluid's domain.
     const std::vector<ContactWall<dim>> &
     walls() const
     {
@@ -93,22 +99,23 @@ namespace undine
       return areas[node];
     }
 
+    /// The sharp edges of all surfaces at rest; none in 2D.
     const std::vector<SharpEdge> &
     sharp_edges() const
     {
       return all_edges;
     }
 
-    /// Does the body rest on the wall or reach through it, held there by a support? Then it does
-    /// not feel it.
+    /// Is the body held by a support where it rests on the wall or reaches through it? Then there
+    /// is no contact between them.
     bool
     is_held_at(const unsigned int body, const unsigned int wall) const
     {
       return held[body][wall];
     }
 
-    /// Do these surfaces feel each other? Not if both are obstacles, or if a support of one begins
-    /// in the other or on it.
+    /// Is there contact between these surfaces? Not if both are obstacles, or if a support of one
+    /// begins in the other or on it.
     bool
     meet(const unsigned int a, const unsigned int b) const
     {

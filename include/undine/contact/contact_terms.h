@@ -16,11 +16,11 @@ namespace undine
   {
     static constexpr unsigned int no_wall = -1;
 
-    /// How a nearest point moves when nodes do: between two of these.
+    /// A difference vector between two nodes along which a nearest point slides when nodes move.
     struct Way
     {
       unsigned int from, to; ///< positions in `nodes`
-      int          sign;     ///< 1 for what the direction leads to, -1 for what it comes from
+      int          sign;     ///< 1 on the side of the first nearest point, -1 on that of the second
     };
 
     unsigned int n = 1;                         ///< nodes: the node, then those of the simplex;
@@ -38,11 +38,11 @@ namespace undine
     unsigned int wall     = no_wall;
   };
 
-  /// All that are nearer than `gap` [m], in an order that the places alone decide; those of every
-  /// node with all facets less ridges plus corners (in 2D facets less ends), so that a flat or
-  /// convex surface counts once wherever the facets' rims are. Where the nodes of both surfaces are
-  /// asked, each counts half. Then pairs of sharp edges. With R-trees: the time grows with the
-  /// surfaces.
+  /// All terms with a distance below `gap` [m], in an order that depends on `places` only: for
+  /// every node those with all facets, minus those with ridges, plus those with corners (in 2D
+  /// facets minus ends), so that a flat or convex surface counts once wherever the rims of facets
+  /// are. Where the nodes of both surfaces have terms, each counts half. Then pairs of sharp edges.
+  /// R-trees make the time proportional to the size of the surfaces. Not collective.
   template <int dim>
   std::vector<ContactTerm<dim>>
   find_contact_terms(const ContactSurfaces<dim>                  &surfaces,

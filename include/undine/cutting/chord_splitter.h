@@ -21,8 +21,8 @@ namespace undine
               const int             vertex_number);
 
 
-  /// Splits straight edges by the planes of one axis after the other, and books what arises:
-  /// vertices, chords, crossings with the grid's edges. All decisions are integers: slabs of
+  /// Splits straight edges by the planes of one axis after the other, and stores the resulting
+  /// vertices, chords and crossings with the grid's edges. All decisions are integers: slabs of
   /// coordinates that are monotone along every edge, because interpolation is clamped to its ends.
   template <int dim>
   class ChordSplitter
@@ -47,7 +47,8 @@ namespace undine
                   SplitSurface<dim>    &split,
                   NodeWindings<dim>    &windings);
 
-    /// Append the vertices where the way between two vertices on a ridge meets planes of `axis`.
+    /// Append the vertices where the segment between two vertices on a ridge meets planes of
+    /// `axis`.
     void
     split_ridge(std::vector<Part> &parts,
                 const int          from,
@@ -99,7 +100,7 @@ namespace undine
                    const int             plane,
                    const double          fraction) const;
 
-    /// Book a piece of a chord; returns its edge number.
+    /// Store a piece of a chord; returns its edge number.
     int
     add_chord(const unsigned int    facet,
               const unsigned int    normal,
@@ -107,7 +108,7 @@ namespace undine
               const int             from,
               const int             to);
 
-    /// Book that a chord normal to `normal` crosses a plane of `axis` at `vertex`, upwards or
+    /// Store that a chord normal to `normal` crosses a plane of `axis` at `vertex`, upwards or
     /// downwards: there it crosses an edge of the grid along the third axis.
     void
     add_crossing(const unsigned int    facet,

@@ -18,9 +18,11 @@ namespace undine
     dealii::Point<dim>     lower, upper;
     bool                   empty = true; ///< nothing has been included
 
+    /// Enlarge the extent by a place [m].
     void
     include(const dealii::Point<dim> &place);
 
+    /// Add the sums and the extent of another part.
     void
     add(const PartSums &other);
 
@@ -32,8 +34,8 @@ namespace undine
 
   /// Finds the components of the fluid in the last of cut.cells. Its faces are known.
   ///
-  /// find() appends components, fragments and their corners, tells the pieces of the cell's faces
-  /// their component on this side, and returns flags.
+  /// find() appends components, fragments and their corners, sets the component on this side of the
+  /// pieces of the cell's faces, and returns flags (CutFlag).
   template <int dim>
   class ComponentFinder;
 
@@ -126,7 +128,7 @@ namespace undine
     std::vector<Element> elements;
     std::vector<std::pair<int, int>> uses; ///< (edge number, element)
 
-    /// Who uses an edge in the cell.
+    /// The elements that use an edge in the cell.
     struct Users
     {
       int first  = -1; ///< element

@@ -7,25 +7,27 @@
 
 namespace undine
 {
-  /// Components and pieces smaller than this, in units of a cell or face, take no part in the flow;
-  /// nor do those below twice the rounding level, which is higher on grids of more than 50 cells.
+  /// Components and pieces smaller than this, in units of a cell or face, are excluded from the
+  /// flow; so are those below twice the rounding level, which is higher on grids of more than 50
+  /// cells.
   constexpr double negligible_size = 1e-13;
 
-  /// The cells of this rank and a halo of one layer, which both sides of all owned faces need. What
-  /// lies beyond periodic sides is not part of it: bodies must not reach through them.
+  /// The cells of this rank and a halo of one layer, which both sides of all owned faces need. It
+  /// does not reach beyond periodic sides, nor must bodies.
   template <int dim>
   GridBlock<dim>
   block_of_rank(const MacGrid<dim> &grid);
 
   /// Cut the cells of cut.block, which spans the domain along axis 0, by a surface. Overwrites
-  /// `cut`; `work` keeps memory from one call to the next. Throws SolveError if a position is not
-  /// finite; overlaps and the like are flagged instead, see CutReport.
+  /// `cut`; `work` keeps memory and cached cells from one call to the next. Not collective. Throws
+  /// SolveError if a position is not finite; overlaps and the like are flagged instead, see
+  /// CutReport.
   template <int dim>
   void
   cut_block(CutCells<dim> &cut, CutWorkspace<dim> &work, const PlacedSurface<dim> &placed);
 
-  /// The same for the block of this rank, cut.block.owned() being its cells in `blocks`. All facets
-  /// that facets_near() names must be given; more do no harm. Collective.
+  /// The same for the block of this rank, cut.block.owned() being its cells in `blocks`. The
+  /// surface must have all facets that facets_near() returns, and may have more. Collective.
   template <int dim>
   void
   cut_block(CutCells<dim>            &cut,
@@ -33,18 +35,18 @@ namespace undine
             const PlacedSurface<dim> &placed,
             const Blocks<dim>        &blocks);
 
-  /// The last stage of cut_block(): tell pieces their uncut neighbours, drop components of
+  /// The last stage of cut_block(): set the uncut neighbours of pieces, drop components of
   /// negligible volume and aperture, and close negligible pieces.
   template <int dim>
   void
   drop_debris(CutCells<dim> &cut);
 
   /// After drop_debris(): make pieces and fragments close around the components of sampled cells,
-  /// so that bodies that move alike push nothing through them that cannot leave. The vector that is
-  /// missing is shared out to the fragments in proportion to their areas. What fragments contribute
-  /// beyond that, which counts where bodies move towards each other, is limited to the area of the
-  /// pieces: openings that samples do not resolve let out no more than the bodies' relative speed
-  /// times their area.
+  /// so that bodies that move alike have no surface flux into a component that cannot leave it. The
+  /// vector that is missing is distributed over the fragments in proportion to their areas. What
+  /// fragments contribute beyond that, which counts where bodies move towards each other, is
+  /// limited to the area of the pieces: openings that samples do not resolve let out no more than
+  /// the bodies' relative speed times their area.
   template <int dim>
   void
   close_sampled_cells(CutCells<dim> &cut);

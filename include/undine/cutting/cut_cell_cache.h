@@ -17,22 +17,22 @@ namespace undine
   template <int dim>
   struct PlacedSurface;
 
-  /// Cut cells that are as they were, such as those of fixed obstacles and of bodies at rest beside
-  /// others that move. What is found in a cell depends on the facets in it and on which of its
-  /// corners lie in bodies; while neither changes it is copied instead, to the bit. Nothing is kept
-  /// while anything unusual is met on this rank.
+  /// A cache of cut cells that do not change, such as those of fixed obstacles and of bodies at
+  /// rest beside others that move. The result for a cell depends on the facets in it and on which
+  /// of its corners lie in bodies; while neither changes it is copied instead, identical to the
+  /// bit. No cell is cached while anything unusual is met on this rank.
   template <int dim>
   class CutCellCache
   {
   public:
-    /// Which of the remembered cells are as they were when remember() was called, now that the
-    /// surface has been split and windings are known.
+    /// Find which of the remembered cells have not changed since remember(), now that the surface
+    /// has been split and windings are known: these are the cached cells.
     void
     compare(const CutCells<dim>      &cut,
             const SplitSurface<dim>  &split,
             const PlacedSurface<dim> &placed);
 
-    /// Is the cell with this key as it was?
+    /// Is the cell with this key a cached cell?
     bool
     hold(const std::int64_t key) const
     {
@@ -40,22 +40,22 @@ namespace undine
       return slot != IndexMap::none && cells[slot].is_kept;
     }
 
-    /// How many cells are.
+    /// Number of cached cells.
     int
     n_kept() const
     {
       return n_cells_kept;
     }
 
-    /// Find the faces of a cell that is kept: by find_face() if a cell that is not looks at them
-    /// too, which takes more than their pieces.
+    /// Find the faces of a cached cell: by find_face() if a cell that is not cached shares them,
+    /// which needs more than their pieces.
     void
     find_faces(CutCells<dim>            &cut,
                CutWorkspace<dim>        &work,
                const PlacedSurface<dim> &placed,
                const std::int64_t        key) const;
 
-    /// Append a cell that is kept, after its faces. Returns its defect of closure.
+    /// Append a cached cell, after its faces. Returns its defect of closure [1].
     double
     add_cell(CutCells<dim> &cut, const std::int64_t key) const;
 

@@ -26,7 +26,7 @@ namespace undine
   template <int dim>
   struct CutCells
   {
-    /// What a piece joins if not two components. @{
+    /// The ends of a piece that are not components. @{
     static constexpr int outside = -1; ///< the domain's outside, or cells that the block lacks
     static constexpr int uncut   = -2; ///< a cell that is fluid all over
     /// @}
@@ -34,6 +34,7 @@ namespace undine
     /// The component of fragments that no fluid touches (bodies in contact, debris).
     static constexpr int no_component = -1;
 
+    /// A cut cell.
     struct Cell
     {
       GridIndex<dim> index;
@@ -42,7 +43,7 @@ namespace undine
       unsigned int   flags; ///< CutFlag
     };
 
-    /// A connected part of the fluid in a cell: one pressure unknown.
+    /// A component, a connected part of the fluid in a cell: one pressure unknown.
     struct Component
     {
       int                cell;
@@ -58,7 +59,7 @@ namespace undine
       int            first_piece;
     };
 
-    /// A connected open part of a face: one velocity unknown.
+    /// A piece, a connected open part of a face: one velocity unknown.
     struct Piece
     {
       int    face;
@@ -71,8 +72,10 @@ namespace undine
     };
 
     /// The part of a facet in one cell. For functions f, g linear on the facet with values f_i, g_j
-    /// in its nodes: integral of f n = sum_i f_i mean[i] N and integral of f g n
-    /// = sum_ij f_i g_j product(i, j) N.
+    /// in its nodes:
+    ///
+    ///     integral of f n   = sum_i f_i mean[i] N
+    ///     integral of f g n = sum_ij f_i g_j product(i, j) N
     struct Fragment
     {
       int                                    component;
@@ -87,15 +90,15 @@ namespace undine
       product(const unsigned int i, const unsigned int j) const;
     };
 
-    /// Where the surface is on the way in the corners of a fragment: a polygon in 3D, a segment in
-    /// 2D, in the order of the facet.
+    /// Positions of the corners of fragments [m]: a polygon in 3D, a segment in 2D, in the order of
+    /// the facet.
     struct Corners
     {
       std::vector<int>                first; ///< of each fragment, and one past the last
       std::vector<dealii::Point<dim>> points;
     };
 
-    /// What was met on the way: counts of this block.
+    /// Counts of special cases met while cutting this block.
     struct Counts
     {
       int    sampled_cells   = 0; ///< not resolved exactly: see SampledRegions
@@ -132,6 +135,7 @@ namespace undine
       return windings[block.key(uncut_cell)] != 0;
     }
 
+    /// One past the last component of a cell, by its number in `cells`.
     int
     end_component(const int cell) const
     {
@@ -139,6 +143,7 @@ namespace undine
                                                        : components.size();
     }
 
+    /// One past the last fragment of a cell.
     int
     end_fragment(const int cell) const
     {
@@ -146,6 +151,7 @@ namespace undine
                                                        : fragments.size();
     }
 
+    /// One past the last piece of a face, by its number in `faces`.
     int
     end_piece(const int face) const
     {
@@ -153,6 +159,7 @@ namespace undine
                                                        : pieces.size();
     }
 
+    /// Remove everything but the block and the windings.
     void
     clear();
 

@@ -4,7 +4,7 @@
 
 namespace undine
 {
-  /// What is wrong with a cut cell, face or grid edge; any sum of these.
+  /// Errors of a cut cell, face or grid edge; any sum of these.
   enum CutFlag : unsigned int
   {
     cut_winding          = 1,   ///< a node that lies in two bodies, or in one that is inside out
@@ -15,12 +15,12 @@ namespace undine
     cut_negative_area    = 32,  ///< by more than rounding
     cut_negative_volume  = 64,  ///< by more than rounding
     cut_closure          = 128, ///< open pieces and fragments do not close around a component
-    cut_splitting_failed = 256  ///< a facet could not be split (never seen)
+    cut_splitting_failed = 256  ///< a facet could not be split (not known to happen)
   };
 
   /// Flags after which a face or cell is sampled instead. Overlaps too small to hold a node of the
-  /// grid are among them though closure would be exact: as fluid of negative volume they would take
-  /// up what moving bodies push into them, through pieces as small as the overlap.
+  /// grid are among them though closure would be exact: as fluid of negative volume they would
+  /// receive the surface flux of moving bodies, through pieces as small as the overlap.
   constexpr unsigned int cut_needs_sampling = cut_winding | cut_loop | cut_pairing | cut_nesting |
                                               cut_order | cut_negative_area | cut_negative_volume |
                                               cut_closure;

@@ -11,7 +11,7 @@
 
 namespace undine
 {
-  /// How cutting went, over the owned cells of all ranks.
+  /// Statistics and errors of cutting, over the owned cells of all ranks.
   struct CutReport
   {
     unsigned int cut_cells       = 0;
@@ -20,15 +20,15 @@ namespace undine
     unsigned int reordered_edges = 0; ///< grid edges with ties, halos counted twice
     double       closure         = 0; ///< worst defect in cells that are not flagged
 
-    /// Which bodies do what in the first flagged cell of the lowest rank, such as "'a' and 'b'
-    /// overlap"; empty if there is none.
+    /// The bodies and the kind of error in the first flagged cell of the lowest rank, such as "'a'
+    /// and 'b' overlap"; empty if there is none.
     std::string subject;
 
     /// The same with place and number, what is done about it and what to try.
     std::string message;
   };
 
-  /// Collective.
+  /// The report on `cut`, whose surface is `surface`. Collective.
   template <int dim>
   CutReport
   report(const CutCells<dim> &cut, const Surface<dim> &surface, MPI_Comm communicator);

@@ -11,12 +11,12 @@
 
 namespace undine
 {
-  /// What the stages of cutting pass on to each other; kept from step to step for its memory, and
-  /// for what stays as it is.
+  /// The data that the stages of cutting pass on to each other; it lives from step to step to save
+  /// allocations, and for the cached cells.
   template <int dim>
   struct CutWorkspace
   {
-    /// What belongs to CutCells::faces of the same number.
+    /// Further data of the face with the same number in CutCells::faces.
     struct FaceRecord
     {
       int          first_planar = 0, end_planar = 0; ///< in `planar_edges`, 3D only
@@ -46,7 +46,7 @@ namespace undine
   };
 
 
-  /// The surface that cuts, where it is now.
+  /// A surface and the positions of its nodes.
   template <int dim>
   struct PlacedSurface
   {

@@ -98,8 +98,7 @@ namespace undine
 
 
   /// Split all facets of `surface` that come near `block`. `split` and `windings` (crossings only,
-  /// not summed up) are overwritten. Positions far outside the grid are welcome,
-  /// but must be finite.
+  /// not summed up) are overwritten. Positions must be finite, but may be far outside the grid.
   template <int dim>
   void
   split_surface(SplitSurface<dim>                     &split,
@@ -108,7 +107,7 @@ namespace undine
                 const Surface<dim>                    &surface,
                 const std::vector<dealii::Point<dim>> &positions);
 
-  /// The facets that a block needs to know, ascending.
+  /// The numbers of the facets that cutting a block needs, ascending.
   template <int dim>
   std::vector<unsigned int>
   facets_near(const GridBlock<dim>                  &block,

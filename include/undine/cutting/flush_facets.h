@@ -13,12 +13,13 @@ namespace undine
   /// narrower cell beside the plane.
   constexpr double flush_reach = 1e-3;
 
-  /// Where to cut the grid, for nodes at `positions` [m]: facets that lie along a plane inside the
-  /// grid, on the fluid's side of it or in it, are moved to where the solid reaches just beyond the
-  /// plane. What is between them and the plane would be components as thin as nothing, each with a
-  /// pressure of its own, through which fluid goes around the corners of bodies; two sides of a
-  /// body, one on either side of a plane, would differ. Facets stay where two of them face each
-  /// other at the same plane: the fluid between them must keep its way.
+  /// The positions [nodes] [m] at which surfaces shall cut the grid, for nodes at `positions`:
+  /// facets that lie along a plane inside the grid, on the fluid's side of it or in it, are moved
+  /// to where the solid reaches just beyond the plane. Between them and the plane there would be
+  /// components of almost no thickness, each with a pressure of its own, through which fluid flows
+  /// around the corners of bodies; two sides of a body, one on either side of a plane, would
+  /// differ. Facets stay where two of them face each other at the same plane: the gap of fluid
+  /// between them must stay open.
   template <int dim>
   std::vector<dealii::Point<dim>>
   beyond_planes(const GridPlanes<dim>                 &planes,

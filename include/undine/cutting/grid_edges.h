@@ -17,8 +17,11 @@ namespace undine
   ///
   /// The crossings of an edge are sorted by position; ties by where the crossings go when the
   /// planes move down their axes by e_0 << e_1 << ...: a crossing on a line of axis a moves by
-  /// e_d N_d / N_a, N the facet's normal. Where rounding has broken the alternation of entering
-  /// and leaving, it is restored from the signs: the topology follows the integers.
+  ///
+  ///     e_d N_d / N_a,
+  ///
+  /// N being the facet's normal. Where rounding has broken the alternation of crossings into and
+  /// out of the solid, it is restored from the signs: the topology follows the integers.
   template <int dim>
   class GridEdges
   {
@@ -51,6 +54,7 @@ namespace undine
          const GridIndex<dim>                  &node,
          const unsigned int                     axis);
 
+    /// An interval by its number, see Edge.
     const Interval &
     interval(const int number) const
     {
@@ -89,8 +93,8 @@ namespace undine
                    const GridIndex<dim>                  &node,
                    const unsigned int                     axis);
 
-    /// Make entering and leaving alternate from winding `start` on; an inversion by more than
-    /// rounding is flagged instead.
+    /// Make crossings into and out of the solid alternate from winding `start` on; an inversion by
+    /// more than rounding is flagged instead.
     void
     restore_alternation(Edge                    &edge,
                         const SplitSurface<dim> &split,

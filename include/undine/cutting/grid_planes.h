@@ -25,6 +25,7 @@ namespace undine
     /// `positions` of the planes normal to each axis, ascending [m].
     explicit GridPlanes(const std::array<std::vector<double>, dim> &positions);
 
+    /// Number of slabs between the planes normal to `axis`.
     int
     n_cells(const unsigned int axis) const
     {
@@ -45,7 +46,7 @@ namespace undine
       return planes[axis][cell + 1] - planes[axis][cell];
     }
 
-    /// Which way the perturbation moves a plane: 1 up, -1 down.
+    /// The direction in which the perturbation moves a plane: 1 up, -1 down.
     static double
     shift(const int plane)
     {
@@ -94,19 +95,21 @@ namespace undine
       return *grid_planes;
     }
 
+    /// The cells that this rank owns.
     const IndexBox<dim> &
     owned() const
     {
       return owned_cells;
     }
 
+    /// The owned cells and the halo.
     const IndexBox<dim> &
     cells() const
     {
       return all_cells;
     }
 
-    /// Where planes cross, the rim of the block included.
+    /// The crossings of planes, those on the rim of the block included.
     const IndexBox<dim> &
     nodes() const
     {

@@ -36,6 +36,7 @@ namespace undine
     int
     add(const std::int64_t key);
 
+    /// The key that has this slot.
     std::int64_t
     key(const int slot) const
     {

@@ -36,6 +36,7 @@ namespace undine
     void
     add_lower_blocks(const GridBlock<dim> &block, const Blocks<dim> &blocks);
 
+    /// The winding number of a node, by GridBlock::key(node).
     int
     operator[](const std::int64_t key) const
     {

@@ -62,6 +62,7 @@ namespace undine
                  const int                end,
                  const double             rounding);
 
+    /// The regions of the last call of find_regions(), by their numbers.
     const std::vector<PlanarRegion> &
     regions() const
     {

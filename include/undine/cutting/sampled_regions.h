@@ -22,6 +22,7 @@ namespace undine
 
     using Simplex = std::array<dealii::Point<dim>, dim>;
 
+    /// A connected part of the fluid.
     struct Region
     {
       double             volume = 0; ///< [m^dim]
@@ -73,8 +74,8 @@ namespace undine
     void
     add_facets(const std::vector<Simplex> &simplices);
 
-    /// How often facets that may touch bin `here`, but not bin `counted`, are entered less left on
-    /// the straight way between two places.
+    /// How often the segment between two places enters the solid through facets that may touch bin
+    /// `here`, but not bin `counted`, minus how often it leaves it.
     int
     crossings(const dealii::Point<dim> &from,
               const dealii::Point<dim> &to,
@@ -85,7 +86,8 @@ namespace undine
     void
     find_relative_windings();
 
-    /// What to add to relative windings: a corner off the surface tells, or most corners do.
+    /// The number to add to relative windings, from a corner that is not on the surface or, if
+    /// there is none, by the majority of corners.
     int
     first_winding(const CornerWindings         &corner_windings,
                   const dealii::Tensor<1, dim> &lower_shifts) const;
@@ -124,8 +126,8 @@ namespace undine
 
 
   /// Replace the components of the last cell by sampled ones. Of every fragment the part that is
-  /// wet goes to the nearest component: what moves inside another body pushes no fluid. Closure is
-  /// lost until close_sampled_cells().
+  /// wet goes to the nearest component: surfaces inside another body have no surface flux. Closure
+  /// is lost until close_sampled_cells().
   template <int dim>
   void
   sample_cell(CutCells<dim> &cut, const CutWorkspace<dim> &work);

@@ -25,8 +25,8 @@ namespace undine
 
     dealii::Point<dim> position; ///< [m]; the coordinate along `axis` is that of the plane
 
-    /// On a ridge: the way from its lower node, 0..1, first. In a facet: the barycentric
-    /// coordinates of its nodes 1, 2, ...
+    /// On a ridge: first its position on the segment from the lower node, 0..1. In a facet: the
+    /// barycentric coordinates of its nodes 1, 2, ...
     std::array<double, dim - 1> parameters;
 
     GridIndex<dim> slabs; ///< in which it lies, clamped to the block
@@ -80,6 +80,7 @@ namespace undine
     void
     clear();
 
+    /// The next edge number.
     int
     new_edge()
     {
@@ -94,8 +95,8 @@ namespace undine
     std::vector<Corner>         corners;
     std::vector<Fragment>       fragments;
     KeyedLists                  fragments_in; ///< by cell, key(node)
-    int                         n_edges  = 0;
-    int                         failures = 0; ///< facets that could not be split; never seen
+    int                         n_edges = 0;
+    int failures = 0; ///< facets that could not be split; not known to happen
   };
 
 

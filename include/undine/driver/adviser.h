@@ -12,9 +12,10 @@
 
 namespace undine
 {
-  /// What a run says about the effects that a scene calls for.
+  /// Advice of a run about the effects that a scene calls for.
   struct Advice
   {
+    /// A dimensionless number of the run.
     struct Number
     {
       std::string name;
@@ -57,8 +58,8 @@ namespace undine
   };
 
 
-  /// Watches a run, and names effects that could be left out, or should not have been. It knows
-  /// nothing but what the run has measured. Not for particles.
+  /// Measures during a run and names effects that could be left out, or that are missing, by these
+  /// measurements alone. Not for particles.
   template <int dim>
   class Adviser
   {

@@ -10,6 +10,7 @@ namespace undine
   /// What the user asks of the program.
   struct Request
   {
+    /// What the program is to do.
     enum class Action
     {
       run,       ///< run `scene_file`

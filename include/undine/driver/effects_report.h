@@ -25,11 +25,11 @@ namespace undine
     void
     print_start(Log &log) const;
 
-    /// What each effect that is on has cost so far, and what the adviser says. Collective.
+    /// The cost so far of each effect that is on, and the advice. Collective.
     void
     print_end(Log &log, const Advice &advice) const;
 
-    /// All of it, with what the adviser says. Collective.
+    /// All of it, with the advice, as the text of `effects.json`. Collective.
     std::string
     json(const Advice &advice) const;
 

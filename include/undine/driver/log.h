@@ -15,18 +15,18 @@
 
 namespace undine
 {
-  /// What the user reads during a run: the screen and log.txt, from the first rank only.
+  /// The messages of a run to the user: standard output and log.txt, from the first rank only.
   class Log
   {
   public:
     explicit Log(MPI_Comm communicator);
 
     /// Also write to DIRECTORY/log.txt, what was printed so far included; after what is there if
-    /// `mode` is std::ios::app.
-    /// Throws FileError on all ranks if it cannot be opened.
+    /// `mode` is std::ios::app. Collective. Throws FileError on all ranks if it cannot be opened.
     void
     open(const std::filesystem::path &directory, std::ios::openmode mode);
 
+    /// A line, formatted by {fmt}; nothing on other ranks than the first.
     template <class... Values>
     void
     print(fmt::format_string<Values...> format, Values &&...values)
@@ -39,8 +39,8 @@ namespace undine
     bool
     has_notes(const Report &report) const;
 
-    /// What `report` says that a user may want to know; a warning only if the report before had
-    /// none of the same subject.
+    /// The note and the warnings of `report`; a warning only if the report before had none of the
+    /// same subject.
     void
     print_notes(const Report &report);
 

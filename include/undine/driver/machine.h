@@ -10,7 +10,7 @@
 
 namespace undine
 {
-  /// Room for something on a machine, and what says so.
+  /// Free memory or disk space of a machine, and the limit by which it is known.
   struct Room
   {
     double      bytes = std::numeric_limits<double>::infinity(); ///< infinity: nothing bounds it
@@ -27,16 +27,16 @@ namespace undine
   Room
   free_memory_of_process();
 
-  /// What each rank may still take, if those of a host share its memory evenly: the least of all
-  /// ranks. Collective.
+  /// The memory that each rank may still take, if those of a host share its memory evenly: the
+  /// least of all ranks. Collective.
   Room
   free_memory_of_each_rank(MPI_Comm communicator);
 
-  /// What this process has in memory now [bytes]; 0 if the system does not tell.
+  /// Memory in use by this process now [bytes]; 0 if the system does not tell.
   double
   memory_in_use();
 
-  /// Of the disk on which `folder`, or where it will be, is.
+  /// Free space on the disk on which `folder` is or will be.
   Room
   free_disk(const std::filesystem::path &folder);
 } // namespace undine

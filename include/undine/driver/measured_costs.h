@@ -11,8 +11,8 @@
 
 namespace undine
 {
-  /// After the first steps of a run, a line with what they have taken: it takes the place of the
-  /// estimate at the start.
+  /// Prints, after the first steps of a run, a line with the memory and time that they have taken,
+  /// in place of the estimate at the start.
   class MeasuredCosts
   {
   public:

@@ -16,8 +16,10 @@ namespace undine
   class Progress
   {
   public:
+    /// `start` is the clock before the first step. The log must outlive it.
     Progress(Log &log, const Clock &start);
 
+    /// A step has been made; prints a line if it is time.
     void
     report(const Clock &clock, const Report &report);
 

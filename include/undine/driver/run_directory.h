@@ -35,17 +35,18 @@ namespace undine
                    const std::string &text,
                    MPI_Comm           communicator);
 
-  /// Versions and ranks, and what the scene is.
+  /// Print versions, number of ranks, title of the scene and folders.
   template <int dim>
   void
   print_header(Log &log, const Scene<dim> &scene, const Options &options, MPI_Comm communicator);
 
-  /// The sizes of the discrete problem.
+  /// Print the sizes of the discrete problem and warnings about locking.
   template <int dim>
   void
   print_unknowns(Log &log, const Scene<dim> &scene);
 
-  /// The table of seconds by phase, to the log and to the file `timing`.
+  /// Write the table of seconds by phase to the log and to the file `timing`. Collective. Throws
+  /// FileError.
   void
   write_timing(ResultFolder &folder, const TimingTree &timing, Log &log, MPI_Comm communicator);
 } // namespace undine

@@ -30,7 +30,7 @@ namespace undine
     {
       const FluidModel<dim>   *fluid;         ///< nullptr: none
       const SolidModel<dim>   *solid;         ///< nullptr: none
-      bool                     has_obstacles; ///< something stands in the fluid
+      bool                     has_obstacles; ///< there are obstacles in the fluid
       std::vector<std::string> effects;       ///< names of those that the scene calls for
       std::vector<std::string> scalars;       ///< names of the scalar fields that are carried
       bool                     has_fluid_particles = false; ///< a fluid, but not on a grid
@@ -54,11 +54,11 @@ namespace undine
     virtual std::vector<std::string>
     scalars() const;
 
-    /// Set up the fields named by scalars(): initial values.
+    /// Set the fields named by scalars() to their initial values.
     virtual void
     initialize(const FluidModel<dim> &model, FluidState<dim> &state) const;
 
-    /// The fluid step runs these three phases for every effect, in this order. @{
+    /// The fluid step runs these three phases for every effect, in this order. Collective. @{
 
     /// Carry velocity and scalars with the flow.
     virtual void
@@ -76,7 +76,7 @@ namespace undine
     /// What a stage of a step computes for the effect on every cell of the grid.
     struct Work
     {
-      unsigned int carried  = 0; ///< fields that go along with the flow
+      unsigned int carried  = 0; ///< fields that the flow carries
       unsigned int implicit = 0; ///< fields for which a linear system is solved
     };
 
@@ -89,15 +89,16 @@ namespace undine
     virtual std::size_t
     memory_consumption(const FluidState<dim> &state) const;
 
-    /// Does it need to know where the planes of the grid meet the surfaces in the fluid?
+    /// Does it need NoSlipSurfaces: where the planes of the grid meet the surfaces in the fluid?
     virtual bool
     needs_no_slip_surfaces() const;
 
-    /// Say what the effect does to the bodies.
+    /// Add what the effect does to the bodies to their environment.
     virtual void
     affect(SolidEnvironment<dim> &environment) const;
 
-    /// Say what the effect does to particles. Returns false if they do not know it.
+    /// Add what the effect does to particles to their setup. Returns false if particles do not have
+    /// the effect.
     virtual bool
     affect_particles(particles::Setup<dim> &setup) const;
 

@@ -24,12 +24,14 @@ namespace undine
   ///  4. project:    v = v* - g grad p / rho,  div v = 0                          (Projection)
   ///  5. finish:     a = (v - v') / g,  q = p - mu div w
   ///
-  /// with pressures q of the last stage. Friction sees the flow that will be left after 4, not one
+  /// with pressures q of the last stage. Friction acts on the flow that 4 will leave, not on one
   /// that still slips along walls: step 3 borrows the old pressure gradient and gives it back, the
   /// incremental pressure correction in its rotational form (Guermond, Minev & Shen 2006).
   ///
-  /// Stages that keep rates start from v^0 = v^n + w a^n and so on, a being the acceleration of the
-  /// fluid's parcels; the flow that carries is that in the middle of the way, v + way dv/dt / 2.
+  /// Stages that keep rates (T9) start from v^0 = v^n + w a^n and so on, a being the acceleration
+  /// of the fluid's parcels; the flow that carries is that in the middle of the stage,
+  ///
+  ///     v + (duration of the stage) / 2 dv/dt.
   ///
   /// A step of a single stage that keeps none is first order in time: forces act at t^{n+1} as a
   /// whole, which damps. Steady flows, however, hardly depend on h: v' = A(v^n + c h a^n) - c h a^n
@@ -44,8 +46,9 @@ namespace undine
     static constexpr double carried_share = 0.45; ///< c
 
     /// A stage of the step that begins at `time` = t^n. `next` is what the stage that follows
-    /// starts from. Freezes the flow. What bodies leave of the grid may have changed since then:
-    /// velocity and scalars follow when they are carried, pressure here. Collective.
+    /// starts from. `tracer` gets its own copy of the flow, which later changes of `state` do not
+    /// reach. The topology of the fluid, `bodies.topology`, may differ from that of `state`:
+    /// velocity and scalars change to it when they are carried, the pressure does here. Collective.
     FluidStep(const FluidModel<dim>                            &model,
               FluidState<dim>                                  &state,
               FluidStageStart<dim>                             &next,
@@ -59,8 +62,8 @@ namespace undine
     std::vector<Velocity<dim> *>
     to_carry();
 
-    /// Bring what no effect has carried to what bodies leave of the grid now: it stays where it
-    /// was. Collective.
+    /// Bring fields that no effect has carried to the present topology of the fluid; their values
+    /// stay where they were. Collective.
     void
     remap();
 
@@ -73,7 +76,7 @@ namespace undine
     FluidStageStart<dim>        &next;    ///< of the stage that follows
     const dealii::Tensor<1, dim> gravity; ///< uniform acceleration, in the reduced pressure [m/s^2]
     const Stage                  stage;
-    const double                 time;  ///< where the way of parcels begins [s]
+    const double                 time;  ///< where the paths of parcels begin [s]
     const double                 start; ///< where the implicit step begins [s]
     const double                 end;   ///< of both [s]
     const double                 dt;    ///< g, the length of the implicit step [s]
@@ -81,7 +84,7 @@ namespace undine
     const CharacteristicTracer<dim> tracer;                ///< carries everything
     unsigned int                    linear_iterations = 0; ///< summed over implicit solves
 
-    /// What effects leave for finish(). @{
+    /// Results of effects for finish(). @{
     std::optional<Velocity<dim>> carried;             ///< v' [m/s], by convection
     std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
     std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces
@@ -99,7 +102,7 @@ namespace undine
     Velocity<dim>
     remapped_velocity(const Velocity<dim> &velocity) const;
 
-    Velocity<dim> before; ///< where the way begins, if rates are kept [m/s]
+    Velocity<dim> before; ///< velocity where the paths begin, if rates are kept [m/s]
   };
 } // namespace undine
 

@@ -10,7 +10,8 @@
 
 namespace undine
 {
-  /// What the fluid's pressure does to the nodes of a surface [N]; in 2D per metre of depth.
+  /// Forces of the fluid's pressure on the nodes of a surface, [nodes] [N]; in 2D per metre of
+  /// depth.
   template <int dim>
   struct PressureForces
   {
@@ -18,12 +19,14 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>> gravity; ///< gravity_loads(); empty without gravity
   };
 
-  /// Sums over the nodes of each body. Every node must belong to one body only.
+  /// Sums of nodal `values` over the nodes of each body, [bodies]. Every node must belong to one
+  /// body only.
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   sums_over_bodies(const Surface<dim> &surface, const std::vector<dealii::Tensor<1, dim>> &values);
 
-  /// For each body and axis the sum of forces in the nodes, "NAME ball x" [N].
+  /// For each body and axis the sum of the forces in the nodes, "NAME ball x" [N], for the file
+  /// `statistics`.
   template <int dim>
   Columns
   body_force_columns(const std::string                         &name,

@@ -13,7 +13,7 @@
 
 namespace undine
 {
-  /// The operator B between the surfaces of bodies and the components of cut cells:
+  /// The operator B between the surfaces of bodies and the components of cut cells (I2):
   ///
   ///     (B u)_c = int_{Gamma_c} u.n dGamma   [m^dim/s],    n out of the fluid into the solid,
   ///
@@ -22,7 +22,7 @@ namespace undine
   /// (Chentanez, Goktekin, Feldman & O'Brien, equations 1-4). Work is balanced to rounding: both
   /// use the same entries.
   ///
-  /// Fragments that no fluid touches (CutCells::no_component) take no part.
+  /// Fragments that no fluid touches (CutCells::no_component) are left out.
   template <int dim>
   class BoundaryFlux
   {
@@ -36,28 +36,30 @@ namespace undine
       dealii::Tensor<1, dim> value; ///< int_{Gamma_c} N_node n dGamma [m^(dim-1)]
     };
 
+    /// B where the surface was cut. Not collective.
     BoundaryFlux(const CutCells<dim> &cut, const Surface<dim> &surface);
 
     /// The mean of B over a motion in which all nodes go straight on from `before`, where the
-    /// surface was cut, to `after`, each fragment with its facet: with w = (after - before) / h,
-    /// h B w is the volume that the surface sweeps, exactly.
+    /// surface was cut, to `after`, each fragment with its facet: with w = (after - before) / h, h
+    /// B w is the volume that the surface sweeps, exactly. Positions [nodes] [m].
     BoundaryFlux(const CutCells<dim>                   &cut,
                  const Surface<dim>                    &surface,
                  const std::vector<dealii::Point<dim>> &before,
                  const std::vector<dealii::Point<dim>> &after);
 
-    /// One for each pair of component and node, sorted by component, then node.
+    /// The entries of B, one for each pair of component and node, sorted by component, then node.
     const std::vector<Entry> &
     entries() const
     {
       return all_entries;
     }
 
-    /// B u of the components of owned cells; zero for the others [CutCells::components].
+    /// B u, [CutCells::components] [m^dim/s], of `velocities` [nodes] [m/s]: of the components of
+    /// owned cells; zero for the others.
     std::vector<double>
     flux(const std::vector<dealii::Tensor<1, dim>> &velocities) const;
 
-    /// This rank's part of B^T p in all nodes, given a number for each component. [N] for pressures
+    /// This rank's part of B^T p in all nodes, [nodes] [N], for pressures [CutCells::components]
     /// [Pa].
     std::vector<dealii::Tensor<1, dim>>
     local_forces(const std::vector<double> &pressures) const;
@@ -76,9 +78,9 @@ namespace undine
   };
 
 
-  /// The volume that the surface, cut where its nodes are at `place`, sweeps out of each component
-  /// while they go straight on along `way` from where they were at `before`, each fragment with its
-  /// facet, exactly [m^dim], [CutCells::components].
+  /// The volume that the surface, whose nodes were at `place` when it was cut, sweeps out of each
+  /// component while they move straight from `before` by `increment` [m], each fragment with its
+  /// facet; exact, [CutCells::components] [m^dim].
   template <int dim>
   std::vector<double>
   swept_volumes(const CutCells<dim>                       &cut,
@@ -87,15 +89,16 @@ namespace undine
                 const std::vector<dealii::Point<dim>>     &before,
                 const std::vector<dealii::Tensor<1, dim>> &increment);
 
-  /// What limits the accuracy of velocities in the nodes of a surface.
+  /// The quantities that limit the accuracy of velocities in the nodes of a surface.
   struct StepAccuracy
   {
     double dt;                 ///< of the step from whose ends they have been computed [s]
     double largest_coordinate; ///< [m]
   };
 
-  /// B u on the components of `parts`, with the names of the bodies as in the surface. Uncertain
-  /// is 1e-8 of area times speed, and what the rounding of positions makes of either.
+  /// The swept-volume flux B u of the components of `parts.open->cells`, with the names of the
+  /// bodies as in the surface. Its uncertainty is 1e-8 of the area times the speed, plus the effect
+  /// of rounding of positions on both. Not collective.
   template <int dim>
   SweptVolumeFlux
   swept_volume_flux(const BoundaryFlux<dim>                   &boundary_flux,
@@ -105,27 +108,28 @@ namespace undine
                     const std::vector<dealii::Tensor<1, dim>> &velocities,
                     const StepAccuracy                        &accuracy);
 
-  /// Of the surface around each component of the cut cells the area of facets of the first
-  /// `n_nodes` nodes [m^(dim-1)].
+  /// The area of the surface around each component, [CutCells::components] [m^(dim-1)], of those
+  /// facets that belong to the first `n_nodes` nodes.
   template <int dim>
   std::vector<double>
   wetted_areas(const CutCells<dim> &cut, const Surface<dim> &surface, const std::size_t n_nodes);
 
-  /// B^T p in all nodes of the surface, on all ranks, given a number for each of cut.components.
-  /// Collective.
+  /// B^T p in all nodes of the surface, [nodes] [N], the same on all ranks, for pressures
+  /// [CutCells::components] [Pa]. Collective.
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   nodal_forces(const BoundaryFlux<dim>   &boundary_flux,
                const std::vector<double> &pressures,
                MPI_Comm                   communicator);
 
-  /// Forces in all nodes of the weight that reduced pressure leaves out, on all ranks [N]:
+  /// The forces of the weight that the reduced pressure leaves out (I4), [nodes] [N], the same on
+  /// all ranks:
   ///
-  ///     f_i = int rho (g.x) N_i n dGamma,    p + rho g.x being the pressure if p is the reduced
-  ///     one,
+  ///     f_i = int rho (g.x) N_i n dGamma,
   ///
-  /// with g.x = 0 at the origin; exact by the second moments of the fragments. `densities` [kg/m^3]
-  /// of what fills each of cut.components: zero where the pressure is no reduced one. Collective.
+  /// since the pressure is p + rho g.x if p is the reduced one, with g.x = 0 at the origin; exact
+  /// by the second moments of the fragments. `densities` [CutCells::components] [kg/m^3] of what
+  /// fills each component: zero where the pressure is not a reduced one. Collective.
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   gravity_loads(const CutCells<dim>                   &cut,

@@ -8,10 +8,11 @@
 
 namespace undine
 {
-  /// Those of the numbers 0, 1, ... that are kept.
+  /// The numbers k of 0, 1, ..., n - 1 for which is_kept(k), in ascending order.
   class CompactNumbering
   {
   public:
+    /// `n`: how many numbers there are.
     template <class Predicate>
     CompactNumbering(const int n, const Predicate &is_kept)
     {
@@ -24,7 +25,7 @@ namespace undine
       n_below.push_back(kept.size());
     }
 
-    /// Those from `begin` to before `end`.
+    /// The kept numbers from `begin` to before `end`, 0 <= begin <= end <= n.
     dealii::ArrayView<const int>
     between(const int begin, const int end) const
     {

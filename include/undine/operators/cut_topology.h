@@ -12,8 +12,8 @@
 
 namespace undine
 {
-  /// What holds no fluid though it lies outside all bodies. For each component and cell the number
-  /// of its void region, or one of the others.
+  /// Space outside all bodies that holds no fluid: for each component and cell the number of its
+  /// void region, or one of the constants.
   struct VoidMask
   {
     static constexpr int fluid     = -1;
@@ -30,6 +30,7 @@ namespace undine
       return !components.empty() && components[component] != fluid;
     }
 
+    /// True if the whole cell at this position of GridBlock::cells() is in a void region.
     bool
     holds_cell(const std::size_t position) const
     {
@@ -37,8 +38,8 @@ namespace undine
     }
   };
 
-  /// What cut cells leave of the grid, in the fluid's terms, and how its components are numbered in
-  /// either.
+  /// The topology that cut cells leave to the fluid, and the correspondence between the numbers of
+  /// components and pieces in both.
   template <int dim>
   struct CutTopology
   {
@@ -52,23 +53,26 @@ namespace undine
     /// the fluid knows less of the grid than the block.
     std::vector<int> open_components;
 
-    /// [axis][part of open->faces]: number in CutCells::pieces; -1 for those that other ranks own
+    /// [axis][number in open->faces]: number in CutCells::pieces; -1 for those that other ranks own
     /// and on periodic sides.
     std::array<std::vector<int>, dim> cut_pieces;
 
-    /// Values of the components of open->cells, ordered as CutCells::components; what is unknown
-    /// there is zero.
+    /// `values` [open->cells] of components, ordered as [CutCells::components]; zero where
+    /// open_components is -1. Not collective.
     std::vector<double>
     of_cut_cells(const std::vector<double> &values) const;
 
-    /// The other way round.
+    /// The inverse: `values` [CutCells::components], ordered as [open->cells]; zero where
+    /// cut_components is -1. Not collective.
     std::vector<double>
     of_fluid_topology(const std::vector<double> &values) const;
   };
 
-  /// `cut` must come from a block of this rank's cells with a halo, see block_of_rank(). Bodies may
-  /// come near to periodic sides but not reach them: the pieces there are whole faces. Where
-  /// samples say otherwise, the face is closed. What is void counts as closed. Collective.
+  /// The topology of the fluid of the whole grid, from the cells that each rank has cut. `cut` must
+  /// come from a block of this rank's cells with a halo, see block_of_rank(). Bodies may come near
+  /// to periodic sides but not reach them: the pieces there are whole faces; where sampled cells
+  /// say otherwise, the face is closed. Cells and components that are void count as closed.
+  /// Collective.
   template <int dim>
   CutTopology<dim>
   make_fluid_topology(const MacGrid<dim>  &grid,

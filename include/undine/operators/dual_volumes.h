@@ -33,7 +33,8 @@ namespace undine
     dealii::Tensor<1, dim> added;
   };
 
-  /// Right for the faces of owned cells if the block has a halo.
+  /// Dual volumes of all pieces of the block; correct for the faces of owned cells if the block has
+  /// a halo. Not collective.
   template <int dim>
   DualVolumes<dim>
   dual_volumes(const CutCells<dim> &cut);

@@ -11,7 +11,8 @@
 
 namespace undine
 {
-  /// How many parts a point has, as a number in a field: 0, 1, 2, ... or one of these. @{
+  /// How many sub-cells or sub-faces a point has, as a number in a field: 0, 1, 2, ... or one of
+  /// these. @{
   constexpr int count_whole  = -1;
   constexpr int count_closed = -2;
   /// @}
@@ -27,8 +28,9 @@ namespace undine
     for_each(box, [&](const GridIndex<dim> &first) { action(first, n); });
   }
 
-  /// The parts of a lattice's points, from those of the points that each rank owns: their counts,
-  /// and part(index, number in its point). Images lie where their points have images. Collective.
+  /// The sub-cells or sub-faces of a lattice's points, from those of the points that each rank
+  /// owns: their `counts`, and part(index, number in its point). At images of points they are
+  /// shifted along. Collective.
   template <int dim>
   SubLattice<dim>
   make_exchanged_parts(

@@ -11,9 +11,8 @@
 
 namespace undine
 {
-  /// The part of BoundaryFlux that bodies are free to change, as a matrix: its rows are the fluid's
-  /// pressures, its columns the bodies' degrees of freedom. Columns of fixed ones are empty.
-  /// Collective.
+  /// BoundaryFlux as a matrix [m^(dim-1)]: its rows are the fluid's pressures, its columns the
+  /// bodies' degrees of freedom. Columns of fixed ones are empty. Collective.
   template <int dim>
   void
   build_flux_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix,
@@ -23,7 +22,8 @@ namespace undine
                     const ImmersedSurface<dim>             &surface,
                     const SolidModel<dim>                  &solid);
 
-  /// The rows of that matrix, of this rank, that are not empty: pressures to which bodies yield.
+  /// The rows of that matrix on this rank that are not empty: pressures to which bodies yield. Not
+  /// collective.
   std::vector<dealii::types::global_dof_index>
   filled_rows(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 } // namespace undine

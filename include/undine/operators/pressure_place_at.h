@@ -8,9 +8,10 @@
 
 namespace undine
 {
-  /// Where the pressure sits that a point of a cell of this rank has. `open`: nullptr if nothing
-  /// stands in the fluid. Throws SolveError, whose message begins with "lies", if that is no fluid,
-  /// or if the point is too near to a surface to tell on which side it is.
+  /// Where the pressure sits that holds at `point` [m], which must be in a cell that this rank
+  /// knows. `open`: nullptr if nothing is cut. Throws SolveError, whose message begins with "lies",
+  /// if the point is not in the fluid, or too near to a surface to tell on which side it is; on
+  /// this rank only.
   template <int dim>
   PressurePlace<dim>
   pressure_place_at(const dealii::Point<dim> &point,

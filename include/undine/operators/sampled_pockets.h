@@ -6,10 +6,11 @@
 
 namespace undine
 {
-  /// Mark as VoidMask::pocket, among the fluid that `voids` leaves, the connected parts that lie
-  /// in sampled cells alone: what bodies that overlap seem to enclose between them is no larger
-  /// than what samples can tell, and what moving bodies press out of it could go nowhere. `parts`
-  /// comes from make_fluid_topology(grid, cut, voids) and must be made anew afterwards. Collective.
+  /// Mark as VoidMask::pocket, among the fluid that `voids` leaves, the connected regions that lie
+  /// in sampled cells alone: what overlapping bodies seem to enclose between them is no larger than
+  /// the resolution of the samples, and fluid that moving bodies displace there could not leave.
+  /// `parts` comes from make_fluid_topology(grid, cut, voids) and must be made anew afterwards.
+  /// Collective.
   template <int dim>
   void
   close_sampled_pockets(VoidMask               &voids,

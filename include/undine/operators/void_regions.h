@@ -41,9 +41,10 @@ namespace undine
       return regions.empty();
     }
 
-    /// What is void, given all that bodies leave open. `last` is what was void before the bodies
-    /// moved, nothing at the start. Throws SolveError, naming the region, if the seed lies in a
-    /// body or too near to one, or if the region is connected with fluid: if it has an inflow or an
+    /// The void regions, given the topology `all` that the surfaces of bodies and obstacles leave
+    /// of the grid. `last` is the mask before the bodies moved, empty at the start. Throws
+    /// SolveError, naming the region, if the seed lies in a body or too near to one, if two regions
+    /// join each other, or if the region is connected with fluid: if it has an inflow or an
     /// opening, holds cells that held fluid, or leaves no fluid at all. Collective.
     VoidMask
     find(const CutCells<dim>    &cut,
@@ -51,8 +52,9 @@ namespace undine
          const Obstruction<dim> &obstruction,
          const VoidMask         &last) const;
 
-    /// For each of CutCells::components the pressure of the void that it belongs to [Pa], zero if
-    /// it is fluid. It is the whole pressure: gravity_loads() are none there.
+    /// For each of CutCells::components the pressure of the void region that it belongs to at
+    /// `time` [s], [Pa]; zero if it is fluid. It is the whole pressure, not the reduced one, so
+    /// that there are no gravity_loads() there.
     std::vector<double>
     pressures(const VoidMask &voids, const double time) const;
 

@@ -21,7 +21,7 @@ namespace undine
   template <int dim>
   class Probe;
 
-  /// What an output may use besides the state. The references outlive the outputs.
+  /// All that an output may use besides the state. The references outlive the outputs.
   template <int dim>
   struct OutputContext
   {
@@ -40,7 +40,7 @@ namespace undine
   public:
     virtual ~Output() = default;
 
-    /// Reads the part's own subsection of `Output`.
+    /// Declares and reads the keys of the output's own subsection of `Output`.
     virtual void
     add_options(const Options &options) = 0;
 
@@ -56,12 +56,13 @@ namespace undine
       (void)context, (void)state, (void)report, (void)from;
     }
 
-    /// Called once before the first write. `state` is the initial one, or that of a checkpoint when
-    /// the run is resumed: records later than its clock must be dropped, earlier ones kept.
+    /// Called once before the first write. Collective. `state` is the initial one, or that of a
+    /// checkpoint when the run is resumed: records later than its clock must be dropped, earlier
+    /// ones kept.
     virtual void
     start(const OutputContext<dim> &context, const State<dim> &state) = 0;
 
-    /// Called for the initial state and after every step.
+    /// Is there something to write now? Called for the initial state and after every step.
     virtual bool
     due(const Clock &clock) const = 0;
 

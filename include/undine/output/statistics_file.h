@@ -39,7 +39,7 @@ namespace undine
     void
     append(const Columns &columns);
 
-    /// Of header and rows so far, on the first rank; 0 elsewhere and without rows.
+    /// The digest of header and rows so far, on the first rank; 0 elsewhere and without rows.
     std::uint64_t
     digest() const;
 

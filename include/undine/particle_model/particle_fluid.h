@@ -32,7 +32,7 @@ namespace undine
       double fastest = 0; ///< [m/s]
     };
 
-    /// Look at one cube of so many that about 1e5 are looked at. Throws InputError.
+    /// Evaluate one cube of so many that about 1e5 are evaluated. Throws InputError.
     Sample
     sample(const ParticleDomain<dim> &domain, const dealii::Tensor<1, dim> &gravity) const;
 

@@ -8,7 +8,8 @@
 
 namespace undine
 {
-  /// What a run of a scene will take, from its size and what runs have taken (cost_figures.h).
+  /// The memory, time and disk space that a run of a scene will take, from its size and
+  /// measurements of other runs (cost_figures.h).
   struct Estimate
   {
     /// By which factors a run may take more or less, as far as has been measured.
@@ -21,7 +22,7 @@ namespace undine
     double picture    = 0; ///< a file of results [bytes]
     double checkpoint = 0; ///< [bytes]
 
-    /// What a rank takes while the scene is read and run [bytes].
+    /// Memory that a rank takes while the scene is read and run [bytes].
     double
     growth_of_rank(unsigned int n_ranks) const
     {
@@ -29,6 +30,7 @@ namespace undine
     }
   };
 
+  /// The estimate for a scene of this size on `n_ranks` ranks.
   Estimate
   estimate(const SceneSize &size, unsigned int n_ranks);
 

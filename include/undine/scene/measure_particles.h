@@ -6,8 +6,8 @@
 
 namespace undine
 {
-  /// How many particles a scene of the scheme 'particle' has, and how many sub-steps a frame. The
-  /// region of the fluid is looked at in a sample of places; no particle is made. Throws
+  /// The number of particles of a scene of the scheme 'particle', and of sub-steps of a frame. The
+  /// region of the fluid is evaluated at a sample of places; no particle is made. Throws
   /// InputError, FileError.
   template <int dim>
   ParticleSize

@@ -6,7 +6,7 @@
 
 namespace undine
 {
-  /// A fluid on a grid, with what stands in it.
+  /// A fluid on a grid, with the surfaces in it.
   struct GridSize
   {
     double       cells        = 0;     ///< 0: there is no grid
@@ -51,8 +51,8 @@ namespace undine
     }
   };
 
-  /// How large a scene is, by its parameter file alone: counts, and where shapes are curved or
-  /// mapped or regions are expressions, what comes near them.
+  /// The size of a scene, by its parameter file alone: counts, which are approximate where shapes
+  /// are curved or mapped or regions are expressions.
   struct SceneSize
   {
     unsigned int dimension = 0;

@@ -26,20 +26,22 @@ namespace undine
     /// Collective.
     explicit BodySurface(const SolidModel<dim> &model);
 
-    /// The same nodes and facets, of which only those of a part of the bodies move: vectors are
-    /// those of the part. The others stay where `displacement`, of all bodies, has taken them.
+    /// The same nodes and facets, of which only those of some bodies move: vectors are those of
+    /// `part`. The other nodes stay at their positions under `displacement` [m], of all bodies.
     /// Collective.
     BodySurface(const BodySurface &all, const PartOfBodies<dim> &part, const Vector &displacement);
 
     /// The same where no body moves, whatever the vectors. Collective.
     BodySurface(const BodySurface &all, const Vector &displacement);
 
+    /// Facets and bodies of all nodes, those that do not move included.
     const Surface<dim> &
     surface() const
     {
       return all_facets;
     }
 
+    /// Number of nodes of all bodies, the same on all ranks.
     unsigned int
     n_nodes() const
     {
@@ -60,17 +62,17 @@ namespace undine
       return dofs[node];
     }
 
-    /// The values of a vector over the locally owned degrees of freedom in all nodes, on every
-    /// rank; zero in those that do not move. Collective.
+    /// The values of a vector over the locally owned degrees of freedom in all nodes, [nodes], in
+    /// its unit, on every rank; zero in nodes that do not move. Collective.
     std::vector<dealii::Tensor<1, dim>>
     gather(const Vector &vector) const;
 
-    /// Where the nodes are: X + d [m], on every rank. Collective.
+    /// Positions X + d of the nodes [m], on every rank. Collective.
     std::vector<dealii::Point<dim>>
     positions(const Vector &displacement) const;
 
     /// Add values in the nodes, such as forces [N], the same on all ranks, to a vector over the
-    /// locally owned degrees of freedom.
+    /// locally owned degrees of freedom. Collective.
     void
     add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const;
 

@@ -13,8 +13,8 @@ namespace undine
   template <int dim>
   using FacetNodes = std::array<dealii::Point<dim>, dim>;
 
-  /// A facet as ways meet it: as thick as rounding, and as much wider. Facets without area are
-  /// never met: their neighbours cover them.
+  /// A facet with a thickness of the size of rounding, and as much wider, for intersection with
+  /// segments. Facets without area are never met: their neighbours cover them.
   template <int dim>
   class ThickFacet
   {
@@ -22,8 +22,8 @@ namespace undine
     /// `thickness` [m] to either side.
     ThickFacet(const FacetNodes<dim> &nodes, const double thickness);
 
-    /// The share of the way from `from` to `to` at which it comes within `thickness` of the facet's
-    /// plane and its rims; infinity if it does not.
+    /// The share of the segment from `from` to `to` at which it first comes within `thickness` of
+    /// the facet's plane and its rims [1]; infinity if it does not.
     double
     first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const;
 
@@ -53,9 +53,9 @@ namespace undine
   nearest_point(const FacetNodes<3> &facet, const dealii::Point<3> &place);
   /// @}
 
-  /// Whether a place lies in one of the simplices that a facet passes over while its nodes move
-  /// straight on from `before` to `after`, or within `thickness` [m] of it. `order` of the nodes'
-  /// numbers, lowest first: it makes the simplices of neighbouring facets fit each other.
+  /// Whether a place lies in one of the simplices that a facet sweeps while its nodes move straight
+  /// from `before` to `after`, or within `thickness` [m] of it. `order` of the nodes' numbers,
+  /// lowest first: it makes the simplices of neighbouring facets fit each other.
   template <int dim>
   bool
   passes_over(const FacetNodes<dim>               &before,

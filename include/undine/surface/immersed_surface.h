@@ -27,9 +27,11 @@ namespace undine
     /// the same name. Collective.
     ImmersedSurface(const Options &scene, const SolidModel<dim> *solid, const MacGrid<dim> &grid);
 
-    /// The same in which only some bodies move, or none: `bodies` has been made from all of them.
+    /// The same in which only some bodies move, or none: `bodies` has been made from
+    /// `all.bodies()`. The grid must outlive this.
     ImmersedSurface(const ImmersedSurface &all, const BodySurface<dim> &bodies);
 
+    /// Nodes and facets of bodies, then of obstacles.
     const Surface<dim> &
     surface() const
     {
@@ -67,32 +69,32 @@ namespace undine
       return body_surface ? body_surface->n_nodes() : 0;
     }
 
-    /// Is it a node of a body that moves? The fluid sees others as those of obstacles.
+    /// Is it a node of a body that moves? For the fluid all other nodes are those of obstacles.
     bool
     moves(const unsigned int node) const
     {
       return node < n_body_nodes() && body_surface->moves(node);
     }
 
-    /// Where the nodes are, given the bodies' displacement and the time for the obstacles [m];
-    /// bodies are taken on from there with their velocity for `ahead` [s].
-    /// Throws SolveError as check() does; InputError if it is an obstacle, since no smaller step
-    /// keeps it from going where its motion is prescribed to go. Collective.
+    /// Positions of all nodes [m], of bodies by their displacement and `ahead` [s] times their
+    /// velocity, of obstacles at `time` [s]. Throws SolveError as check() does; InputError if it is
+    /// an obstacle, whose prescribed motion no smaller step changes. Collective.
     std::vector<dealii::Point<dim>>
     positions(const SolidState &state, const double time, const double ahead = 0) const;
 
-    /// How they move, bodies by their velocity, obstacles in a step of `dt` from `time` on [m/s].
-    /// Throws as positions() does, also if obstacles cannot be at its end. Collective.
+    /// Velocities of all nodes [m/s], of obstacles those in a step of `dt` [s] from `time` on, see
+    /// Obstacles::velocities(). Throws as positions() does, also if obstacles cannot be at its end.
+    /// Collective.
     std::vector<dealii::Tensor<1, dim>>
     velocities(const SolidState &state, const double time, const double dt) const;
 
-    /// The same with what obstacles do just at `time`, `dt` being a time in which that changes
-    /// little.
+    /// The same with the velocities of obstacles at `time` itself, by differences over a hundredth
+    /// of `dt` on either side. Throws alike. Collective.
     std::vector<dealii::Tensor<1, dim>>
     velocities_at(const SolidState &state, const double time, const double dt) const;
 
-    /// `values` in all nodes, but in those of bodies what a vector over their owned degrees of
-    /// freedom says. Collective.
+    /// `values` in all nodes, in which those of bodies that move are replaced by a vector over
+    /// their owned degrees of freedom. Collective.
     std::vector<dealii::Tensor<1, dim>>
     with_bodies(const typename SolidModel<dim>::Vector &vector,
                 std::vector<dealii::Tensor<1, dim>>     values) const;
@@ -103,7 +105,7 @@ namespace undine
     check(const std::vector<dealii::Point<dim>> &positions) const;
 
     /// Add values in the nodes, the same on all ranks, to a vector of the bodies' owned degrees of
-    /// freedom; obstacles do not feel them.
+    /// freedom; values in nodes of obstacles are ignored. Collective.
     void
     add_to_bodies(typename SolidModel<dim>::Vector          &vector,
                   const std::vector<dealii::Tensor<1, dim>> &values) const;

@@ -33,15 +33,15 @@ namespace undine
     double                  distance = 0; ///< [m]
   };
 
-  /// Given by the places of its nodes, in the order of its numbers.
+  /// Given by the places of its nodes [m], in the order of their numbers.
   template <int dim>
   NearestInSimplex<dim>
   nearest_in_simplex(const Simplex<dim>                        &simplex,
                      const std::array<dealii::Point<dim>, dim> &places,
                      const dealii::Point<dim>                  &x);
 
-  /// The inverse of the matrix T_a.T_b [1/m^2] of the ways T_a from a simplex's first node to the
-  /// others; zero if the simplex has no extent.
+  /// The inverse of the matrix T_a.T_b [1/m^2] of the difference vectors T_a from a simplex's first
+  /// node to the others; zero if the simplex has no extent.
   template <int dim>
   dealii::Tensor<2, dim>
   inverse_of_products(const unsigned int n, const std::array<dealii::Point<dim>, dim> &places);

@@ -13,13 +13,13 @@ namespace undine
   template <int dim>
   struct NearestOfEdges
   {
-    std::array<double, 2>  parts;        ///< of the ways from x0 to x1 and from x2 to x3 [1]
+    std::array<double, 2>  parts;        ///< of the segments from x0 to x1 and from x2 to x3 [1]
     std::array<bool, 2>    inside;       ///< is it neither end?
     dealii::Tensor<1, dim> from;         ///< point of the first less that of the second [m]
     double                 distance = 0; ///< [m]
   };
 
-  /// Of parallel edges an end and its nearest point.
+  /// For parallel edges an end of one and its nearest point on the other. `x` [m].
   template <int dim>
   NearestOfEdges<dim>
   nearest_of_edges(const std::array<dealii::Point<dim>, 4> &x);

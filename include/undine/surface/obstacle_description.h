@@ -9,10 +9,11 @@
 
 namespace undine
 {
-  /// What a scene says about one obstacle, on grids and for particles.
+  /// The description of one obstacle in a scene, on grids and for particles.
   template <int dim>
   struct Obstacle
   {
+    /// Read the keys of the section `name`. Throws InputError.
     Obstacle(const std::string &name, const Options &options)
       : description(name, options)
     {

@@ -10,7 +10,7 @@
 
 namespace undine
 {
-  /// Things in the fluid that it does not move: fixed, or moving as prescribed. Each is a
+  /// Obstacles in the fluid, which does not move them: fixed, or moving as prescribed. Each is a
   /// subsection of `Obstacles` that bears its name, with a shape as bodies have it. The same on all
   /// ranks.
   template <int dim>
@@ -31,18 +31,22 @@ namespace undine
       return *all_facets;
     }
 
-    /// Whether any one moves.
+    /// Does any obstacle move?
     bool
     move() const;
 
-    /// Of the nodes at `time` [m].
+    /// Positions of the nodes [m] at `time` [s].
     std::vector<dealii::Point<dim>>
     positions(const double time) const;
 
-    /// Of the nodes in a step from `time` on [m/s]: (x(time + dt) - x(time)) / dt, so that they
-    /// arrive where they shall be, and a little along the normals, so that the flux through the
-    /// surface at `time` is the growth of the volume in it in the step, for each closed surface,
-    /// the outer one and that of each hole: none if the obstacle is rigid, also if it turns.
+    /// Velocities of the nodes [m/s] in a step of `dt` [s] from `time` on,
+    ///
+    ///     (x(time + dt) - x(time)) / dt,
+    ///
+    /// so that they arrive at x(time + dt), with a small correction along the normals, so that the
+    /// flux through the surface at `time` is the growth of the enclosed volume in the step. This
+    /// holds for each closed surface, the outer one and that of each hole; the growth is zero if
+    /// the obstacle is rigid, even if it rotates.
     std::vector<dealii::Tensor<1, dim>>
     velocities(const double time, const double dt) const;
 

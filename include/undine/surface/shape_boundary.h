@@ -11,8 +11,8 @@
 
 namespace undine
 {
-  /// What a scene says about something of which only the boundary matters: a shape as bodies have
-  /// it, or a file of a closed surface.
+  /// The description in a scene of something of which only the boundary matters: a shape as bodies
+  /// have it, or a file of a closed surface.
   template <int dim>
   struct ShapeDescription
   {

@@ -10,9 +10,9 @@
 
 namespace undine
 {
-  /// What differs between segments in the plane and triangles in space.
+  /// Geometry of facets that differs between segments in the plane and triangles in space.
 
-  /// Length times unit normal, to the right of the way from a to b [m].
+  /// Length times unit normal, to the right of the direction from node 0 to node 1 [m].
   inline dealii::Tensor<1, 2>
   area_vector(const std::array<dealii::Point<2>, 2> &nodes)
   {

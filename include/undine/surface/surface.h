@@ -33,24 +33,28 @@ namespace undine
             const std::vector<unsigned int> &body_of_facet,
             const std::vector<std::string>  &body_names);
 
+    /// Number of nodes, those that no facet uses included.
     unsigned int
     n_nodes() const
     {
       return number_of_nodes;
     }
 
+    /// The numbers of the nodes of each facet.
     const std::vector<Facet> &
     facets() const
     {
       return all_facets;
     }
 
+    /// The body that a facet belongs to, counted in body_names().
     unsigned int
     body(const unsigned int facet) const
     {
       return bodies[facet];
     }
 
+    /// Names of all bodies, in the order of their numbers.
     const std::vector<std::string> &
     body_names() const
     {
@@ -97,8 +101,8 @@ namespace undine
               const unsigned int                     facet,
               const std::vector<dealii::Point<dim>> &positions);
 
-  /// Its mean while all nodes go straight on from `before` to `after` [m^(dim-1)], exactly: the
-  /// area vector is linear in time in 2D, quadratic in 3D.
+  /// Its mean while all nodes move straight from `before` to `after` [m^(dim-1)], exactly: the area
+  /// vector is linear in time in 2D, quadratic in 3D.
   template <int dim>
   dealii::Tensor<1, dim>
   mean_area_vector(const Surface<dim>                    &surface,
@@ -111,8 +115,8 @@ namespace undine
   std::vector<double>
   body_volumes(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions);
 
-  /// What makes positions impossible, naming the body: one that is not finite, or a volume that is
-  /// not positive. Empty if nothing does.
+  /// A message about positions that are impossible, naming the body: one that is not finite, or a
+  /// volume that is not positive. Empty if there is none.
   template <int dim>
   std::string
   positions_complaint(const Surface<dim>                    &surface,

@@ -20,7 +20,7 @@ namespace undine
   class SurfaceDistance
   {
   public:
-    /// What of the surface is nearest to a place.
+    /// The point of the surface that is nearest to a place.
     struct Nearest
     {
       dealii::Point<dim>     place;    ///< on the surface [m]
@@ -32,6 +32,7 @@ namespace undine
     SurfaceDistance(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions);
     ~SurfaceDistance();
 
+    /// The point of the surface that is nearest to `place` [m].
     Nearest
     nearest(const dealii::Point<dim> &place) const;
 

@@ -24,11 +24,11 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>> velocities;    ///< [m/s]
   };
 
-  /// Answers where a surface lies, in a time that grows with the logarithm of its facets (R-tree of
-  /// their boxes).
+  /// Geometric queries about a surface, in a time that grows with the logarithm of the number of
+  /// its facets (R-tree of their boxes).
   ///
   /// Facets are taken as thick as rounding: `tolerance` times the size of the domain, and as much
-  /// wider. No way slips through between facets that share an edge or a node.
+  /// wider. No segment passes between facets that share an edge or a node.
   ///
   /// In periodic directions the surface repeats.
   template <int dim>
@@ -37,7 +37,7 @@ namespace undine
   public:
     static constexpr double tolerance = 1e-13;
 
-    /// Keeps the positions, not the surface's copy: that must outlive it.
+    /// Keeps the positions and a pointer to the surface, which must outlive it.
     SurfaceQueries(const MacGrid<dim> &grid, MovedSurface<dim> moved);
 
     ~SurfaceQueries();
@@ -96,7 +96,7 @@ namespace undine
     std::array<dealii::Point<dim>, dim>
     old_nodes(const unsigned int facet) const;
 
-    /// Does the way of a facet lead over `place`?
+    /// Has a facet swept `place` in the last step?
     bool
     passes_over(const unsigned int facet, const dealii::Point<dim> &place) const;
 
@@ -110,7 +110,7 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>>      normals;         ///< of facets, unit or zero
     std::vector<std::array<unsigned int, 2>> facets_of_ridge; ///< or no_facet
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>>
-                                 swept_boxes; ///< around the ways of those that moved
+                                 swept_boxes; ///< around what facets that moved have swept
     std::unique_ptr<const Trees> trees;
   };
 } // namespace undine

@@ -10,7 +10,7 @@ namespace undine
 {
   namespace
   {
-    /// Does what acts on a body besides fluid and contact stay as it is?
+    /// Are all supports and loads of a body, other than fluid and contact, constant in time?
     template <int dim>
     std::vector<bool>
     find_steady(const SolidModel<dim> &model, const SolidEnvironment<dim> &environment)
@@ -223,7 +223,7 @@ namespace undine
   }
 
 
-  /// Fluid and contact get the surfaces of bodies that sleep as such that do not move.
+  /// For fluid and contact the surfaces of sleeping bodies become surfaces that do not move.
   template <int dim>
   void
   SleepingBodies<dim>::keep_still(const State<dim> &state)
@@ -312,7 +312,7 @@ namespace undine
   }
 
 
-  /// Of bodies that are awake; true if one has been quiet for long enough.
+  /// Of bodies that are awake; true if one has been slow for long enough.
   template <int dim>
   bool
   SleepingBodies<dim>::count_quiet_time(State<dim> &state, const double dt) const

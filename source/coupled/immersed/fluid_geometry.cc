@@ -72,8 +72,8 @@ namespace undine
     const bool moved = now != positions;
     if (moved)
       surface.check(now);
-    // A void must not hold what was fluid where the surfaces were: after a step that has been given
-    // up, and in a run that is resumed, the grid is not cut there.
+    // Void regions must not take cells that held fluid. To check that, the grid has to be cut at
+    // `before`, which it is not after a rejected step or in a resumed run.
     if (moved && void_regions != nullptr && before != now && before != positions)
       place(before, before, Velocities(before.size()));
     if (moved || before != was_at || new_velocities != velocities)
@@ -91,7 +91,7 @@ namespace undine
       }
     catch (...)
       {
-        positions.clear(); // what has been made of them is of no use
+        positions.clear(); // the cut is incomplete
         throw;
       }
   }

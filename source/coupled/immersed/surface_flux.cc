@@ -36,7 +36,7 @@ namespace undine
     };
 
 
-    /// B u with B of the end of the stage, and chambers that keep their volumes.
+    /// B u with B of the end of the stage, corrected so that the volumes of chambers are exact.
     template <int dim>
     class FluxAtEnd : public SurfaceFlux<dim>
     {

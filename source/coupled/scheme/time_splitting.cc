@@ -11,8 +11,8 @@ namespace undine
   ///
   ///  1. fluid: transport, forces, implicit terms of every effect that is on; v^n becomes v*
   ///  2. bodies: Newton's method for u^{n+1} under the pressure p^n
-  ///  3. fluid: projection between surfaces that move as the bodies did; v* becomes v^{n+1},
-  ///  p^{n+1}
+  ///  3. fluid: projection between surfaces that move as the bodies did, for p^{n+1}; v* becomes
+  ///     v^{n+1}
   template <int dim>
   class SplitPhysics : public Physics<dim>
   {
@@ -92,7 +92,7 @@ namespace undine
   private:
     using Vectors = typename SurfaceExchange<dim>::Vectors;
 
-    /// Throws SolveError where bodies close off fluid, whose volume their motion does not keep.
+    /// Throws SolveError where bodies close off fluid, whose volume their motion does not conserve.
     typename Projection<dim>::Report
     project(State<dim> &state, const FluidStep<dim> &fluid, const Vectors &velocities)
     try
@@ -118,7 +118,7 @@ namespace undine
       return Vectors(models.surface->surface().n_nodes());
     }
 
-    /// What the fluid is driven by [m/s].
+    /// Velocities of the surfaces for the projection [m/s].
     Vectors
     node_velocities(const State<dim> &state, const Vectors &increment, const double dt) const
     {
@@ -140,7 +140,7 @@ namespace undine
   };
 
 
-  /// What the simultaneous scheme is compared with.
+  /// A reference for comparisons with the simultaneous scheme.
   template <int dim>
   class TimeSplitting : public SteppingScheme<dim>
   {

@@ -97,7 +97,7 @@ namespace undine
     const auto        timed = timing.section("solve linear system");
     const BlockSystem system(tangent, surface.matrix(), surface.factor(), fluid.matrix());
     residual *= -1.;
-    // No better than Newton's method needs it.
+    // No more accurate than Newton's method needs it.
     const double enough = 0.01 * model.numerics().newton.relative_tolerance / last_norm;
     auto         result = solver.solve(system, residual, solid.displacement(x.block(0)), enough);
     timing.memory.hold_briefly("two-way coupling",

@@ -8,7 +8,7 @@ namespace undine
 {
   namespace
   {
-    /// With the surfaces where the bodies' first guess takes them.
+    /// The surface flux with the bodies at their first guess.
     template <int dim>
     std::unique_ptr<SurfaceFlux<dim>>
     moved(std::unique_ptr<SurfaceFlux<dim>> surface, const BlockSystem::Vector &velocity)
@@ -18,7 +18,7 @@ namespace undine
     }
 
 
-    /// What is left of B u if places of the size of the domain are only known to rounding.
+    /// The error of B u if positions of the size of the domain are known to rounding only.
     template <int dim>
     double
     flux_rounding(const MacGrid<dim> &grid, const SurfaceFlux<dim> &surface, const double dt)
@@ -79,8 +79,8 @@ namespace undine
   }
 
 
-  /// What the fluid does to the bodies besides its reduced pressure [N]. Friction has been found
-  /// before: the fluid has its reaction.
+  /// Loads of the fluid on the bodies other than its reduced pressure [N]. Friction has been found
+  /// before: v* contains its reaction.
   template <int dim>
   typename CoupledStep<dim>::Vector
   CoupledStep<dim>::loads_besides_pressure()
@@ -97,8 +97,8 @@ namespace undine
   }
 
 
-  /// Newton's method for u^{n+1} and p, and around it for how fast fluid enters through outflows
-  /// (see stabilise_backflow()).
+  /// Newton's method for u^{n+1} and p, and around it for the backflow through outflows (see
+  /// stabilise_backflow()).
   template <int dim>
   SolidReport<dim>
   CoupledStep<dim>::solve()

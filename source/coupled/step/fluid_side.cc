@@ -28,7 +28,7 @@ namespace undine
   }
 
 
-  /// Those that the fluid sticks to where there is friction.
+  /// The bodies with their no-slip surfaces, where there is friction.
   template <int dim>
   typename CharacteristicTracer<dim>::Bodies
   FluidSide<dim>::no_slip_bodies(const State<dim> &state, const Stage &stage)
@@ -44,8 +44,8 @@ namespace undine
   }
 
 
-  /// Where the surfaces push the fluid in this stage, at `time` [s]. Bodies get there only as far
-  /// as they do not run into each other or into walls.
+  /// Where the surfaces of the surface flux are in this stage, at `time` [s]. Bodies get there only
+  /// as far as they do not run into each other or into walls.
   template <int dim>
   typename FluidGeometry<dim>::Positions
   FluidSide<dim>::expected_places(const State<dim> &state,
@@ -81,8 +81,9 @@ namespace undine
   }
 
 
-  /// A state from a file lies on parts of its own. If no surface has moved since, those are the
-  /// same as ours, and nothing is carried over from the ones to the others: it goes on bit by bit.
+  /// The fields of a state from a file have a topology object of their own. If no surface has moved
+  /// since, it equals the present one, and the fields share that without being remapped: the run
+  /// continues to the bit.
   template <int dim>
   void
   FluidSide<dim>::share_parts(FluidState<dim> &state) const
@@ -128,7 +129,7 @@ namespace undine
   }
 
 
-  /// `act` on every effect, and book what each has done.
+  /// `act` on every effect, and add what each has done to the budget.
   template <int dim>
   template <class Action>
   void

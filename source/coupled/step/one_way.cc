@@ -122,7 +122,7 @@ namespace undine
 
 
   /// Between surfaces that move with `velocities`. Throws SolveError where bodies close off fluid,
-  /// whose volume their motion does not keep.
+  /// whose volume their motion does not conserve.
   template <int dim>
   void
   OneWay<dim>::project(Half &half, State<dim> &state, const Vectors &velocities)

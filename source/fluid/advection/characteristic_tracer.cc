@@ -9,10 +9,10 @@ namespace undine
 {
   namespace
   {
-    constexpr int margin = 3; ///< layers beyond those that ways cross
+    constexpr int margin = 3; ///< layers beyond those that paths cross
 
 
-    /// Ghost layers for ways of a given length, and for the up to four points around their ends.
+    /// Ghost layers for paths of a given length, and for the up to four points around their ends.
     template <int dim>
     GridIndex<dim>
     layers_within(const FluidModel<dim>        &model,
@@ -192,9 +192,9 @@ namespace undine
   GridIndex<dim>
   CharacteristicTracer<dim>::reach(const int beyond) const
   {
-    // Of the planes that may be crossed one is for ways that begin anywhere. From point i a way
-    // passes the k others up to i + k only if one as long, begun at a plane, meets k + 1 of them:
-    // the lower planes of i to i + k or the upper ones, whichever are closer together.
+    // One of the planes that may be crossed is counted for paths that begin anywhere. From point i
+    // a path passes the k others up to i + k only if one as long, begun at a plane, meets k + 1 of
+    // them: the lower planes of i to i + k or the upper ones, whichever are closer together.
     auto points = ghost_width;
     for (int &layers : points.values)
       layers += beyond - margin - 1;
@@ -235,7 +235,7 @@ namespace undine
   {
     const auto        &grid = fluid_model.grid();
     dealii::Point<dim> end  = place + path;
-    // Each turn ends the way at the first boundary it meets, or bends it along that wall.
+    // Each turn ends the path at the first boundary it meets, or bends it along that wall.
     for (unsigned int turn = 0; turn < dim; ++turn)
       {
         double when = 2;

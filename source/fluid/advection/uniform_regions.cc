@@ -23,7 +23,7 @@ namespace undine
     }
 
 
-    /// To the bit, which is soon seen: most rows of a field hold one value.
+    /// Compared to the bit, which is fast: most rows of a field hold one value.
     bool
     are_the_same(const double *values, const double *others, const int n)
     {

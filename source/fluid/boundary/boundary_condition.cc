@@ -48,8 +48,8 @@ namespace undine
 
   namespace
   {
-    /// The value of one boundary point: held and entering shares plus the rest of the nearest
-    /// value inside.
+    /// The value of one boundary point: shares that are held or that enter, plus the rest of the
+    /// nearest value inside.
     template <int dim>
     double
     boundary_value(const Field<dim>             &field,

@@ -245,15 +245,15 @@ namespace undine
                                  const dealii::Point<dim> &query,
                                  const dealii::Point<dim> &place) const
   {
-    // Only facets that the way comes past within the slab can be met: around its place in the
-    // middle of the slab, or anywhere if it leads along.
+    // Only facets near the part of the segment within the slab can be met: around the point where
+    // it crosses the middle of the slab, or anywhere if it runs along the slab.
     const auto        &slab     = occluder.slab;
     const double       at_query = slab.normal * query, descent = at_query - slab.normal * place;
     const double       half  = (slab.upper - slab.lower) / 2;
     const bool         along = std::abs(descent) < 4 * half;
     const double       share = along ? .5 : (at_query - slab.lower - half) / descent;
     const double       reach = along ? 1 : half / std::abs(descent);
-    dealii::Point<dim> lower, upper; // corners of a box around that part of the way
+    dealii::Point<dim> lower, upper; // corners of a box around that part of the segment
     for (unsigned int d = 0; d < dim; ++d)
       {
         const double path   = place[d] - query[d];

@@ -8,12 +8,12 @@ namespace undine
 {
   namespace
   {
-    /// Share that a visible point has even where its multilinear weight is zero, if those with more
-    /// weight are hidden.
+    /// The least weight of a visible point, which it has even where its multilinear weight is zero
+    /// if those with more weight are hidden.
     constexpr double least_weight = 1e-3;
 
-    /// Share of the way from a point to the centroid of its part: far less than is smoothed
-    /// otherwise, far more than rounding.
+    /// Share of the segment from a point to the centroid of its sub-cell or sub-face: far less than
+    /// is smoothed otherwise, far more than rounding.
     constexpr double side_share = 1e-10;
   } // namespace
 
@@ -73,7 +73,7 @@ namespace undine
     if (foot.point == place)
       if (const auto own = value_of(index, query))
         return own;
-    // A trace of the way to the centroid says on which side of the point the fluid is.
+    // A tiny share of the segment to the centroid says on which side of the point the fluid is.
     const dealii::Point<dim> start = point + (foot.point - place) + side_share * (place - point);
     if (!is_clear_for_cubics(start, foot))
       return multilinear(start, query);
@@ -134,7 +134,8 @@ namespace undine
       const auto seen = seen_values(lower, query, corners);
       for (unsigned int corner = 0; corner < (1u << dim); ++corner)
         {
-          // No branches: nobody can tell beforehand what is seen. Values of others are zero.
+          // No branches, since they could not be predicted. Values of corners that are not visible
+          // are zero.
           const double is_seen = seen.corners >> corner & 1;
           sum += weight[corner] * seen.values[corner];
           total += weight[corner] * is_seen;

@@ -28,7 +28,7 @@ namespace undine
     }
 
 
-    /// The step of a slot that looks whole, or why it is not. One rank.
+    /// The step of a slot that seems complete, or why it is not. One rank.
     struct Inspection
     {
       std::uint64_t step = 0;
@@ -213,7 +213,7 @@ namespace undine
     }
 
 
-    /// Numbers of the slots that look whole, the newest first; adds why the others do not.
+    /// Numbers of the slots that seem complete, the newest first; adds why the others do not.
     std::vector<unsigned int>
     candidates(std::vector<std::string> &problems,
                const fs::path           &directory,

@@ -92,14 +92,14 @@ namespace undine
     }
 
 
-    /// The parts of divided points, in the order of the points in the whole lattice. Values are
-    /// those of the parts that a rank owns.
+    /// The sub-cells or sub-faces of divided points, in the order of the points in the whole
+    /// lattice. Values are those of the ones that a rank owns.
     template <int dim>
     CanonicalVector
     canonical_parts(const Lattice<dim> &lattice, const SubLattice<dim> &divided)
     {
       const IndexBox<dim> whole{{}, lattice.shape()};
-      std::vector<Index>  mine, all; // of each part the position of its point
+      std::vector<Index>  mine, all; // of each the position of its point
       for (std::size_t k = 0; k < divided.all().size(); ++k)
         if (divided.owns(k))
           mine.push_back(whole.position(divided.all()[k].index));

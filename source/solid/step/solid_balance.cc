@@ -26,7 +26,7 @@ namespace undine
     }
 
 
-    /// K(d) times `way` [J].
+    /// K(d) times `displacement_increment` [J].
     template <int dim>
     double
     internal_work(const SolidModel<dim>                  &model,
@@ -102,7 +102,7 @@ namespace undine
     mean.sadd(0.5, 0.5, old_state.velocity);
     mass.vmult(gain, change);
     result.kinetic = gain * mean;
-    // force.way - gain.mean without the difference of nearly equal numbers.
+    // force.displacement_increment - gain.mean without the difference of nearly equal numbers.
     Vector further = displacement_increment, more = force;
     further.add(-dt, mean);
     more.add(-1 / dt, gain);
@@ -125,7 +125,7 @@ namespace undine
         internal_work(model, stage_displacement(end, stage.position), displacement_increment);
     try
       {
-        // Finer only where the way is so long that the rule does not resolve it.
+        // Finer only where the increment is so large that the rule does not resolve the integral.
         const double resolved  = std::max(1e-12 * elastic_energy(model, end),
                                          own_rounding * displacement_increment.l2_norm());
         double       along_way = 0;
@@ -144,7 +144,7 @@ namespace undine
       }
     catch (const SolveError &)
       {
-        // The straight way leads through an inverted state: there is no such integral.
+        // The straight path leads through an inverted state: there is no such integral.
         result.elastic_loss -= result.elastic;
       }
   }

@@ -44,7 +44,8 @@ namespace undine
     if (!contact)
       return guess;
     const auto timed = timing.section("contact");
-    // The velocity that leads to the last place, but for supports, which are where they must be.
+    // The velocity that leads to the last position, except at supports, which are where they are
+    // prescribed to be.
     Vector still = guess_at_rest();
     still.add(1 / coefficients.displacement, last_place());
     still.add(-1 / coefficients.displacement, old_state.displacement);

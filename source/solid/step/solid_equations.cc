@@ -299,7 +299,7 @@ namespace undine
   }
 
 
-  /// d d^{n+1} - d^n at fixed degrees of freedom, zero elsewhere [m].
+  /// d^{n+1} - d^n at fixed degrees of freedom, zero elsewhere [m].
   template <int dim>
   typename SolidEquations<dim>::Vector
   SolidEquations<dim>::prescribed_increment() const
@@ -400,7 +400,7 @@ namespace undine
   }
 
 
-  /// Of reactions() what the balance of the step holds at fixed degrees of freedom [N].
+  /// The term of `reactions` in the balance of the step at fixed degrees of freedom [N].
   template <int dim>
   typename SolidEquations<dim>::Vector
   SolidEquations<dim>::weighted(const Vector &reactions) const

@@ -20,7 +20,7 @@ namespace undine
 {
   namespace
   {
-    /// The equations of a step as Newton sees them.
+    /// The equations of a step in the form that solve_newton() asks for.
     template <int dim>
     class StepProblem
     {
@@ -53,7 +53,7 @@ namespace undine
         const auto jacobian = equations.jacobian(velocity);
         const auto timed    = timing.section("solve linear system");
         residual *= -1.;
-        // A hundredth of what Newton's method stops at.
+        // A hundredth of the residual at which Newton's method stops.
         const double negligible = 0.01 * tolerance * scale();
         auto         change =
           solver.solve(jacobian, residual, equations.displacement(velocity), negligible);

@@ -62,8 +62,8 @@ namespace undine
     /// Norms are all in one unit.
     Newton(Problem &problem, const NewtonOptions &options);
 
-    /// Improve x until |r| <= max(relative tolerance * scale, rounding). Throws SolveError with the
-    /// history of |r| if that fails.
+    /// Improve x until |r| <= max(relative tolerance * scale, rounding) (T6). Throws SolveError
+    /// with the history of |r| if that fails.
     NewtonReport
     solve(typename Problem::Unknown &x);
 

@@ -12,8 +12,8 @@ namespace undine
   ///
   ///     y = y^0 + g f,   f = (y - y^0) / g,
   ///
-  /// where y^0 = y^n + w f^n in the first stage, and y^n + w' f^n + w'' f_1 in the second. What the
-  /// fluid carries goes along with the flow from the stage's begin to its end.
+  /// where y^0 = y^n + w f^n in the first stage, and y^n + w' f^n + w'' f_1 in the second. Fields
+  /// that the flow carries are traced from the stage's begin to its end.
   struct Stage
   {
     double begin  = 0; ///< from t^n [s]
@@ -34,8 +34,9 @@ namespace undine
     bool is_first = true;
     bool is_last  = true;
 
-    /// False: a step of one stage that starts from y^n; surfaces push where they are at its begin.
-    /// True: rates are kept from step to step, and surfaces push where they are at its end.
+    /// False: a step of one stage that starts from y^n, with the surface flux (B u) of surfaces
+    /// where they are at its begin. True: rates are kept from step to step, and the surface flux is
+    /// that of surfaces where they are at the end of the stage.
     bool keeps_rates = false;
 
     /// Where the implicit Euler step begins, from t^n [s].
@@ -52,14 +53,14 @@ namespace undine
       return earlier.empty() ? 0 : earlier.front().length;
     }
 
-    /// The way of what the flow carries [s].
+    /// Duration of the stage: for how long the flow carries fields [s].
     double
     duration() const
     {
       return end - begin;
     }
 
-    /// From its start to where surfaces push [s].
+    /// From its start to the time at which the surfaces of the surface flux are taken [s].
     double
     ahead() const
     {

@@ -21,19 +21,20 @@ namespace undine
     /// `models` must outlive it. Collective.
     explicit SampleNorms(const Models<dim> &models);
 
-    /// Of a nodal vector, in its unit.
+    /// The root mean square of a nodal vector, in its unit.
     double
     of_bodies(const Vector &vector) const;
 
-    /// Of a fluid's velocity [m/s].
+    /// The root mean square of a fluid's velocity [m/s].
     double
     of_fluid(const Velocity<dim> &velocity) const;
 
-    /// Of d^k u / dt^k at k + 1 samples [m/s^(k+1)].
+    /// The root mean square of d^k u / dt^k, from k + 1 samples [m/s^(k+1)].
     double
     bodies_derivative(const std::vector<const Sample *> &samples) const;
 
-    /// Of d^k v / dt^k at the k + 1 newest samples of a history, k = order [m/s^(k+1)].
+    /// The root mean square of d^k v / dt^k, from the k + 1 newest samples of a history, k = order
+    /// [m/s^(k+1)].
     double
     fluid_derivative(const StepHistory<dim> &history, unsigned int order) const;
 
@@ -45,11 +46,12 @@ namespace undine
     Sample
     sample(const State<dim> &state, double time) const;
 
-    /// Zero on all faces; empty without a fluid.
+    /// A velocity that is zero on all faces; empty without a fluid.
     Velocity<dim>
     zero_velocity() const;
 
-    /// Count one more sample of a fluid.
+    /// Update `uncut`, the number of samples in a row in which no body has cut a face, by the
+    /// sample `velocity`.
     void
     count_uncut(Velocity<dim> &uncut, const Velocity<dim> &velocity) const;
 

@@ -42,8 +42,9 @@ namespace undine
     void
     initialize(State<dim> &state, double dt, Report &report) override;
 
-    /// Until nobody wakes in the step: what does is awake from its begin. Where bodies that sleep
-    /// leave the step without a solution, as in a chamber that only they close, all wake.
+    /// Repeats the step until no body wakes in it, with those that woke awake from its begin. Where
+    /// sleeping bodies leave the step without a solution, as in a chamber that only they close, all
+    /// wake.
     void
     advance(State<dim> &state, const Stages &stages, Report &report) override;
 
@@ -53,7 +54,7 @@ namespace undine
   private:
     using Vectors = std::vector<dealii::Tensor<1, dim>>;
 
-    /// What takes the place of all bodies where some sleep.
+    /// The models in place of those of all bodies, where some sleep.
     struct Part
     {
       std::unique_ptr<const SolidModel<dim>>   asleep;

@@ -21,7 +21,7 @@ namespace undine
   ///     H^(p+1) = 4 C h^p T                                                                  (T8)
   ///
   /// at which a vibration that is too fast to be followed over the run counts with its amplitude:
-  /// what its phase lags behind costs no more. The step is the geometric mean of the two last
+  /// its error of phase costs no more than that. The step is the geometric mean of the two last
   /// solutions of (T7), the filter H211b with b = 2 [Soderlind, ACM Trans. Math. Softw. 29 (2003)
   /// 1]; it is at most doubled by a step. A step with C h^(p+1) |y^(p+1)|, by the newest steps
   /// alone, above a quarter of tolerance D is too long, as after a sudden load.
@@ -29,6 +29,7 @@ namespace undine
   class StepError
   {
   public:
+    /// What limits the choice of steps.
     struct Settings
     {
       double tolerance     = 0; ///< [1]

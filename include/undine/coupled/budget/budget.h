@@ -14,19 +14,19 @@
 
 namespace undine
 {
-  /// What fluid and surfaces did to each other in a step, in the nodes of all surfaces, those of
-  /// bodies first.
+  /// Forces and velocities that fluid and surfaces exchanged in a step, [nodes of all surfaces],
+  /// those of bodies first.
   template <int dim>
   struct SurfaceExchange
   {
     using Vectors = std::vector<dealii::Tensor<1, dim>>;
 
-    Vectors by_fluid;   ///< B^T p where the grid was cut, the p that accelerated the fluid [N]
-    Vectors pushed;     ///< the same with the B that follows [N]
-    Vectors velocities; ///< w, with which the surfaces pushed the fluid: B w [m/s]
-    Vectors on_bodies;  ///< J p that the bodies felt [N]
-    Vectors at_rest;    ///< what the fluid did to bodies besides: weight, void regions [N]
-    Vectors friction;   ///< what friction did to surfaces [N]; empty without
+    Vectors by_fluid; ///< B^T p with the B of the cut grid and the p that accelerated the fluid [N]
+    Vectors pushed;   ///< the same with the B of the surface flux [N]
+    Vectors velocities; ///< w, the velocity in the surface flux B w [m/s]
+    Vectors on_bodies;  ///< J p, the load on the bodies [N]
+    Vectors at_rest;    ///< the other loads on bodies: weight of the fluid, void regions [N]
+    Vectors friction;   ///< forces of friction on surfaces [N]; empty without
     Vectors increment;  ///< d^{n+1} - d^n of bodies [m]
   };
 
@@ -37,25 +37,27 @@ namespace undine
   class Budget
   {
   public:
-    /// What changes the fluid's velocity before pressures do.
+    /// The phases of a stage that change the fluid's velocity before the pressures.
     enum Phase
     {
-      transport, ///< to the new place of surfaces, too
+      transport, ///< also to the new topology of the fluid
       forces,
       diffusion,
-      boundary_values ///< of inflows and walls
+      boundary_values ///< velocities given on inflows and walls
     };
 
     /// `models` must outlive it. `has_stages`: steps have stages that keep rates.
     Budget(const Models<dim> &models, bool is_on, bool has_stages = false);
 
+    /// False: all functions do nothing and there are no columns.
     bool
     is_on() const
     {
       return on;
     }
 
-    /// From now on bodies that sleep are booked as obstacles; `surface`: with those that move.
+    /// From now on bodies that sleep count as obstacles; `surface`: that in which only the others
+    /// move.
     void
     follow(const ImmersedSurface<dim> *surface);
 
@@ -66,18 +68,19 @@ namespace undine
     start(const Velocity<dim> &velocity);
     /// @}
 
-    /// Stages that keep rates (Stage): the last one is booked like a step, from its start. What
-    /// leads there, by the rates of earlier stages, is a term of its own for bodies, and part of
-    /// `transport` for the fluid. Tell of the bodies at t^n, then at the last stage's start. @{
+    /// Stages that keep rates (Stage): the budget of the last one is that of a step from its start.
+    /// What leads to that start, by the rates of earlier stages, is a term of its own for bodies,
+    /// and included in `transport` for the fluid. To be called with the bodies at t^n, then with
+    /// those at the last stage's start. @{
     void
     start(const SolidAmounts<dim> &bodies);
     void
     add(const SolidAmounts<dim> &bodies);
     /// @}
 
-    /// A phase has led to `velocity`, or an effect in it has, numbered as in `models`; what that
-    /// did is taken from `work` [J], of this rank, if given: the effect's own formula. Collective.
-    /// @{
+    /// A phase has led to `velocity`, or effect number `effect` of `models` in that phase has; its
+    /// energy is `work` [J], of this rank, by the effect's own formula, or if that is empty the
+    /// change of the kinetic energy. Collective. @{
     void
     add(Phase phase, const Velocity<dim> &velocity);
     void
@@ -97,14 +100,15 @@ namespace undine
     add(const SolidBalance<dim> &solid, double dt);
     /// @}
 
-    /// What bodies that fell asleep have lost.
+    /// Energy and momentum taken from bodies that fell asleep.
     void
     add_rest(const SolidAmounts<dim> &rest);
 
     /// The terms as gains of fluid and bodies, energies in J, momenta in kg m/s (in 2D per metre).
     /// After them "energy by NAME" for every effect that is on: what of the terms is due to it.
     /// "energy closure": |gain - sum of terms| over energy and |terms|. "momentum closure": the
-    /// same over h sum_i |(B^T p)_i| or, where surfaces feel nothing, over |terms|. None if off.
+    /// same over h sum_i |(B^T p)_i| or, where no surface feels the fluid, over |terms|. None if
+    /// off.
     Columns
     columns() const;
 

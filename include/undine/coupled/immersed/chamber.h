@@ -17,7 +17,7 @@ namespace undine
     double inflow = 0; ///< through boundaries of the domain, in the step that led here [m^dim/s]
   };
 
-  /// The one around `point`, of bodies that stand where `state` has them. Cuts the grid.
+  /// The chamber around `point` [m], between bodies at their positions in `state`. Cuts the grid.
   /// Collective. Throws SolveError if the point is not in the fluid.
   template <int dim>
   Chamber
@@ -25,8 +25,9 @@ namespace undine
                   const State<dim>         &state,
                   const dealii::Point<dim> &point);
 
-  /// The volumes of the ones around `points` if the surfaces' nodes are at `positions` [m^dim];
-  /// nothing for points that are not in the fluid then. Cuts the grid once. Collective.
+  /// The volumes of the chambers around `points`, [points] [m^dim], for surfaces with their nodes
+  /// at `positions` [m]; nothing for points that are not in the fluid then. Cuts the grid once.
+  /// Collective.
   template <int dim>
   std::vector<std::optional<double>>
   chamber_volumes(const Models<dim>                     &models,

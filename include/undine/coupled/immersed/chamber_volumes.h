@@ -11,16 +11,18 @@
 namespace undine
 {
   /// The volumes of the chambers that bodies close off: regions of fluid without an opening that a
-  /// body touches. B u at the end of a stage is what the surfaces push out per time, so that
-  /// volumes drift, in second order of h. They are kept to rounding if the chamber c pushes besides
+  /// body touches. The surface flux is B u at the end of a stage, with which volumes drift in
+  /// second order of h. They are conserved to rounding if the surface flux out of the chamber c has
+  /// the additional term
   ///
   ///     ( S_c + sum_j w_j q_c(t_j) ) / g - (B u)_c    [m^dim/s],                             (C3)
   ///
-  /// spread over the bodies' surface there. S: what the chamber gains from t^n to the end of
-  /// the stage, the difference of its volumes: that where the grid is cut for the stage
-  /// and that at t^n are exact, and from the former to the end is a way of second order in h, whose
-  /// fragments of facets sweep it; q: what leaves through sides with a given velocity, at the
-  /// earlier times t_j of which the stage is made, which count for w_j; g: length of the stage.
+  /// spread over the bodies' surface there. S: what the chamber gains from t^n to the end of the
+  /// stage, the difference of its volumes: that where the grid is cut for the stage and that at t^n
+  /// are exact, and from the former to the end is a displacement increment of second order in h,
+  /// whose volume the fragments of facets sweep; q: what leaves through sides with a given
+  /// velocity, at the earlier times t_j of which the stage is made, which count for w_j; g: length
+  /// of the stage.
   template <int dim>
   class ChamberVolumes
   {
@@ -44,8 +46,8 @@ namespace undine
       return chambers.size() == 0;
     }
 
-    /// (C3) for surfaces that have come along `way` [m] since t^n, given `fluxes` B u of all
-    /// components [FluidTopology::cells]. Collective.
+    /// (C3) in every component, [FluidTopology::cells] [m^dim/s], for surfaces whose displacement
+    /// increment since t^n is `increment` [m], given `fluxes` B u of all components. Collective.
     std::vector<double>
     missing_fluxes(const std::vector<double> &fluxes, const Vectors &increment) const;
 
@@ -54,7 +56,8 @@ namespace undine
     std::vector<double>
     gained_until_cut(const Models<dim> &models) const;
 
-    /// Swept out of each chamber along straight ways from a place [m^dim].
+    /// Volume swept out of each chamber while the nodes go straight on from `from` by `increment`
+    /// [m^dim].
     std::vector<double>
     swept(const Positions &from, const Vectors &increment) const;
 

@@ -20,8 +20,8 @@
 
 namespace undine
 {
-  /// The grid as the surfaces of everything in the fluid cut it, at the beginning of a step.
-  /// Nothing is done again as long as nothing moves.
+  /// The grid as cut by the surfaces of all bodies and obstacles at the beginning of a stage. As
+  /// long as nothing moves, nothing is computed anew.
   template <int dim>
   class FluidGeometry
   {
@@ -32,12 +32,14 @@ namespace undine
     /// For a scene with a surface in the fluid. The models must outlive it.
     explicit FluidGeometry(const Models<dim> &models);
 
-    /// Cut. The surfaces are at `now` and move with `velocities`; when the fields of the fluid were
-    /// computed they were at `before`. Collective. Throws SolveError if the surfaces are beyond
-    /// use.
+    /// Cut the grid by surfaces whose nodes are at `now` [m] and move with `velocities` [m/s]; when
+    /// the fields of the fluid were computed they were at `before`. Collective. Throws SolveError
+    /// if positions are not finite, a body is inside out or at a periodic side, or a void region is
+    /// ill-posed.
     void
     place(const Positions &before, const Positions &now, const Velocities &velocities);
 
+    /// What characteristic tracing needs of the bodies; without no-slip surfaces.
     typename CharacteristicTracer<dim>::Bodies
     bodies() const;
 
@@ -52,51 +54,51 @@ namespace undine
       return positions == was_at;
     }
 
-    /// Of all nodes, where place() was told that they are now.
+    /// `now` of place(): positions of all nodes [m].
     const Positions &
     surface_positions() const
     {
       return positions;
     }
 
-    /// As place() was told.
+    /// `velocities` of place() [m/s].
     const Velocities &
     surface_velocities() const
     {
       return velocities;
     }
 
-    /// Of this rank's block, with a halo.
+    /// The cut cells of this rank's block, with a halo.
     const CutCells<dim> &
     cut_cells() const
     {
       return cells;
     }
 
-    /// What they leave to the fluid.
+    /// The topology that they leave to the fluid.
     const CutTopology<dim> &
     cut_topology() const
     {
       return parts;
     }
 
-    /// B at the place where the surfaces are.
+    /// B of the surfaces at their present positions.
     const BoundaryFlux<dim> &
     boundary_flux() const
     {
       return *flux_operator;
     }
 
-    /// What the surfaces push out of each component of the fluid in a step of dt [s]; moving with
-    /// the velocities given, or as place() was told. @{
+    /// The swept-volume flux of the surfaces out of each component of the fluid in a step of dt
+    /// [s]; with the velocities given, or with those of place(). @{
     SweptVolumeFlux
     swept_volume_flux(const Velocities &velocities, double dt) const;
     SweptVolumeFlux
     swept_volume_flux(double dt) const;
     /// @}
 
-    /// The same at the start of a run, when nothing has pushed yet: bodies that close a chamber are
-    /// taken to yield at once to what flows in.
+    /// The same at the start of a run: bodies that close a chamber yield at once to what flows in,
+    /// in proportion to their area.
     SweptVolumeFlux
     initial_swept_volume_flux(double dt) const;
 
@@ -104,27 +106,28 @@ namespace undine
     Velocities
     pressure_forces(const Field<dim> &pressure) const;
 
-    /// In all nodes what else the fluid does to the surfaces: the weight that the reduced pressure
-    /// leaves out, and the pressures of void regions at `time` [N]. Collective.
+    /// All other forces in the nodes of the surfaces but friction [N]: the weight that the reduced
+    /// pressure leaves out, and the pressures of void regions at `time` [s]. Collective.
     Velocities
     other_forces(const dealii::Tensor<1, dim> &gravity, double time) const;
 
-    /// Forces of the pressure at `time` on each body [N], with g also their parts; those of
-    /// friction in the nodes, if given; and how the cutting went. Collective.
+    /// For `statistics`: forces of the pressure at `time` [s] on each body [N], with gravity also
+    /// their two parts; those of friction, if `friction` in the nodes [N] is given; and the numbers
+    /// of cut and flagged cells. Collective.
     Columns
     columns(const Field<dim>             &pressure,
             const dealii::Tensor<1, dim> &gravity,
             double                        time,
             const Velocities             &friction = {}) const;
 
-    /// How the cutting went: what is wrong with the surfaces, where.
+    /// Statistics of the cutting, and what is wrong with the surfaces and where.
     const CutReport &
     cut_report() const
     {
       return last_report;
     }
 
-    /// Of the lists of cut cells, pieces, components and entries of B, on this rank [bytes].
+    /// Memory of the lists of cut cells, pieces, components and entries of B on this rank [bytes].
     std::size_t
     memory_consumption() const;
 
@@ -153,9 +156,9 @@ namespace undine
     std::unique_ptr<const SurfaceQueries<dim>> queries;
   };
 
-  /// The grid as it was cut when the fluid's fields of a state were computed, with surfaces that
-  /// stand still. nullptr if nothing stands in the fluid. Collective. Throws SolveError as place()
-  /// does.
+  /// The grid as it was cut when the fluid's fields of a state were computed, with surfaces at
+  /// rest. nullptr without a fluid, or if there is no surface in it. Collective. Throws SolveError
+  /// as place() does.
   template <int dim>
   std::unique_ptr<FluidGeometry<dim>>
   geometry_of(const Models<dim> &models, const State<dim> &state);

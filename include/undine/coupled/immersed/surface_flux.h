@@ -13,8 +13,9 @@
 
 namespace undine
 {
-  /// How the bodies push the fluid in a step, and by the transpose the fluid the bodies, given the
-  /// bodies' velocity u = u^{n+1} at its end. B belongs to where the grid was cut, d^n.
+  /// The surface flux: what the surfaces displace of the fluid in a stage, given the bodies'
+  /// velocity u = u^{n+1} at its end, and by the transpose the forces of the pressure on the
+  /// bodies. B belongs to the positions at which the grid was cut.
   template <int dim>
   class SurfaceFlux
   {
@@ -28,25 +29,27 @@ namespace undine
     virtual void
     move(const Vector &velocity) = 0;
 
-    /// k: the derivative of fluxes() with respect to u is k B, but for what u does to B.
+    /// k [1]: the derivative of fluxes() with respect to u is k B, if the dependence of B on u is
+    /// neglected.
     virtual double
     factor() const = 0;
 
-    /// B with a column for each degree of freedom of the bodies, empty for fixed ones.
+    /// B [m^(dim-1)], with a row for each pressure and a column for each degree of freedom of the
+    /// bodies, empty for fixed ones.
     const Matrix &
     matrix() const
     {
       return flux_matrix;
     }
 
-    /// Of all nodes, as the fluid meets them [m/s].
+    /// Velocities of all nodes that B is applied to [m/s].
     const typename FluidGeometry<dim>::Velocities &
     node_velocities() const
     {
       return velocities;
     }
 
-    /// What all surfaces push out of each component of the fluid [m^dim/s].
+    /// The surface flux out of each component of the fluid, [FluidTopology::cells] [m^dim/s].
     std::vector<double>
     fluxes() const;
 
@@ -72,7 +75,7 @@ namespace undine
     const Models<dim>          &models;
     const FluidGeometry<dim>   &geometry;
     const PressureNumbers<dim> &numbers;
-    Velocities                  velocities; ///< of all nodes, as the fluid meets them [m/s]
+    Velocities                  velocities; ///< of all nodes, to which B is applied [m/s]
     std::vector<double>         further;    ///< added to B times these [m^dim/s]; empty: nothing
 
   private:
@@ -81,12 +84,12 @@ namespace undine
   };
 
 
-  /// Where the bodies are when a stage starts, and how they came there.
+  /// Positions of the nodes at t^n and their displacement increments since, for a stage.
   template <int dim>
   struct BodiesInStage
   {
-    /// Of a stage of the step that begins at `time` = t^n; the bodies in `state` are those at its
-    /// start. Collective.
+    /// For a stage of the step that begins at `time` = t^n [s]; the bodies in `state` are those at
+    /// its start. Collective.
     BodiesInStage(const Models<dim> &models,
                   const State<dim>  &state,
                   const Stage       &stage,
@@ -98,16 +101,17 @@ namespace undine
     /// Of all nodes, if the stage keeps rates. @{
     typename FluidGeometry<dim>::Positions before; ///< where they were at t^n [m]
     typename FluidGeometry<dim>::Velocities
-      increment; ///< of bodies to the start, of others to the end [m]
+      increment; ///< of bodies to the start of the stage, of obstacles to its end [m]
     /// @}
   };
 
 
-  /// Those that there are. For steps of one stage: `initial`, B u with B at d^n, which the volume
-  /// of a closed chamber obeys to first order in h; `swept`, the mean of B on the way times
-  /// (d^{n+1} - d^n) / h, which it obeys exactly (BoundaryFlux). For stages that keep rates,
-  /// whatever `kind`: B u at the end of the stage, where chambers obey exactly (ChamberVolumes).
-  /// The references must outlive the result.
+  /// The surface flux of a stage. For steps of one stage `kind` decides: with `initial` it is B u
+  /// with B at d^n, and the volume of a closed chamber drifts in first order of h; with `swept` it
+  /// is the mean of B over the displacement increment times (d^{n+1} - d^n) / h, and the volume is
+  /// exact (BoundaryFlux). For stages that keep rates, whatever `kind`, it is B u at the end of the
+  /// stage, with the correction (C3) that makes the volumes of chambers exact (ChamberVolumes). The
+  /// references must outlive the result. Collective.
   template <int dim>
   std::unique_ptr<SurfaceFlux<dim>>
   make_surface_flux(const std::string          &kind,

@@ -11,15 +11,15 @@
 
 namespace undine
 {
-  /// What the friction of the fluid needs from the surfaces in it, stage by stage, and what it
-  /// leaves.
+  /// The exchange between friction and the surfaces in the fluid, stage by stage: no-slip surfaces,
+  /// velocities of their nodes, and the forces that result.
   ///
-  /// Friction is found before the bodies move, with nodes that give way by
+  /// Friction is found before the bodies move, with nodes that yield to it by (I8)
   ///
   ///     m (u' - u^0) = h (F + G),   G = m (u^{n+1} - u^0)/h - F  of the last stage,
   ///
-  /// m being that of node_masses(). G stands for all that holds a node
-  /// besides friction: where nothing changes, u' = u^0, and a body is held as it is.
+  /// m being that of node_masses(). G stands for all forces on a node other than friction: in a
+  /// steady state u' = u^0.
   template <int dim>
   class SurfaceFriction
   {
@@ -29,12 +29,12 @@ namespace undine
     /// The models must outlive it. Without friction it does nothing. Collective.
     explicit SurfaceFriction(const Models<dim> &models);
 
-    /// Where the surfaces are now. Collective.
+    /// The no-slip surfaces of the grid as it is cut now. Collective.
     std::shared_ptr<const NoSlipSurfaces<dim>>
     walls(const FluidGeometry<dim> &geometry);
 
-    /// Of all nodes u^0 + h G / m [m/s]; prescribed ones as `geometry` says. A stage of length `dt`
-    /// [s] begins.
+    /// A stage of length `dt` [s] begins. Returns the velocities of all nodes, u^0 + h G / m [m/s];
+    /// where they are prescribed, those of `geometry`.
     Vectors
     start(const State<dim> &state, const FluidGeometry<dim> &geometry, double dt);
 
@@ -42,7 +42,7 @@ namespace undine
     void
     end(State<dim> &state, const FluidStep<dim> &fluid);
 
-    /// In all nodes, of the last stage [N]; empty without friction.
+    /// Friction of the last stage on all nodes [N]; empty without friction.
     const Vectors &
     forces() const
     {

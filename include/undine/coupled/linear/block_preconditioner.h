@@ -10,8 +10,7 @@
 
 namespace undine
 {
-  /// Stands for the inverse of a BlockSystem. One preconditioner is one .cc file that registers
-  /// itself.
+  /// A preconditioner of a BlockSystem. Each is one .cc file that registers itself.
   class BlockPreconditioner
   {
   public:
@@ -24,16 +23,18 @@ namespace undine
 
     virtual ~BlockPreconditioner() = default;
 
+    /// Declare and read the keys of this preconditioner.
     virtual void
     add_options(const Options &options) = 0;
 
-    /// All that is given must outlive the calls of vmult(). As long as `schur`, approximating the
-    /// Schur complement, is the same object, what was made of it is kept. Collective.
+    /// All that is given must outlive the calls of vmult(). What is built from `schur`, which
+    /// approximates the Schur complement, is reused as long as that is the same object. Collective.
     virtual void
     initialize(const BlockSystem                   &system,
                const std::shared_ptr<const Matrix> &schur,
                const ApplyInverse                  &tangent_inverse) = 0;
 
+    /// result = about the inverse of the system times `right_side`. Collective.
     virtual void
     vmult(BlockVector &result, const BlockVector &right_side) const = 0;
   };

@@ -9,7 +9,8 @@
 
 namespace undine
 {
-  /// How the block systems of the simultaneous scheme are solved: the section `Coupling`.
+  /// The settings by which the block systems of the simultaneous scheme are solved: keys of the
+  /// section `Coupling`.
   struct BlockSolverSettings
   {
     /// Read the keys of the section.
@@ -22,10 +23,10 @@ namespace undine
     unsigned int                         maximum_iterations = 200;
   };
 
-  /// Solves block systems by flexible GMRES. Residuals are measured after scaling by
-  /// |diag A|^-1/2 and diag(S)^-1/2, so that forces and fluxes weigh alike, whatever the units:
-  /// both become square roots of powers [W^1/2]. An iteration that does not converge gives way to
-  /// sparse factors of the whole matrix, with a note.
+  /// Solves block systems by flexible GMRES. Residuals are measured after scaling by |diag A|^-1/2
+  /// and diag(S)^-1/2, so that forces and fluxes weigh alike, whatever the units: both become
+  /// square roots of powers [W^1/2]. Where the iteration does not converge, sparse factors of the
+  /// whole matrix take its place, with a note.
   template <int dim>
   class BlockSolver
   {
@@ -37,7 +38,7 @@ namespace undine
     /// The references must outlive it.
     BlockSolver(const SolidModel<dim> &model, const BlockSolverSettings &settings);
 
-    /// A new grid: forget what approximates the Schur complement, iterations() and note().
+    /// A new step: forget the approximation of the Schur complement, iterations() and note().
     void
     start_step();
 
@@ -50,19 +51,19 @@ namespace undine
           const Vector      &displacement,
           const double       reduction);
 
-    /// Of all solves since start_step(), and the most that one took. @{
+    /// Number of iterations of all solves since start_step(), and the largest of one. @{
     unsigned int
     iterations() const;
     unsigned int
     most_iterations() const;
     /// @}
 
-    /// Of what approximates the Schur complement, on this rank [bytes]. Trilinos does not tell the
-    /// size of its factors and hierarchies.
+    /// Memory of the approximation of the Schur complement on this rank [bytes]. Trilinos does not
+    /// tell the size of its factors and hierarchies.
     std::size_t
     memory_consumption() const;
 
-    /// What was unusual since start_step(); empty if nothing was.
+    /// A note on anything unusual since start_step(); empty if there was nothing.
     const std::string &
     note() const;
 

@@ -7,14 +7,14 @@
 
 namespace undine
 {
-  /// The equations of a step, linearised, for changes of the bodies' velocities u [m/s] and the
-  /// fluid's pressures p [Pa]:
+  /// The equations of a step, linearised (C2), for changes of the bodies' velocities u [m/s] and
+  /// the fluid's pressures p [Pa]:
   ///
   ///     [ A    -B^T ] [u]   [N]
   ///     [ k B   h L ] [p]   [m^dim/s]
   ///
-  /// (Chentanez, Goktekin, Feldman & O'Brien, equation 3), k = 1 if u itself pushes the fluid.
-  /// Block vectors hold u, then p.
+  /// (Chentanez, Goktekin, Feldman & O'Brien, equation 3), k = 1 if the surface flux is B u, see
+  /// SurfaceFlux::factor(). Block vectors hold u, then p.
   class BlockSystem
   {
   public:
@@ -60,6 +60,7 @@ namespace undine
     BlockVector
     vector() const;
 
+    /// result = the matrix times `x`. Collective.
     void
     vmult(BlockVector &result, const BlockVector &x) const;
 

@@ -14,11 +14,12 @@ namespace undine
   public:
     using BlockVector = BlockSystem::BlockVector;
 
-    /// `pressures`: those of this rank that take part. The system is not needed afterwards.
-    /// Collective. Throws SolveError if the matrix is singular or not a number.
+    /// `pressures`: the numbers of the chosen pressures of this rank. The system is not needed
+    /// afterwards. Collective. Throws SolveError if the matrix is singular or not a number.
     JointFactorisation(const BlockSystem &system, const dealii::IndexSet &pressures);
 
-    /// The solution for the right side that takes part; other pressures are zero. Collective.
+    /// The solution of the restricted system for the entries of `right_side` that belong to it;
+    /// other pressures are zero. Collective.
     BlockVector
     solve(const BlockVector &right_side);
 

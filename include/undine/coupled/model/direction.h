@@ -6,7 +6,7 @@
 
 namespace undine
 {
-  /// Who feels whom where bodies stand in a fluid: `Coupling / Direction`.
+  /// In which direction bodies and fluid act on each other: `Coupling / Direction`.
   enum class Direction
   {
     two_way,

@@ -19,12 +19,14 @@ namespace undine
   public:
     virtual ~ImpliedEffect() = default;
 
+    /// Whether a scene calls for the effect.
     struct Call
     {
       bool        is_on;
       std::string why; ///< the sections and keys that call for it, or what is missing
     };
 
+    /// Does the scene of these models call for the effect, and why?
     virtual Call
     call(const Models<dim> &models) const = 0;
 

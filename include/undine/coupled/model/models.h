@@ -17,7 +17,7 @@
 
 namespace undine
 {
-  /// What a scene is made of; constant during a run.
+  /// The models that a scene consists of; constant during a run.
   template <int dim>
   struct Models
   {
@@ -26,10 +26,10 @@ namespace undine
     Effects<dim>                           effects;
     Direction                              direction = Direction::two_way;
 
-    /// Of fluid and bodies, in place of the two models above; nullptr: there are none.
+    /// Particles of fluid and bodies, in place of the two models above; nullptr: there are none.
     std::unique_ptr<const ParticleModel<dim>> particles;
 
-    /// Of everything that stands in the fluid; nullptr: nothing does.
+    /// The surfaces of all bodies and obstacles in the fluid; nullptr: there are none.
     std::shared_ptr<const ImmersedSurface<dim>> surface;
     std::shared_ptr<const VoidRegions<dim>>     void_regions; ///< nullptr: there are none
 
@@ -45,7 +45,7 @@ namespace undine
       return solid ? solid->communicator() : fluid->grid().communicator();
     }
 
-    /// Does the fluid stick to surfaces?
+    /// Are surfaces no-slip surfaces? They are if an effect asks for friction.
     bool
     has_friction() const
     {
@@ -54,7 +54,7 @@ namespace undine
       });
     }
 
-    /// What the effects do to the bodies. Collective.
+    /// The effects on the bodies, with the contact of all of them. Collective.
     SolidEnvironment<dim>
     environment() const
     {
@@ -65,7 +65,7 @@ namespace undine
       return result;
     }
 
-    /// The same without what is built for it.
+    /// The same without Contact, which has to be built.
     SolidEnvironment<dim>
     wishes_of_effects() const
     {
@@ -75,7 +75,7 @@ namespace undine
       return result;
     }
 
-    /// nullptr: bodies do not feel each other. Collective.
+    /// The contact of all bodies; nullptr if the scene has none. Collective.
     std::shared_ptr<const Contact<dim>>
     contact_of_bodies() const
     {

@@ -20,16 +20,18 @@ namespace undine
   public:
     virtual ~Scheme() = default;
 
+    /// Declare and read the keys of this scheme.
     virtual void
     add_options(const Options &options) = 0;
 
-    /// What fluid and bodies are made of: which models the scheme works with.
+    /// The discretisation of fluid and bodies, which decides on the models that the scheme gets.
     enum class Method
     {
       grid_and_elements,
       particles
     };
 
+    /// The method by which fluid and bodies are discretised.
     virtual Method
     method() const
     {
@@ -37,7 +39,7 @@ namespace undine
     }
 
     /// Bring an empty state to t = 0; the report holds the columns of that state. The references
-    /// must outlive the scheme.
+    /// must outlive the scheme. Collective. Throws InputError, SolveError.
     virtual Report
     initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing) = 0;
 
@@ -49,7 +51,7 @@ namespace undine
     using Follower = std::function<bool(const std::string &)>;
 
     /// From now on tell `follower` of steps that take longer than a second, about every second.
-    /// Schemes whose steps nobody can look into tell nothing.
+    /// Schemes that do not know how far a step is tell nothing.
     virtual void
     follow(Follower)
     {
@@ -57,6 +59,7 @@ namespace undine
 
     /// Advance fluid and bodies (of the clock only Clock::longest_step) by at most `dt` [s]. Throws
     /// SolveError if no step can be accepted; the state is then the one before the step.
+    /// Collective.
     virtual Report
     step(State<dim> &state, double dt) = 0;
   };

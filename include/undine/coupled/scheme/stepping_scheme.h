@@ -14,7 +14,8 @@
 
 namespace undine
 {
-  /// What all schemes have in common: the length of steps.
+  /// The choice of the length of steps, which all schemes on grids and finite elements have in
+  /// common.
   ///
   /// A step that fails is redone from the saved state with half its length, as long as that is not
   /// below the shortest one, Time/Step halved `Maximum cuts` times. The next step has the length
@@ -42,7 +43,7 @@ namespace undine
     step(State<dim> &state, double asked) override;
 
   protected:
-    /// Of the integrator that the scene chose.
+    /// Has the integrator of the scene stages that keep rates?
     bool
     has_stages() const;
 

@@ -10,7 +10,7 @@
 
 namespace undine
 {
-  /// How an accepted step went.
+  /// The report on an accepted step.
   struct Report
   {
     double       dt                = 0; ///< the step that was accepted [s]
@@ -33,7 +33,7 @@ namespace undine
     void
     warn(const std::string &subject, const std::string &text);
 
-    /// Where steps are chosen by their error in time: that of all steps so far [1].
+    /// The error in time of all steps so far [1], if steps are chosen by it.
     std::optional<double> error_in_time;
 
     Columns columns; ///< energies, forces, fluxes, ... of the new state

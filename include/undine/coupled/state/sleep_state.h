@@ -13,18 +13,21 @@ namespace undine
   template <int dim>
   struct SleepState
   {
+    /// True if bodies may sleep.
     bool
     in_use() const
     {
       return !asleep.empty();
     }
 
+    /// Does any body sleep?
     bool
     any_asleep() const
     {
       return std::find(asleep.begin(), asleep.end(), true) != asleep.end();
     }
 
+    /// The body is awake, and its time at rest begins anew.
     void
     wake(const unsigned int body)
     {
@@ -32,6 +35,7 @@ namespace undine
       quiet[body]  = 0;
     }
 
+    /// wake() all bodies.
     void
     wake_all()
     {
@@ -57,7 +61,7 @@ namespace undine
     std::vector<bool>   asleep;         ///< [body]
     std::vector<double> quiet; ///< [body] for how long it has been slow without a break [s]
 
-    /// In the nodes of the bodies' surfaces what fluid and contact did to those that sleep when
+    /// Loads of fluid and contact in the nodes of the bodies' surfaces, of those that sleep when
     /// they fell asleep [N]; empty where nothing acts on surfaces.
     std::vector<dealii::Tensor<1, dim>> loads;
   };

@@ -16,8 +16,8 @@
 
 namespace undine
 {
-  /// Everything that changes during a run, as plain data: a saved copy is a complete restart.
-  /// Only a Scheme writes to it. Parts that a scene does not have stay empty.
+  /// Everything that changes during a run, as plain data: a saved copy is a complete restart. Only
+  /// a Scheme writes to it. Members that a scene does not need stay empty.
   template <int dim>
   struct State
   {
@@ -27,7 +27,7 @@ namespace undine
 
     particles::ParticleState<dim> particles;
 
-    /// What a stage of a step starts from (Stage).
+    /// The bodies from which a stage of a step starts (Stage).
     struct StageStart
     {
       SolidState                            solid;
@@ -41,10 +41,10 @@ namespace undine
     ContactStart                          contact;    ///< of the bodies in this stage
     /// @}
 
-    /// Where the nodes of ImmersedSurface were when the fluid's fields were computed [m].
+    /// Positions of the nodes of ImmersedSurface when the fluid's fields were computed [m].
     std::vector<dealii::Point<dim>> surface_positions;
 
-    /// What moved the nodes of bodies besides friction in the last stage (SurfaceFriction) [N].
+    /// Forces other than friction on the nodes of bodies in the last stage (SurfaceFriction) [N].
     std::vector<dealii::Tensor<1, dim>> other_forces;
 
     StepHistory<dim> history;

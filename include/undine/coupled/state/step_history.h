@@ -10,8 +10,8 @@
 
 namespace undine
 {
-  /// What the choice of the next step (StepError) knows about earlier ones. Empty where steps are
-  /// constant. Of a fluid only faces count that no body cuts: the others are zero.
+  /// What StepError needs of earlier steps to choose the next one. Empty where steps are constant.
+  /// Only faces of the fluid that no body cuts count: values on the others are zero.
   template <int dim>
   struct StepHistory
   {

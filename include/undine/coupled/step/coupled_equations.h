@@ -9,15 +9,16 @@
 
 namespace undine
 {
-  /// The equations of a step for the bodies' velocities u = u^{n+1} and the fluid's pressures p, as
-  /// Newton's method sees them (Newton):
+  /// The equations of a step (C1) for the bodies' velocities u = u^{n+1} and the fluid's pressures
+  /// p, in the form that solve_newton() asks for:
   ///
   ///     R(u) - B^T p = 0             [N]         R: SolidEquations
   ///     D v* + B u + h L p = 0       [m^dim/s]   B: SurfaceFlux
   ///
   /// Norms are sums of both, each relative to the size of its terms: the largest where corrections
-  /// were computed. Points on trial may raise it tenfold at most, and only for themselves: they
-  /// must neither hide how far off they are nor loosen what follows.
+  /// were computed. Points on trial may raise that size tenfold at most, and only for themselves:
+  /// otherwise a bad point would seem to have a small residual, and later tolerances would be too
+  /// loose.
   template <int dim>
   class CoupledEquations
   {
@@ -35,22 +36,29 @@ namespace undine
                      TimingTree                   &timing,
                      double                        flux_rounding);
 
-    /// Newton's method begins anew: forget sizes.
+    /// Newton's method begins anew: forget the sizes of terms.
     void
     start();
 
+    /// Moves the bodies to u of `x` and computes both residuals there. Returns their norm [1].
+    /// Collective. Throws SolveError.
     double
     evaluate(const Unknown &x);
 
+    /// The change of `x`, evaluated last, by the linearised equations (C2), shortened where contact
+    /// would close a gap. Collective. Throws SolveError and Interruption.
     Unknown
     correction(const Unknown &x);
 
+    /// 1: norms are relative already.
     double
     scale() const;
 
+    /// The norm that rounding of internal forces leaves of the residual [1].
     double
     rounding() const;
 
+    /// Of the block solver since BlockSolver::start_step().
     unsigned int
     linear_iterations() const;
 

@@ -14,15 +14,15 @@
 
 namespace undine
 {
-  /// The part of one step in which bodies and fluid are solved together: everything that is set up
-  /// for it and given up after it.
+  /// The simultaneous solution (C1) of bodies and fluid in one stage of a step, with everything
+  /// that lives only that long.
   template <int dim>
   class CoupledStep
   {
   public:
     using Vector = BlockSystem::Vector;
 
-    /// What it works with; all must outlive it.
+    /// The objects that it uses; all must outlive it.
     struct Parts
     {
       const Models<dim>                      &models;
@@ -35,7 +35,8 @@ namespace undine
     };
 
     /// `state` holds u^n and, in the fluid, v*, which gets the velocities of inflows and walls.
-    /// `boundary_flux`: see make_surface_flux(). Collective. Throws InputError, SolveError.
+    /// `boundary_flux`: `initial` or `swept`, see make_surface_flux(). Collective. Throws
+    /// InputError, SolveError.
     CoupledStep(const Parts          &parts,
                 const FluidStep<dim> &fluid,
                 State<dim>           &state,
@@ -45,11 +46,11 @@ namespace undine
     SolidReport<dim>
     solve();
 
-    /// max |D v + B u| per face of a cell and speed [1].
+    /// max |D v + B u| per face of a cell and speed after solve() [1].
     double
     divergence() const;
 
-    /// What solve() did, for the budget. Collective. @{
+    /// The terms of the budget after solve(). Collective. @{
     PressureBalance<dim>
     pressure_balance() const;
     SurfaceExchange<dim>

@@ -16,7 +16,8 @@
 
 namespace undine
 {
-  /// What a step does to the fluid whatever is in it: all but the pressures.
+  /// The part of a stage that the fluid goes through in every scheme: cutting the grid, transport,
+  /// forces and implicit terms, and what follows the pressures; all but the pressures themselves.
   template <int dim>
   class FluidSide
   {
@@ -24,34 +25,36 @@ namespace undine
     /// The references must outlive it. Collective.
     FluidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing);
 
-    /// The fluid at the start; what stands in it is where `state` says. `dt` [s] is the length of
-    /// the first step. Collective. Throws SolveError.
+    /// Set the fluid of `state` to its initial fields, made divergence-free by `projection`, around
+    /// the bodies of `state`; adds to the report. `dt` [s] is the length of the first step.
+    /// Collective. Throws SolveError, and InputError if bodies and obstacles leave no fluid.
     void
     initialize(State<dim> &state, Projection<dim> &projection, double dt, Report &report);
 
-    /// Cut the grid by what stands in the fluid, then transport, forces and implicit terms of every
-    /// effect that is on: v^n in `state` becomes v*. The bodies in `state` are those at the stage's
-    /// start. Collective. Throws SolveError.
+    /// Cut the grid by the surfaces of bodies and obstacles, then transport, forces and implicit
+    /// terms of every effect that is on: v^n in `state` becomes v*. The bodies in `state` are those
+    /// at the stage's start. Collective. Throws SolveError.
     std::unique_ptr<FluidStep<dim>>
     predict(State<dim> &state, const Stage &stage);
 
     /// The end of the stage that predict() began, after the velocity has been made divergence-free
-    /// up to `divergence` [1]. Collective.
+    /// up to `divergence` [1]; adds to the report. Collective.
     void
     finish(FluidStep<dim> &fluid, State<dim> &state, Report &report, double divergence);
 
-    /// What pressure, weight and friction do to the nodes of all surfaces after finish(), at `time`
-    /// [s] [N]; empty if nothing stands in the fluid. Collective.
+    /// Forces of pressure, weight and friction in the nodes of all surfaces [N], after finish(), at
+    /// `time` [s]; empty if there is no surface in the fluid. Collective.
     std::vector<dealii::Tensor<1, dim>>
     loads_on_surfaces(const State<dim> &state, double time) const;
 
-    /// Where surfaces cut the grid; nullptr if nothing stands in the fluid.
+    /// The grid as surfaces cut it; nullptr if there is no surface in the fluid.
     const FluidGeometry<dim> *
     geometry() const
     {
       return cut.get();
     }
 
+    /// Gravity of the effects [m/s^2].
     const dealii::Tensor<1, dim> &
     gravity() const
     {

@@ -8,8 +8,8 @@
 
 namespace undine
 {
-  /// Bodies in a fluid of which only one side feels the other (Direction), whatever the scheme. A
-  /// stage of length h from its start:
+  /// One-way coupling of bodies and fluid (Direction), the same for all schemes. A stage of length
+  /// h from its start:
   ///
   ///     fluid to body    1. fluid: v*, p^{n+1} and v^{n+1} around bodies that stay as they were at
   ///                         the start of the run: their surface is cut once
@@ -64,7 +64,7 @@ namespace undine
     FluidSide<dim>     fluid_side;
     SolidSide<dim>     solid_side;
     Projection<dim>    projection;
-    SolidState         at_start; ///< what the fluid sees with `fluid to body`
+    SolidState         at_start; ///< the bodies that the fluid flows around with `fluid to body`
   };
 } // namespace undine
 

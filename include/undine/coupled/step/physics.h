@@ -46,8 +46,8 @@ namespace undine
     virtual void
     step(State<dim> &state, const Stage &stage, Report &report) = 0;
 
-    /// What the fluid does to the surfaces in it at the end of the last stage, at `time` [s], in
-    /// all their nodes [N]; empty if bodies do not feel it. Collective.
+    /// Forces of the fluid on the surfaces in it at the end of the last stage, at `time` [s], in
+    /// all their nodes [N]; empty if they do not act on bodies. Collective.
     virtual std::vector<dealii::Tensor<1, dim>>
     loads_on_surfaces(const State<dim> & /*state*/, double /*time*/) const
     {
@@ -68,6 +68,7 @@ namespace undine
   }
 
 
+  /// Appends columns.
   inline void
   append(Columns &columns, const Columns &more)
   {

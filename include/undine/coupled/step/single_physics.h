@@ -29,7 +29,7 @@ namespace undine
     SolidSide<dim> solid_side;
   };
 
-  /// A fluid without deformable bodies; obstacles may stand and move in it.
+  /// A fluid without deformable bodies; it may contain obstacles, fixed or moving.
   template <int dim>
   class FluidAlone : public Physics<dim>
   {

@@ -10,8 +10,8 @@
 
 namespace undine
 {
-  /// What a stage does to the bodies whatever surrounds them: all but the loads on them. The
-  /// counterpart of FluidSide.
+  /// The part of a stage that the bodies go through in every scheme: all but the loads of the fluid
+  /// on them. The counterpart of FluidSide.
   template <int dim>
   class SolidSide
   {
@@ -26,9 +26,9 @@ namespace undine
     void
     initialize(State<dim> &state, double dt) const;
 
-    /// The bodies of `state` become those from which the stage of the step from t^n starts, and
-    /// what its step needs of them for the stage that follows is put aside; the budget, if it is
-    /// on, learns of it. Nothing if the stage keeps no rates. Collective.
+    /// The bodies of `state` become those from which the stage of the step from t^n starts; what
+    /// the stage that follows needs of them is stored in `state`, and the budget, if it is on, gets
+    /// their energy and momentum. Does nothing if the stage keeps no rates. Collective.
     void
     start(State<dim> &state, const Stage &stage) const;
 

@@ -11,14 +11,15 @@
 
 namespace undine
 {
-  /// How a field is carried with the flow for one step: ds/dt + v.grad s = 0. The same code serves
-  /// scalars in cells and velocities on faces.
+  /// A method by which the flow carries a field for one step: ds/dt + v.grad s = 0. The same code
+  /// serves scalars in cells and velocities on faces.
   template <int dim>
   class Advection
   {
   public:
     virtual ~Advection() = default;
 
+    /// Declare and read the keys of this method.
     virtual void
     add_options(const Options &options) = 0;
 
@@ -26,9 +27,9 @@ namespace undine
     virtual std::string
     summary() const = 0;
 
-    /// Fields at t + h from fields at t, on what bodies leave of the grid now. All of them live on
-    /// the same points and parts, with the same ghost layers so far, and have the same boundary
-    /// condition: every path is followed once. Collective.
+    /// Fields at t + h from fields at t, on the present topology of the fluid. All of them have the
+    /// same lattice, topology and ghost layers and the same boundary condition, so that every path
+    /// is traced once. Collective.
     virtual std::vector<Field<dim>>
     advect(const CharacteristicTracer<dim> &tracer,
            std::vector<Field<dim>>          fields,
@@ -44,7 +45,8 @@ namespace undine
     }
   };
 
-  /// `fields` with the ghost layers and boundary points that the flow asks for.
+  /// `fields` with the ghost layers that `tracer` needs and with boundary points as `condition`
+  /// says. Collective.
   template <int dim>
   std::vector<Field<dim>>
   completed(const CharacteristicTracer<dim> &tracer,
@@ -58,7 +60,7 @@ namespace undine
             Field<dim>                       field,
             const BoundaryCondition<dim>    &condition);
 
-  /// What is seen from the feet of paths that come near a body.
+  /// The values at the feet of paths that come near a body, from visible samples.
   template <int dim>
   class NearBodies
   {
@@ -68,13 +70,14 @@ namespace undine
     /// `source` is what completed() returned. The references must outlive it. Collective.
     NearBodies(const CharacteristicTracer<dim> &tracer, const Field<dim> &source);
 
-    /// The value that the path from `foot` brings to the point `index` or a part of it, which is at
-    /// `place`; NaN if nothing could be seen there, of scalars only.
+    /// The value that the path from `foot` brings to the point `index` or to one of its sub-cells
+    /// or sub-faces, which is at `place`. Where no sample is visible, a velocity is that of the
+    /// nearest surface, and a scalar is NaN.
     double
     value_at(const GridIndex<dim> &index, const dealii::Point<dim> &place, const Place &foot) const;
 
     /// Cells and components to which nothing was brought are filled, see fill_unknown(); divided
-    /// points take the mean of their parts. Collective.
+    /// points take the mean of their sub-cells or sub-faces. Collective.
     void
     finish(Field<dim> &carried, const BoundaryCondition<dim> &condition) const;
 
@@ -85,18 +88,17 @@ namespace undine
     std::unique_ptr<const VisibleSamples<dim>> samples;
   };
 
-  /// The same field on what bodies leave of the grid now. Collective.
+  /// The same field on the present topology of the fluid; no flow carries it. Collective.
   template <int dim>
   Field<dim>
   remapped(const CharacteristicTracer<dim> &tracer,
            const Field<dim>                &field,
            const BoundaryCondition<dim>    &condition);
 
-  /// Fields at t + h on what bodies leave of the grid now: `far(trace, index, k)` is that of field
-  /// k at the end of a path that keeps away from bodies; near them all methods are alike, see
-  /// NearBodies; places that are quiet in all fields keep what they have. `sources` are what
-  /// completed() returned with the same condition; `far` looks no further than `reach` points away.
-  /// Collective.
+  /// Fields at t + h on the present topology of the fluid. `far(trace, index, k)` is the value of
+  /// field k for a path that stays away from bodies; near them all methods are alike, see
+  /// NearBodies; uniform regions keep their values. `sources` are what completed() returned with
+  /// the same condition; `far` takes no points further than `reach` away. Collective.
   template <int dim, class Far>
   std::vector<Field<dim>>
   carry(const CharacteristicTracer<dim> &tracer,

@@ -14,19 +14,19 @@
 
 namespace undine
 {
-  /// The velocity at one time, frozen, as that which carries fields during a step: knows where the
-  /// fluid that arrives at a place has come from.
+  /// Characteristic tracing: with the velocity at one time, which carries fields during a step, it
+  /// finds where the fluid that arrives at a place has come from.
   template <int dim>
   class CharacteristicTracer
   {
   public:
     using Place = typename BodyVicinity<dim>::Place;
 
-    /// Where a particle is at the other end of its path.
+    /// The other end of the path of a particle.
     struct Trace
     {
       Place foot;
-      bool  left_domain; ///< it met an opening or an inflow there before its time was up
+      bool  left_domain; ///< it met an opening or an inflow there before the time had passed
       bool  near_body;   ///< it came near one, see BodyVicinity
     };
 
@@ -35,15 +35,16 @@ namespace undine
     {
       /// Their surfaces at the time of the step; nullptr: none.
       const Obstruction<dim> *obstruction = nullptr;
-      /// What they leave of the grid now, and of the fields that are carried; nullptr: everything.
+      /// The topology of the fluid now, which carried fields get; nullptr: nothing is cut.
       std::shared_ptr<const FluidTopology<dim>> topology;
-      /// What the fluid sticks to, and how the nodes there move [m/s]; nullptr: nothing.
+      /// The no-slip surfaces, and the velocities of their nodes [m/s]; nullptr: none.
       std::shared_ptr<const NoSlipSurfaces<dim>> walls           = nullptr;
       std::vector<dealii::Tensor<1, dim>>        wall_velocities = {};
     };
 
-    /// `velocity` at `time` [s], for steps of length dt [s]. It may belong to an earlier place of
-    /// the bodies. Collective. Throws SolveError if the velocity is not finite.
+    /// Copies `velocity`, at `time` [s], for steps of length dt [s]. It may belong to an earlier
+    /// position of the bodies. The model must outlive this. Collective. Throws SolveError if the
+    /// velocity is not finite.
     CharacteristicTracer(const FluidModel<dim> &model,
                          const Velocity<dim>   &velocity,
                          const double           time,
@@ -71,11 +72,12 @@ namespace undine
     const Bodies &
     bodies() const;
 
+    /// Which cells are near bodies.
     const BodyVicinity<dim> &
     vicinity() const;
 
-    /// Of fields like this one, which has what completed() gives it, between bodies; made once for
-    /// all that are alike. Collective.
+    /// The visibility stencils of fields like this one, which has what completed() gives it; made
+    /// once for all that are alike. Only where there are bodies. Collective.
     const std::shared_ptr<VisibilityStencils<dim>> &
     stencils(const Field<dim> &like) const;
 
@@ -89,14 +91,15 @@ namespace undine
     reach(const int beyond) const;
 
     /// Follow the particle at `place` for a time (negative: back to where it came from), by the
-    /// midpoint rule: x' = x + dt v(x + dt v(x) / 2). The path ends at inflows and openings, and
-    /// just before surfaces of bodies; at walls it goes on along the wall; periodic sides are
+    /// midpoint rule (F7), x' = x + dt v(x + dt v(x) / 2). The path ends at inflows and openings,
+    /// and just before surfaces of bodies; at walls it goes on along the wall; periodic sides are
     /// passed.
     Trace
     trace(const dealii::Point<dim> &place, const double dt) const;
 
   private:
-    /// [m/s] Near bodies from what can be seen, or the velocity of the nearest surface.
+    /// Interpolated velocity [m/s]; next to bodies from visible samples or, where there are none,
+    /// the velocity of the nearest surface.
     dealii::Tensor<1, dim>
     velocity_at(const Place &place) const;
 
@@ -106,11 +109,12 @@ namespace undine
       bool  left_domain;
     };
 
-    /// The end of a straight way from a place in the domain, kept in the domain.
+    /// The end of a straight path from a place, which ends before a surface and stays in the
+    /// domain.
     Walk
     walk(const Place &place, const dealii::Tensor<1, dim> &path) const;
 
-    /// The same where no bodies are, and if it left the domain.
+    /// The same without regard to bodies, and whether the path left the domain.
     std::pair<dealii::Point<dim>, bool>
     kept_in_domain(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &path) const;
 

@@ -7,11 +7,10 @@
 
 namespace undine
 {
-  /// Replace values that are NaN, of cells and components that a body has just uncovered: the mean
-  /// of the neighbours that they are joined to, the nearer ones first. Fluid that is joined to none
-  /// has come in through inflows and openings of the domain, with the value there at `time`; and if
-  /// there are none, it has been joined to nothing before, and takes zero. `scalar` must have open
-  /// parts. Collective.
+  /// Replace values that are NaN, in freshly cleared cells and components, by the mean of the
+  /// neighbours that they are joined to, the nearer ones first. Fluid that is joined to none has
+  /// come in through inflows and openings of the domain, with the value there at `time` [s]; where
+  /// there are none either, it takes zero. `scalar` must have a topology. Collective.
   template <int dim>
   void
   fill_unknown(Field<dim>                   &scalar,

@@ -9,24 +9,24 @@
 
 namespace undine
 {
-  /// Where nothing happens to fields that are carried: within reach of a point all values of each
-  /// are the same but for a share of its range. What the flow brings there is what is there.
-  /// To be safe and fast, neighbours are compared: they differ by less than would add up to that
-  /// share on the longest way between two of these values.
+  /// Where fields that are carried are uniform: within reach of a point all values of each field
+  /// are the same but for a share of its range, so that the flow changes nothing there. To be safe
+  /// and fast, neighbours are compared: they must differ by less than would add up to that share
+  /// along the longest path from neighbour to neighbour between two of these values.
   template <int dim>
   class UniformRegions
   {
   public:
-    /// `sources`: with the same points, parts and stored values, `reach` ghost layers at least;
+    /// `sources`: with the same lattice, topology and stored box, `reach` ghost layers at least;
     /// `share` of a field's range that differences may have, from 0 to 1. Points next to which
-    /// bodies divide others, in the sources or `now`, are never quiet; nullptr: bodies leave
-    /// everything. Collective.
+    /// bodies divide others, in the sources or `now`, are never uniform; nullptr: nothing is cut.
+    /// Collective.
     UniformRegions(const std::vector<Field<dim>> &sources,
                    const GridIndex<dim>          &reach,
                    const double                   share,
                    const SubLattice<dim>         *now = nullptr);
 
-    /// Of an owned point.
+    /// Is an owned point in a uniform region?
     bool
     contains(const GridIndex<dim> &index) const
     {
@@ -34,7 +34,7 @@ namespace undine
     }
 
     /// Call `action(index, n)` for every run along the first direction of owned points that are all
-    /// quiet, or none of them: the first one and how many.
+    /// uniform, or with `quiet` = false none of them: the first point and their number.
     template <class Action>
     void
     for_each_run(const bool quiet, Action &&action) const

@@ -17,6 +17,7 @@ namespace undine
     unsigned int axis; ///< normal to the side
     unsigned int end;  ///< 0 at the lower, 1 at the upper end of the axis
 
+    /// Position in side_names().
     unsigned int
     number() const
     {

@@ -7,27 +7,27 @@
 
 namespace undine
 {
-  /// What a field that is carried and diffused does on the domain's boundary: it is held at a
-  /// value, or its normal derivative vanishes. Where the flow enters through an opening, the
-  /// entering fluid brings a value with it.
+  /// The boundary condition of a field that is carried and diffused: it is held at a value, or its
+  /// normal derivative vanishes. Where fluid enters through an opening, it brings a value with it.
   template <int dim>
   class BoundaryCondition
   {
   public:
     virtual ~BoundaryCondition() = default;
 
-    /// Whether the field is held on `boundary`.
+    /// Is the field held at a value on `boundary`?
     virtual bool
     holds(const Boundary<dim> &boundary) const = 0;
 
-    /// The value at a place on a held boundary that is normal to `normal_axis`.
+    /// The value, in the unit of the field, at a place [m] on a held boundary that is normal to
+    /// `normal_axis`, at `time` [s].
     virtual double
     held_value(const Boundary<dim>      &boundary,
                const unsigned int        normal_axis,
                const dealii::Point<dim> &place,
                const double              time) const = 0;
 
-    /// The value that comes in through an opening.
+    /// The value of the fluid that enters through an opening at `place` [m].
     virtual double
     entering_value(const dealii::Point<dim> &place, const double time) const = 0;
 
@@ -103,9 +103,10 @@ namespace undine
     action(boundaries.at(side, cell), above / (below + above), cell);
   }
 
-  /// Give the stored boundary points of `field` their values at `time`: held, entering with the
-  /// flow `velocity` (whose faces on the boundary must be stored there), or equal to the nearest
-  /// point inside. The ghost layers of `field` must be up to date.
+  /// Give the stored boundary points of `field` their values at `time` [s]: held, that of fluid
+  /// which enters with the flow `velocity` (whose faces on the boundary must be stored there), or
+  /// equal to the nearest point inside. The ghost layers of `field` must be up to date. Not
+  /// collective.
   template <int dim>
   void
   fill_boundary_points(Field<dim>                   &field,
@@ -114,7 +115,7 @@ namespace undine
                        const Velocity<dim>          &velocity,
                        const double                  time);
 
-  /// Set the faces on walls and inflows to their normal velocity at `time`.
+  /// Set the owned faces and pieces on walls and inflows to their normal velocity at `time` [s].
   template <int dim>
   void
   set_boundary_velocity(Velocity<dim>          &velocity,

@@ -36,6 +36,7 @@ namespace undine
     unsigned int
     number(const Side side, const GridIndex<dim> &cell) const;
 
+    /// The boundary of that face.
     const Boundary<dim> &
     at(const Side side, const GridIndex<dim> &cell) const
     {

@@ -13,15 +13,16 @@
 
 namespace undine
 {
-  /// What passes through the boundaries of the domain and acts on them. All are collective and
-  /// equal on all ranks. @{
+  /// Fluxes through the boundaries of the domain and forces on them. All are collective and equal
+  /// on all ranks. @{
 
   /// Volume that leaves through each boundary of boundaries.all(), [m^dim/s].
   template <int dim>
   std::vector<double>
   boundary_fluxes(const BoundaryMap<dim> &boundaries, const Velocity<dim> &velocity);
 
-  /// What is wrong with the fluxes through the boundaries of a domain without opening, or "".
+  /// A message if the net flux through the boundaries of a domain without opening is not zero, else
+  /// "".
   template <int dim>
   std::string
   net_flux_complaint(const BoundaryMap<dim> &boundaries, const Velocity<dim> &velocity);
@@ -41,7 +42,7 @@ namespace undine
                  const double            dynamic_viscosity,
                  const double            time);
 
-  /// "Force on lid, x" and so on, for walls only.
+  /// The columns "Force on lid, x" and so on [N], `what` being their first words; for walls only.
   template <int dim>
   Columns
   force_columns(const std::string                         &what,

@@ -19,13 +19,13 @@ namespace undine
     double middle = 0; ///< coordinate along the edge [m]; 0 in 2D
   };
 
-  /// Of a piece: [2 d + end], its rim on the side normal to d. Those along the face's axis are
-  /// empty.
+  /// The rims of a piece: [2 d + end], the one on the side normal to d. Those along the face's axis
+  /// are empty.
   template <int dim>
   using Rims = std::array<Rim, 2 * dim>;
 
-  /// What the friction of a fluid needs to know of the surfaces in it, beside what they leave of
-  /// the grid.
+  /// What the friction of a fluid needs to know of the surfaces in it, besides the topology that
+  /// they leave of the grid.
   template <int dim>
   struct NoSlipSurfaces
   {
@@ -48,18 +48,18 @@ namespace undine
       dealii::Tensor<1, dim> area;
     };
 
-    std::array<std::vector<Rims<dim>>, dim> rims;     ///< [axis][part of FluidTopology::faces]
+    std::array<std::vector<Rims<dim>>, dim> rims;     ///< [axis][number in FluidTopology::faces]
     std::array<std::vector<Contact>, dim>   contacts; ///< by axis, of this rank's faces
     std::vector<Patch>                      patches;  ///< of this rank's components, in their order
 
     unsigned int n_nodes = 0; ///< of the surfaces
 
-    /// Of the first nodes, those of bodies, by axis: what they move along with them [kg]; infinite
+    /// Masses of the first nodes, those of bodies, along each axis (node_masses()) [kg]; infinite
     /// where the velocity is prescribed, as that of the other nodes is.
     std::vector<dealii::Tensor<1, dim>> masses;
   };
 
-  /// What a fluid's friction does to what it sticks to, along one axis or all.
+  /// The friction of a fluid on no-slip surfaces and boundaries, along one axis or all.
   template <class Force>
   struct FrictionForces
   {

@@ -21,8 +21,7 @@ namespace undine
     int            piece; ///< of a divided face: which one; else -1
   };
 
-  /// action(SideFace, place) for all of them. `topology`: what bodies leave of the grid; nullptr:
-  /// everything.
+  /// action(SideFace, place) for all of them. `topology`: of the fluid; nullptr: nothing is cut.
   template <int dim, class Action>
   void
   for_each_side_face(const MacGrid<dim>       &grid,
@@ -67,7 +66,7 @@ namespace undine
   double
   outward_flux(const MacGrid<dim> &grid, const Velocity<dim> &velocity, const SideFace<dim> &face);
 
-  /// Where the pressure next to a side is.
+  /// Where the pressure inside, next to a face on a side, sits.
   template <int dim>
   PressurePlace<dim>
   place_inside(const FluidTopology<dim> *topology, const SideFace<dim> &face);

@@ -10,8 +10,8 @@
 
 namespace undine
 {
-  /// Which rank owns which cells: the grid is cut into a box of blocks, one a rank, whose
-  /// interfaces have the fewest cell faces. Depends on the number of cells and ranks only.
+  /// Which rank owns which cells: the grid is divided into a box of blocks, one a rank, with the
+  /// fewest cell faces between them. Depends on the number of cells and ranks only.
   template <int dim>
   class Blocks
   {
@@ -31,9 +31,11 @@ namespace undine
     unsigned int
     rank() const;
 
+    /// Number of cells of the whole grid in each direction.
     const GridIndex<dim> &
     n_cells() const;
 
+    /// Is the domain periodic along `axis`?
     bool
     periodic(const unsigned int axis) const;
 
@@ -49,9 +51,11 @@ namespace undine
     int
     block_of_cell(const unsigned int axis, const int cell) const;
 
+    /// Position of the block of a rank among n_blocks().
     GridIndex<dim>
     block_of_rank(const unsigned int rank) const;
 
+    /// The inverse of block_of_rank().
     unsigned int
     rank_of_block(const GridIndex<dim> &block) const;
 

@@ -18,7 +18,7 @@ namespace undine
     /// No cells.
     CellCounts() = default;
 
-    /// Of the cells of `box` for which is_marked(cell).
+    /// The marked cells are those of `box` for which is_marked(cell).
     template <class IsMarked>
     CellCounts(const IndexBox<dim> &box, const IsMarked &is_marked)
       : corners(box)
@@ -40,7 +40,7 @@ namespace undine
         });
     }
 
-    /// Among the cells of a box within that of the constructor, not empty.
+    /// Number of marked cells in `cells`, a box that is not empty, within that of the constructor.
     int
     in(const IndexBox<dim> &cells) const
     {

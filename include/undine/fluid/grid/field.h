@@ -12,9 +12,9 @@
 namespace undine
 {
   /// One number at every point of a lattice, distributed over the ranks: each stores the points it
-  /// owns and, after exchange(), any number of layers around them. Where bodies divide a point
-  /// there is also a number for each of its parts, and that of the point is their mean (see
-  /// SubLattice). A value: copies are deep.
+  /// owns and, after exchange(), any number of ghost layers around them. Where bodies divide a
+  /// point there is also a number for each of its sub-cells or sub-faces ("parts"), and that of the
+  /// point is their mean (see SubLattice). A value: copies are deep.
   template <int dim>
   class Field
   {
@@ -24,7 +24,8 @@ namespace undine
     /// Empty.
     Field() = default;
 
-    /// Zero at every point. `topology`: what bodies leave of the grid; nullptr: everything.
+    /// Zero at every owned point and in every part. `topology`: of the fluid between bodies;
+    /// nullptr: nothing is cut.
     explicit Field(std::shared_ptr<const Lattice<dim>>       lattice,
                    std::shared_ptr<const FluidTopology<dim>> topology = nullptr);
 
@@ -34,12 +35,14 @@ namespace undine
       return *points;
     }
 
+    /// The lattice, to be shared with other fields.
     const std::shared_ptr<const Lattice<dim>> &
     shared_lattice() const
     {
       return points;
     }
 
+    /// The topology of the fluid; nullptr: nothing is cut.
     const std::shared_ptr<const FluidTopology<dim>> &
     topology() const
     {
@@ -54,14 +57,15 @@ namespace undine
       open = equal_parts;
     }
 
-    /// What is left of this field's points; nullptr: everything.
+    /// How bodies divide this field's points; nullptr: not at all.
     const SubLattice<dim> *
     divided() const
     {
       return open ? &open->of(*points) : nullptr;
     }
 
-    /// The values of all parts that this rank knows, by their number in divided(). @{
+    /// The values of all sub-cells or sub-faces that this rank knows, [divided()->all()]; empty if
+    /// divided() is nullptr. @{
     const std::vector<double> &
     parts() const
     {
@@ -118,8 +122,9 @@ namespace undine
     /// @}
 
     /// Fetch `width[d]` layers on either side from the ranks that own them, periodic images
-    /// included, and the parts that other ranks own. Boundary points (see Row) become stored, with
-    /// unchanged or zero values. Collective; `width` must be the same on all ranks.
+    /// included, and the values of sub-cells or sub-faces that other ranks own. Boundary points
+    /// (see Row) become stored, with unchanged or zero values. Collective; `width` must be the same
+    /// on all ranks.
     void
     exchange(const GridIndex<dim> &width);
 
@@ -136,7 +141,7 @@ namespace undine
     set_owned_values(const std::vector<double> &owned_values);
     /// @}
 
-    /// Of the values on this rank [bytes].
+    /// Memory of the values on this rank [bytes].
     std::size_t
     memory_consumption() const
     {
@@ -166,7 +171,8 @@ namespace undine
   };
 
 
-  /// Call `action(k, part)` for every owned part k of divided points; nullptr: there are none.
+  /// Call `action(k, part)` for every sub-cell or sub-face (SubLattice::Part) that this rank owns,
+  /// k being its number in `divided->all()`; nullptr: there are none.
   template <int dim, class Action>
   void
   for_each_owned_part(const SubLattice<dim> *divided, Action &&action)
@@ -177,7 +183,8 @@ namespace undine
   }
 
 
-  /// Call `action(value, place, index)` for every owned part of a divided point, with its centroid.
+  /// Call `action(value, place, index)` for every sub-cell or sub-face that this rank owns: the
+  /// field's value there, the centroid [m] and the point that it is a part of.
   template <class FieldType, class Action>
   void
   for_each_part(FieldType &field, Action &&action)
@@ -189,8 +196,8 @@ namespace undine
 
 
   /// Call `action(value, place, index)` for every owned value of a field: those of the points that
-  /// are whole, with the point's place, and those of the parts of divided ones, with their
-  /// centroids.
+  /// are whole, with the point's place, then those of the sub-cells or sub-faces of divided points,
+  /// with their centroids.
   template <class FieldType, class Action>
   void
   for_each_value(FieldType &field, Action &&action)

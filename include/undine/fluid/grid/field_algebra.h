@@ -7,7 +7,8 @@
 
 namespace undine
 {
-  /// Give divided points the mean of their parts, see SubLattice; closed ones get zero. @{
+  /// Give owned divided points the mean of their sub-cells or sub-faces, see SubLattice; closed
+  /// ones get zero. Not collective. @{
   template <int dim>
   void
   set_means(Field<dim> &field, const MacGrid<dim> &grid);
@@ -22,17 +23,18 @@ namespace undine
   void
   set_volumes(Field<dim> &volumes, const MacGrid<dim> &grid);
 
-  /// field += factor * change on owned points and all parts.
+  /// field += factor * change on owned points and all sub-cells or sub-faces; both have the same
+  /// lattice and topology.
   template <int dim>
   void
   add(Field<dim> &field, const double factor, const Field<dim> &change);
 
-  /// velocity += factor * acceleration on owned faces and pieces.
+  /// velocity += factor * acceleration on owned faces and all pieces.
   template <int dim>
   void
   add(Velocity<dim> &velocity, const double factor, const Velocity<dim> &acceleration);
 
-  /// Exchange one ghost layer of each component.
+  /// Exchange one ghost layer of each component. Collective.
   template <int dim>
   void
   exchange(Velocity<dim> &velocity);

@@ -17,7 +17,7 @@ namespace undine
     /// Collective.
     FluidRegions(const MacGrid<dim> &grid, const PressureNumbers<dim> &numbers);
 
-    /// Of all ranks.
+    /// Number of regions, the same on all ranks.
     unsigned int
     size() const
     {

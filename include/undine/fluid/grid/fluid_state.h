@@ -10,7 +10,7 @@
 
 namespace undine
 {
-  /// The normal velocities on the faces, [m/s]; component `axis` on the faces normal to it.
+  /// The normal velocities on the faces [m/s]; component `axis` on the faces normal to it.
   template <int dim>
   struct Velocity
   {
@@ -28,7 +28,7 @@ namespace undine
       return components[axis];
     }
 
-    /// What bodies leave of the grid; nullptr: everything.
+    /// The topology of the fluid that all components share; nullptr: nothing is cut.
     const FluidTopology<dim> *
     topology() const
     {
@@ -36,7 +36,7 @@ namespace undine
     }
   };
 
-  /// Of the values on this rank [bytes].
+  /// Memory of the values on this rank [bytes].
   template <int dim>
   std::size_t
   memory_consumption(const Velocity<dim> &velocity)
@@ -48,7 +48,7 @@ namespace undine
   }
 
   /// The fluid at one time, on the staggered grid: normal velocities on cell faces, the rest in
-  /// cell centres. Fields carry ghost layers; owned values are the truth.
+  /// cell centres. Ghost values may be out of date; owned values count.
   template <int dim>
   struct FluidState
   {
@@ -57,15 +57,17 @@ namespace undine
     Velocity<dim>                     change;       ///< dv/dt of the last stage [m/s^2]
     Field<dim>                        pressure;     ///< reduced pressure p - rho g.x [Pa]
     std::map<std::string, Field<dim>> scalars;      ///< by name, e.g. "smoke", "temperature"
-    std::map<std::string, Field<dim>> scalar_rates; ///< Ds/Dt of the last stage, of those that have
+    std::map<std::string, Field<dim>>
+      scalar_rates; ///< Ds/Dt of the last stage [1/s], of scalars that have one
   };
 
-  /// What the stage that follows starts from (Stage); only within a step.
+  /// The fields from which the stage that follows starts (Stage); only within a step.
   template <int dim>
   struct FluidStageStart
   {
-    Velocity<dim>                     velocity; ///< [m/s]
-    std::map<std::string, Field<dim>> scalars;  ///< those that change besides by the flow
+    Velocity<dim> velocity; ///< [m/s]
+    std::map<std::string, Field<dim>>
+      scalars; ///< those that also change otherwise than by the flow
   };
 } // namespace undine
 

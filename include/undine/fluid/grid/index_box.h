@@ -58,6 +58,7 @@ namespace undine
     GridIndex<dim> lower{};
     GridIndex<dim> upper{};
 
+    /// Is there no point in it?
     bool
     empty() const
     {
@@ -109,6 +110,7 @@ namespace undine
       return result;
     }
 
+    /// The points that are in both boxes.
     IndexBox
     intersection(const IndexBox &other) const
     {

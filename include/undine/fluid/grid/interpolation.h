@@ -17,9 +17,9 @@ namespace undine
     double largest;
   };
 
-  /// Multilinear interpolation at a place whose surrounding points are stored; exact for
+  /// Multilinear interpolation at a place [m] whose surrounding points are stored; exact for
   /// multilinear functions on graded lattices too. Places outside the domain count as the nearest
-  /// inside.
+  /// inside. Bodies are not regarded (see VisibleSamples).
   template <int dim>
   double
   interpolate(const Field<dim> &field, const dealii::Point<dim> &place);
@@ -29,13 +29,13 @@ namespace undine
   dealii::Tensor<1, dim>
   interpolate(const Velocity<dim> &velocity, const dealii::Point<dim> &place);
 
-  /// That of one field, with the smallest and the largest of the 2^dim samples.
+  /// Multilinear interpolation of a field, with the smallest and the largest of the 2^dim samples.
   template <int dim>
   BoundedValue
   interpolate_with_bounds(const Field<dim> &field, const dealii::Point<dim> &place);
 
-  /// Interpolation by the cubic polynomials through four points in each direction; `limited`: to
-  /// the bounds of the 2^dim samples around the place.
+  /// Interpolation by the cubic polynomials through four points in each direction; `limited`:
+  /// clipped to the bounds of the 2^dim samples around the place.
   template <int dim>
   double
   interpolate_cubic(const Field<dim> &field, const dealii::Point<dim> &place, const bool limited);

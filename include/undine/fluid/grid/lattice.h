@@ -32,6 +32,7 @@ namespace undine
             const std::array<Row, dim>        &rows,
             const unsigned int                 normal_axis);
 
+    /// The axis that the faces are normal to; no_axis for cells.
     unsigned int
     normal_axis() const
     {
@@ -44,6 +45,7 @@ namespace undine
       return *block_structure;
     }
 
+    /// The positions of the points along one direction.
     const Row &
     row(const unsigned int direction) const
     {
@@ -58,6 +60,7 @@ namespace undine
     dealii::types::global_dof_index
     n_points() const;
 
+    /// Position of a point, of a boundary point or of an image [m].
     dealii::Point<dim>
     point(const GridIndex<dim> &index) const;
 

@@ -23,7 +23,8 @@ namespace undine
   public:
     using Planes = std::array<std::vector<double>, dim>;
 
-    /// `planes` in ascending order [m].
+    /// `planes` in ascending order [m]. Throws InputError if there are more ranks than the grid can
+    /// be divided for.
     MacGrid(const MPI_Comm              communicator,
             const Planes               &planes,
             const std::array<bool, dim> periodic);
@@ -35,9 +36,11 @@ namespace undine
     dealii::types::global_dof_index
     n_cells() const;
 
+    /// Number of cells in each direction.
     const GridIndex<dim> &
     cells_along() const;
 
+    /// Is the domain periodic along `axis`?
     bool
     periodic(const unsigned int axis) const;
 
@@ -52,9 +55,11 @@ namespace undine
     const std::vector<double> &
     planes(const unsigned int axis) const;
 
+    /// The lattice of the cell centres.
     const std::shared_ptr<const Lattice<dim>> &
     cells() const;
 
+    /// The lattice of the centres of the faces normal to `axis`.
     const std::shared_ptr<const Lattice<dim>> &
     faces(const unsigned int axis) const;
 
@@ -87,7 +92,8 @@ namespace undine
     GridIndex<dim>
     cell_at(const dealii::Point<dim> &place) const;
 
-    /// At most how many planes a way of length `distance[d]` [m] along direction d crosses.
+    /// How many planes normal to each direction d a segment of the extent `distance[d]` [m] crosses
+    /// at most.
     GridIndex<dim>
     planes_crossed(const dealii::Tensor<1, dim> &distance) const;
 

@@ -19,6 +19,7 @@ namespace undine
     int            component; ///< number in FluidTopology::cells; -1: the cell is whole
   };
 
+  /// The value of a field of cells where a pressure sits.
   template <int dim>
   double
   value_at(const Field<dim> &field, const PressurePlace<dim> &place)
@@ -52,7 +53,7 @@ namespace undine
     /// Collective.
     PressureNumbers(const MacGrid<dim> &grid, std::shared_ptr<const FluidTopology<dim>> topology);
 
-    /// Of a pressure of this rank or next to one; images allowed. @{
+    /// The number of a pressure of this rank or next to one; images allowed. @{
     Number
     of(const PressurePlace<dim> &place) const
     {
@@ -72,14 +73,14 @@ namespace undine
     }
     /// @}
 
-    /// What bodies leave of the grid; nullptr: everything.
+    /// The topology of the fluid; nullptr: nothing is cut.
     const std::shared_ptr<const FluidTopology<dim>> &
     topology() const
     {
       return open;
     }
 
-    /// Those of this rank.
+    /// The numbers of the pressures that this rank owns.
     const dealii::IndexSet &
     owned() const
     {
@@ -94,7 +95,8 @@ namespace undine
   };
 
 
-  /// The values of a field of cells, in the order of the numbers. @{
+  /// Copy the owned values of a field of cells, in the order of the numbers, to a vector over
+  /// owned() or back. Not collective. @{
   template <int dim, class Vector>
   void
   copy_to_vector(Vector &vector, const Field<dim> &field)

@@ -32,7 +32,7 @@ namespace undine
       unsigned int n_points; ///< fewer than 4 only if the row has no more
     };
 
-    /// And the weights of the polynomial through them.
+    /// Four points and the weights of the polynomial through them.
     struct Stencil : PointsAround
     {
       std::array<double, 4> weights;
@@ -40,11 +40,11 @@ namespace undine
 
     Row() = default;
 
-    /// All planes. A periodic row has no point of its own at the last plane.
+    /// The row of all planes [m]. If it is periodic, it has no point of its own at the last plane.
     static Row
     of_planes(const std::vector<double> &planes, const bool periodic);
 
-    /// Midway between the planes.
+    /// The row of the points midway between the planes [m].
     static Row
     of_centres(const std::vector<double> &planes, const bool periodic);
 
@@ -82,7 +82,8 @@ namespace undine
     double
     position(const int index) const;
 
-    /// A place beyond the ends of a row that is not periodic counts as the end.
+    /// The points between which a place [m] lies. Beyond the ends of a row that is not periodic it
+    /// counts as the end.
     Bracket
     locate(double place) const
     {
@@ -92,12 +93,12 @@ namespace undine
       return {i + first + periods * n, std::clamp(weight, 0., 1.)};
     }
 
-    /// Those that stencil() takes.
+    /// The points that stencil() takes, for a place [m].
     PointsAround
     points_around(double place) const;
 
-    /// Cubic interpolation (Lagrange), exact for cubic polynomials on graded rows too. Next to an
-    /// end of the row the points are those nearest to the end.
+    /// The stencil of cubic interpolation (Lagrange) at a place [m], exact for cubic polynomials on
+    /// graded rows too. Next to an end of the row the points are those nearest to the end.
     Stencil
     stencil(double place) const;
 

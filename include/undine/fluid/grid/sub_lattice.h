@@ -18,14 +18,16 @@ namespace undine
   IndexBox<dim>
   known_points(const Lattice<dim> &lattice);
 
-  /// How bodies divide the points of a lattice: a cell into the connected components of its fluid,
-  /// a face into its open pieces. At a divided point a field has one value for each part (see
-  /// Field::part) and its value on the lattice is a mean: of a cell over the volume of its fluid,
-  /// of a face the flux through all pieces over the whole area.
+  /// How bodies divide the points of a lattice: a cell into sub-cells, the connected components of
+  /// its fluid; a face into sub-faces, its open pieces. Either is a "part" of the point. At a
+  /// divided point a field has one value for each part (see Field::parts()), and its value on the
+  /// lattice is a mean: of a cell over the volume of its fluid, of a face the flux through all
+  /// pieces over the whole area.
   template <int dim>
   class SubLattice
   {
   public:
+    /// A sub-cell or a sub-face.
     struct Part
     {
       GridIndex<dim>     index;   ///< of the point that it is a part of
@@ -37,7 +39,7 @@ namespace undine
     enum class Kind : std::uint8_t
     {
       whole,   ///< open to fluid all over
-      divided, ///< has parts; perhaps none: then it is closed, but next to a cut
+      divided, ///< consists of parts; if there are none it is closed, but next to a cut
       closed   ///< in a body
     };
 
@@ -51,6 +53,7 @@ namespace undine
                const std::vector<Kind>            &kinds,
                const std::vector<Part>            &parts);
 
+    /// All parts that this rank knows, in the order in which the constructor got them.
     const std::vector<Part> &
     all() const
     {

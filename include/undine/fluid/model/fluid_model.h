@@ -35,8 +35,8 @@ namespace undine
     const PressureSolverSettings &
     pressure_solver() const;
 
-    /// The initial velocity of the scene (not yet divergence-free), no pressure, no scalars, on
-    /// what bodies leave of the grid; nullptr: everything.
+    /// The initial velocity of the scene (not yet divergence-free), zero pressure, no scalars, on
+    /// this topology of the fluid; nullptr: nothing is cut.
     FluidState<dim>
     initial_state(const std::shared_ptr<const FluidTopology<dim>> &topology = nullptr) const;
 

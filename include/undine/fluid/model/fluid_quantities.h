@@ -44,7 +44,8 @@ namespace undine
   double
   integral(const FluidModel<dim> &model, const Field<dim> &scalar);
 
-  /// What the fluid adds to the file `statistics`; `divergence` [1] as the projection left it.
+  /// The columns of the fluid for the file `statistics`; `divergence` [1] as the projection left
+  /// it.
   template <int dim>
   Columns
   fluid_columns(const FluidModel<dim> &model,

@@ -13,25 +13,29 @@
 
 namespace undine
 {
-  /// The dynamic pressure on outflows through which fluid enters, implicit in time: with the speed
-  /// u = -v^{n+1}.n on a face and s, a guess of it (not below zero),
+  /// The dynamic pressure on outflows where there is backflow, implicit in time and linearised by
+  /// Newton's method: with the speed u = -v^{n+1}.n of the backflow through a face and s, a guess
+  /// of it (not below zero),
   ///
-  ///     p = -rho/2 max(0, u)^2  ~  -rho/2 (2 s u - s^2)                          (Newton)
+  ///     p = -rho/2 max(0, u)^2  ~  -rho/2 (2 s u - s^2)
   ///
-  /// Taken from v^n, the impulse h p would do more than stop what enters as soon as fluid crosses a
-  /// cell in a step: strips that enter and strips that leave would drive each other. As it is, the
-  /// opening takes h rho/2 u^3 of energy per area in a step, which is what the next transport
-  /// brings in. v^{n+1} is unique, since it minimises a convex function:
-  /// |v - v*|^2 rho V/2 + h rho/6 a max(0, u)^3.
+  /// Taken from v^n, the impulse h p would more than stop the backflow as soon as fluid crosses a
+  /// cell in a step: strips of backflow and strips of outflow would drive each other. Taken
+  /// implicitly, the opening takes h rho/2 u^3 of energy per area in a step, which is what the next
+  /// transport brings in. v^{n+1} is unique, since it minimises a convex function,
+  ///
+  ///     |v - v*|^2 rho V/2 + h rho/6 a max(0, u)^3.
   ///
   /// With v^{n+1} = v* + h a (p_c - p)/(rho V) on the face, v outward and p_c the pressure inside,
   ///
-  ///     v^{n+1} = m v* + m h a (p_c - rho s^2/2)/(rho V),   m = 1/(1 + h s a/V):
+  ///     v^{n+1} = m v* + m h a (p_c - rho s^2/2)/(rho V),   m = 1/(1 + h s a/V),            (F11)
   ///
-  /// a face that enters moves as if it were heavier. @{
+  /// a face with backflow moves as if it were heavier. This is the directional do-nothing condition
+  /// of Braack & Mucha (2014), taken implicitly. @{
 
-  /// Let the dynamic pressure act for a step dt on v* = `velocity`, given s: v* becomes m v*; the
-  /// openings get their mobility m, and their rest rho s^2/2 as pressure.
+  /// Let the dynamic pressure act for a step dt [s] on v* = `velocity`, given s: on outflows v*
+  /// becomes m v*; the openings get their mobility m, and the remainder rho s^2/2 as pressure [Pa].
+  /// Not collective.
   template <int dim>
   void
   stabilise_backflow(Velocity<dim>              &velocity,
@@ -40,8 +44,11 @@ namespace undine
                      const double                dt);
 
   /// s := max(0, u) with u of `velocity` = v^{n+1}; the openings get the pressure that has acted,
-  /// with the s before. Returns how much that would change v^{n+1}, at
-  /// most [m/s]: m h a (u - s)^2/(2 V). Collective.
+  /// with the s before. Returns by how much the new s would change v^{n+1} at most [m/s],
+  ///
+  ///     m h a (u - s)^2/(2 V).
+  ///
+  /// Collective.
   template <int dim>
   double
   update_entering_speeds(std::vector<OpenFace<dim>> &openings,
@@ -51,8 +58,8 @@ namespace undine
 
   /// Newton's method for the speeds s: round(n), n = 0, 1, ..., solves a step with the last ones
   /// and returns by how much better ones would change v^{n+1}, relative to the largest speed [1].
-  /// From the speeds of the step before it is there in one or two rounds; speeds that are far too
-  /// large are halved in each.
+  /// It ends when that is at most 1e-4, or after 20 rounds. From the speeds of the step before it
+  /// takes one or two rounds; speeds that are far too large are halved in each.
   template <class Round>
   void
   find_entering_speeds(const Round &round)
@@ -81,7 +88,8 @@ namespace undine
     void
     vmult(Vector &product, const Vector &pressure) const;
 
-    /// What is subtracted from the diagonal: number of a row among those of this rank, and value.
+    /// The values that are subtracted from the diagonal, with the number of the row among those of
+    /// this rank.
     const std::vector<std::pair<std::size_t, double>> &
     subtracted() const
     {

@@ -22,8 +22,8 @@ namespace undine
   };
 
 
-  /// The regions of the fluid on whose boundary the pressure is given nowhere and nothing gives
-  /// way: there it is known up to a constant, and what flows in must flow out.
+  /// The regions of the fluid on whose boundary neither the pressure is given nor a surface yields
+  /// to it: there the pressure is known up to a constant, and what flows in must flow out.
   template <int dim>
   class ClosedRegions
   {
@@ -32,23 +32,24 @@ namespace undine
 
     using Number = typename PressureNumbers<dim>::Number;
 
-    /// `yielding`: owned pressures at surfaces of bodies that move as pressure makes them. The
-    /// references must outlive it. Collective.
+    /// `yielding`: owned pressures at surfaces of bodies that yield to the pressure. The references
+    /// must outlive it. Collective.
     ClosedRegions(const FluidModel<dim>      &model,
                   const PressureNumbers<dim> &numbers,
                   const std::vector<Number>  &yielding = {});
 
-    /// One pressure of each closed region, if this rank owns it.
+    /// The lowest pressure number of every closed region, as far as this rank owns them.
     const std::vector<Number> &
     pinned() const
     {
       return pins;
     }
 
-    /// The fluxes pushed by bodies, changed within their uncertainties so that the volume of each
-    /// closed region is kept; where surfaces yield, they move as far as that takes. Throws
-    /// InputError if more enters or leaves a region: through held faces of `velocity`, or pushed by
-    /// bodies. Collective.
+    /// The swept-volume fluxes of bodies, [FluidTopology::cells] [m^dim/s], changed within their
+    /// uncertainties so that the volume of each closed region is conserved; where surfaces yield,
+    /// they move as far as that takes. Throws InputError (NoOutletError, if something is cut) if
+    /// more than the uncertainty enters or leaves a region through faces with a given velocity and
+    /// through surfaces. Collective.
     std::vector<double>
     balanced_fluxes(const Velocity<dim>   &velocity,
                     const SweptVolumeFlux &pushed,
@@ -60,40 +61,43 @@ namespace undine
     fix_pressure_level(Vector &pressure) const;
 
     /// Make the entries of each closed region sum to zero, by changes in proportion to volume.
+    /// Collective.
     void
     balance(Vector &right_side) const;
 
-    /// Make the mean of the pressure over each closed region zero.
+    /// Make the mean of the pressure over each closed region zero. Collective.
     void
     remove_means(Field<dim> &pressure) const;
 
-    /// How many there are.
+    /// Number of closed regions.
     std::size_t
     size() const
     {
       return region_volumes.size();
     }
 
-    /// Of each of them [m^dim].
+    /// The volume of each closed region [m^dim].
     const std::vector<double> &
     volumes_of_regions() const
     {
       return region_volumes;
     }
 
-    /// The middle of the largest cell or component of each of them. Collective.
+    /// The centroid of the largest cell or component of each closed region [m]. Collective.
     std::vector<dealii::Point<dim>>
     places_within() const;
 
-    /// What leaves each of them through walls and inflows at `time` [m^dim/s]. Collective.
+    /// The volume flux out of each closed region through walls and inflows at `time` [s],
+    /// [m^dim/s]. Collective.
     std::vector<double>
     held_outflow(const double time) const;
 
-    /// Sums over each of them of values in FluidTopology::cells. Collective.
+    /// Sums over each closed region of `values` [FluidTopology::cells]. Collective.
     std::vector<double>
     sums_on_components(const std::vector<double> &values) const;
 
-    /// The closed region of each of FluidTopology::cells; negative: none.
+    /// The number of the closed region of each of FluidTopology::cells; negative: none. Not
+    /// collective.
     std::vector<int>
     of_components() const;
 
@@ -118,8 +122,8 @@ namespace undine
     std::vector<double>
     sums_of(const Field<dim> &field, const Function &function) const;
 
-    /// What flows out of a region through the surface of each body, and through boundaries, and
-    /// where it lies. Collective.
+    /// A message: where a region lies, and the fluxes out of it through the surface of each body
+    /// and through boundaries. Collective.
     std::string
     describe(const int              region,
              const SweptVolumeFlux &pushed,

@@ -7,8 +7,8 @@
 namespace undine
 {
   /// (D v)_c = sum_f +-a_f v_f over the faces of every owned cell, or over the pieces of faces
-  /// around every component: the volume that leaves it, [m^dim/s]; zero in bodies. One ghost layer
-  /// of the velocity must be up to date.
+  /// around every component (F2), (I1): the volume that leaves it [m^dim/s]; zero in bodies. One
+  /// ghost layer of the velocity must be up to date.
   template <int dim>
   Field<dim>
   divergence(const FluidModel<dim> &model, const Velocity<dim> &velocity);
@@ -19,12 +19,13 @@ namespace undine
   double
   flux_area(const MacGrid<dim> &grid, const GridIndex<dim> &cell);
 
-  /// max over cells of |(D v)_c| / flux_area, [m/s], from the result of divergence().
+  /// max over cells of |(D v)_c| / flux_area [m/s], from the result of divergence(). Collective.
+  /// Throws SolveError if a value is not finite.
   template <int dim>
   double
   largest_divergence(const FluidModel<dim> &model, const Field<dim> &fluxes);
 
-  /// The same for a velocity.
+  /// The same for a velocity, whose ghost values need not be up to date. Collective.
   template <int dim>
   double
   largest_divergence(const FluidModel<dim> &model, const Velocity<dim> &velocity);

@@ -8,8 +8,9 @@
 
 namespace undine
 {
-  /// What the impulses h p of a step do to the fluid, each term from its own formula. Sums run over
-  /// faces and pieces, n points out of the fluid, Gamma are the surfaces in it:
+  /// The energy and momentum that the impulses h p of a step give to the fluid, each term from its
+  /// own formula. Sums run over faces and pieces, n points out of the fluid, Gamma are the surfaces
+  /// in it:
   ///
   ///     momentum = sum rho V (v^{n+1} - v*) = - h (sides + openings + int_Gamma p n)
   ///     sum rho V (|v^{n+1}|^2 - |v*|^2)/2  = h (power of sides + of openings - p.B w) - loss
@@ -27,8 +28,8 @@ namespace undine
     dealii::Tensor<1, dim> momentum_before;       ///< of v* [kg m/s]
   };
 
-  /// From v* = `before`, with the velocity on walls and inflows in place, to v^{n+1} = `after` by
-  /// `pressure`; `openings` with the pressures that have acted. Collective.
+  /// The balance of the change from v* = `before`, with the velocity on walls and inflows in place,
+  /// to v^{n+1} = `after` by `pressure`; `openings` with the pressures that have acted. Collective.
   template <int dim>
   PressureBalance<dim>
   pressure_balance(const FluidModel<dim>            &model,

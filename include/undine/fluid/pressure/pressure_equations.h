@@ -15,8 +15,8 @@
 
 namespace undine
 {
-  /// The fluid's part of the equations of a step: D v* + h L p = - what bodies push, and what
-  /// follows for the velocity.
+  /// The fluid's part of the equations of a step, D v* + B u + h L p = 0 (I3), in which B u is the
+  /// swept-volume flux of surfaces, and what follows for the velocity.
   template <int dim>
   class PressureEquations
   {
@@ -31,23 +31,25 @@ namespace undine
                       const std::vector<Number>  &yielding,
                       const double                dt);
 
-    /// Begin with v* in `velocity`. `carrying` = v^n is a first guess of how fast fluid enters
-    /// through outflows; the step ends at `time`. `pushed`: by all surfaces, of which those that
-    /// do not yield must keep the volume of closed regions.
-    /// Collective. Throws InputError if a closed region has a net inflow.
+    /// Begin with v* in `velocity`, which gets the velocity on walls and inflows at `time` [s], the
+    /// end of the step. `carrying` = v^n is a first guess of the backflow through outflows.
+    /// `pushed`: the swept-volume flux of all surfaces, of which those that do not yield must
+    /// conserve the volume of closed regions. Collective. Throws InputError if a closed region has
+    /// a net inflow.
     void
     start(Velocity<dim>         &velocity,
           const Velocity<dim>   &carrying,
           const double           time,
           const SweptVolumeFlux &pushed);
 
-    /// Add to `velocity` = v*, as start() left it, what openings do to it, given how fast fluid
-    /// enters there.
+    /// Add to `velocity` = v*, as start() left it, the impulse of the pressures on openings, given
+    /// the speed of the backflow there, and compute predicted_flux() and matrix(). Collective.
     void
     open(Velocity<dim> &velocity);
 
-    /// Learn from v^{n+1} how fast fluid enters through outflows. Returns how much that would
-    /// change v^{n+1} if the step were solved again from open() on [1]. Collective.
+    /// Take the speed of the backflow through outflows from v^{n+1}. Returns by how much that would
+    /// change v^{n+1}, relative to its largest speed, if the step were solved again from open() on
+    /// [1]. Collective.
     double
     update_backflow(const Velocity<dim> &velocity);
 

@@ -9,10 +9,9 @@
 
 namespace undine
 {
-  /// What pressure does to the faces' velocities: the adjoint of divergence(), and what openings
-  /// add to it. Faces on walls and inflows are held: D sees their velocity, pressure does not
-  /// accelerate them.
-  /// @{
+  /// The acceleration of the faces' velocities by pressure (F3): the adjoint of divergence(), and
+  /// the contribution of openings. Faces on walls and inflows have a given velocity, which counts
+  /// in D v; pressure does not accelerate them. @{
 
   /// One through which fluid may leave or enter freely.
   template <int dim>
@@ -20,15 +19,14 @@ namespace undine
   {
     double       pressure;     ///< reduced pressure on the face [Pa]
     BoundaryKind kind;         ///< outflow or pressure
-    double       entering;     ///< how fast fluid enters through it, if at all [m/s]
+    double       entering;     ///< speed of the backflow through it, max(0, -v.n) [m/s]
     double       mobility = 1; ///< share of an acceleration that is left, see stabilise_backflow()
   };
 
-  /// The openings of this rank with their pressures at `time`. Where fluid enters through an
+  /// The openings of this rank with their pressures at `time`. Where there is backflow through an
   /// outflow, p = -rho (v.n)^2 / 2, so that it brings in no energy (directional do-nothing
-  /// condition, Braack & Mucha 2014); how that acts in a step: stabilise_backflow().
-  /// `topology`: what bodies leave of the grid, which may have changed since `velocity`; nullptr:
-  /// everything.
+  /// condition, Braack & Mucha 2014); how that acts in a step: stabilise_backflow(). `topology`: of
+  /// the fluid, which may differ from that of `velocity`; nullptr: nothing is cut.
   template <int dim>
   std::vector<OpenFace<dim>>
   open_faces(const FluidModel<dim>    &model,
@@ -36,15 +34,16 @@ namespace undine
              const FluidTopology<dim> *topology,
              const double              time);
 
-  /// (rho V)^-1 D^T p on the owned faces, zero on held ones, [m/s^2]: the acceleration by the
-  /// pressure, minus grad p / rho. One ghost layer of the pressure must be up to date.
+  /// (rho V)^-1 D^T p on the owned faces, zero on those with a given velocity [m/s^2]: the
+  /// acceleration by the pressure, minus grad p / rho. One ghost layer of the pressure must be up
+  /// to date.
   template <int dim>
   Velocity<dim>
   pressure_acceleration(const FluidModel<dim>            &model,
                         const Field<dim>                 &pressure,
                         const std::vector<OpenFace<dim>> &openings);
 
-  /// a_f^2 / (rho V_f), the entry that a whole face contributes to L = D (rho V)^-1 D^T.
+  /// a_f^2 / (rho V_f), the entry that a whole face contributes to L = D (rho V)^-1 D^T (F4).
   template <int dim>
   double
   pressure_coupling(const FluidModel<dim> &model,

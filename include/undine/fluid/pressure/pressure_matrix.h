@@ -11,7 +11,7 @@
 
 namespace undine
 {
-  /// Build L = D (rho V)^-1 D^T, face by face: a face or piece between two pressures adds
+  /// Build L = D (rho V)^-1 D^T (F4), face by face: a face or piece between two pressures adds
   /// a^2/(rho V) to the diagonal of each and couples them by minus that; one on an opening adds
   /// a^2/(rho V) to the diagonal of the pressure inside. Collective.
   ///

@@ -23,25 +23,27 @@ namespace undine
   ///
   ///     v^{n+1} = v* + h (rho V)^-1 D^T p,    D v^{n+1} = 0,    i.e.  h L p = -D v*
   ///
-  /// with L = D (rho V)^-1 D^T (see pressure_matrix()). p acts as one impulse h p; the unknown is
-  /// h p, so that matrix and multigrid hierarchy serve all step sizes. Conjugate gradients with
-  /// smoothed-aggregation multigrid (Trilinos ML), started from the last pressure; repeated on the
-  /// remaining divergence until that is below the tolerance in every single cell.
+  /// with L = D (rho V)^-1 D^T (F4), (F5), (F6), see build_pressure_matrix(). p acts as one impulse
+  /// h p; the unknown is h p, so that matrix and multigrid hierarchy serve all step sizes.
+  /// Conjugate gradients with smoothed-aggregation multigrid (Trilinos ML), started from the last
+  /// pressure; repeated on the remaining divergence until that is below the tolerance in every
+  /// single cell.
   template <int dim>
   class Projection
   {
   public:
+    /// The result of a projection.
     struct Report
     {
       unsigned int iterations = 0;
       double       divergence = 0; ///< max |div v| dx / max |v| afterwards [1]
 
-      /// Of a step: v* with the velocity on walls and inflows, and the openings with the pressures
-      /// that have acted.
+      /// After project(): v* with the velocity on walls and inflows, and the openings with the
+      /// pressures that have acted.
       Velocity<dim>              before;
       std::vector<OpenFace<dim>> openings;
 
-      /// Of that step, which led to `state`. Collective.
+      /// The balance of energy and momentum of the projection that led to `state`. Collective.
       PressureBalance<dim>
       balance(const FluidModel<dim> &model, const FluidState<dim> &state) const;
     };
@@ -53,9 +55,9 @@ namespace undine
     /// walls and inflows first. Throws InputError if a region without opening has a net inflow,
     /// SolveError if the solver does not converge. Collective.
     ///
-    /// `carrying` = v^n is a first guess of how fast fluid enters through outflows; v* is none:
-    /// friction adds h grad p^n / rho to it, which may point inwards in a steady outflow. `pushed`:
-    /// by surfaces of bodies.
+    /// `carrying` = v^n is a first guess of the backflow through outflows; v* is none: friction
+    /// adds h grad p^n / rho to it, which may point inwards in a steady outflow. `pushed`: the
+    /// swept-volume flux of surfaces.
     Report
     project(FluidState<dim>       &state,
             const Velocity<dim>   &carrying,
@@ -63,12 +65,12 @@ namespace undine
             const double           dt,
             const SweptVolumeFlux &pushed = {});
 
-    /// The same with v* in the place of v^n.
+    /// The same with v* in the place of v^n and without surfaces. Collective.
     Report
     project(FluidState<dim> &state, const double time, const double dt);
 
-    /// The divergence-free velocity nearest to the one given, for a start at `time`; the state's
-    /// pressure becomes zero.
+    /// The velocity becomes the nearest divergence-free one, with the velocity on walls and inflows
+    /// at `time` [s]; the pressure becomes zero. Throws as project() does. Collective.
     Report
     make_divergence_free(FluidState<dim>       &state,
                          const double           time,
@@ -77,12 +79,12 @@ namespace undine
   private:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-    /// Matrix and multigrid hierarchy, unless they are there, for what bodies leave of the grid.
+    /// Build matrix and multigrid hierarchy for this topology of the fluid, unless they are there.
     void
     prepare(const std::shared_ptr<const FluidTopology<dim>> &topology);
 
-    /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm, L held back where fluid
-    /// enters.
+    /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm, `held_back` being L with
+    /// the backflow stabilisation.
     unsigned int
     solve(Vector               &impulse,
           const Vector         &right_side,
@@ -98,8 +100,8 @@ namespace undine
                       std::vector<OpenFace<dim>> &openings,
                       const std::vector<double>  &body_fluxes);
 
-    /// The same at the end of a step dt, with openings that hold pressures. Fluid enters outflows
-    /// against its dynamic pressure, see stabilise_backflow().
+    /// The same at the end of a step dt, with openings that hold pressures, and with backflow
+    /// stabilisation, see stabilise_backflow().
     Report
     remove_divergence_with_openings(Velocity<dim>             &velocity,
                                     Field<dim>                &impulse,

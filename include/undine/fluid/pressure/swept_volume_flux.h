@@ -7,8 +7,8 @@
 
 namespace undine
 {
-  /// What surfaces of bodies do to the volume of the fluid. Components are those of
-  /// FluidTopology::cells.
+  /// The swept-volume flux: what the surfaces of bodies and obstacles displace of the fluid.
+  /// Components are those of FluidTopology::cells.
   struct SweptVolumeFlux
   {
     /// A part of the flux out of a component.
@@ -24,8 +24,8 @@ namespace undine
     std::vector<Part>        parts;         ///< of which they are the sums
     std::vector<std::string> bodies;        ///< what messages call them
 
-    /// Of the surfaces around each component those that will yield to pressure [m^(dim-1)]; empty:
-    /// none will.
+    /// Area of the surfaces around each component that yield to pressure [m^(dim-1)]; empty: none
+    /// does.
     std::vector<double> yielding_areas;
 
     std::string scene; ///< name of the file

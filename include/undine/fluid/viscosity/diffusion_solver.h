@@ -18,16 +18,18 @@ namespace undine
     /// To be filled; then call set_up().
     dealii::TrilinosWrappers::SparseMatrix matrix;
 
-    /// `reach`: the largest h nu / dx^2, the same on all ranks. Relaxation, or multigrid where a
-    /// step reaches over many cells.
+    /// Prepare the preconditioner for `matrix`. `reach`: the largest h nu / dx^2 [1], the same on
+    /// all ranks; it decides between relaxation and, where a step reaches over many cells,
+    /// multigrid. Collective.
     void
     set_up(double reach);
 
-    /// Returns the number of iterations. Throws SolveError. Collective.
+    /// Solve for the right side `load`, starting from `solution`. Returns the number of iterations.
+    /// Throws SolveError if they do not converge. Collective.
     unsigned int
     solve(Vector &solution, const Vector &load) const;
 
-    /// Of matrix and hierarchy on this rank [bytes].
+    /// Memory of matrix and hierarchy on this rank [bytes].
     std::size_t
     memory_consumption() const;
 

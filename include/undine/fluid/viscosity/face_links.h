@@ -19,6 +19,7 @@ namespace undine
     int            part; ///< number in FluidTopology::faces; -1: the face is whole
   };
 
+  /// The value of a component of the velocity there.
   template <int dim>
   double
   value_at(const Field<dim> &field, const FacePlace<dim> &place)
@@ -26,7 +27,8 @@ namespace undine
     return place.part < 0 ? field(place.face) : field.parts()[place.part];
   }
 
-  /// How the faces normal to one axis, and their pieces, lie side by side in their planes.
+  /// Which faces normal to one axis, and which of their pieces, are neighbours in their plane, and
+  /// the rim that they share.
   template <int dim>
   class FaceLinks
   {

@@ -10,8 +10,8 @@
 
 namespace undine
 {
-  /// One implicit Euler step of friction along one axis in a fluid with bodies in it: the minimum
-  /// of
+  /// One implicit Euler step of friction along one axis in a fluid with bodies in it (I5): the
+  /// minimum of
   ///
   ///     sum_f rho V_f (v_f - v_f*)^2 / 2 + sum_k m_k (u_k - u_k*)^2 / 2 + h power(v, u) / 2
   ///
@@ -19,8 +19,8 @@ namespace undine
   /// of ViscousTerms. Symmetric and positive definite, for pieces of any size and any h. The sum
   /// of rho V v and of h times all forces does not change, to the tolerance of the solver.
   ///
-  /// What bodies get is the force; their u here is forgotten, and only makes it one that bodies
-  /// lighter than the fluid that they drag along can bear.
+  /// Bodies get the force (I7). The velocities u are auxiliary and not used further: with them the
+  /// force stays moderate on bodies that are lighter than the fluid which they drag along.
   template <int dim>
   class ImmersedViscousTerm
   {
@@ -32,7 +32,7 @@ namespace undine
                         std::shared_ptr<const NoSlipSurfaces<dim>> walls,
                         const double                               viscosity);
 
-    /// For which it was set up.
+    /// The surfaces for which it was set up.
     const std::shared_ptr<const NoSlipSurfaces<dim>> &
     walls() const
     {
@@ -47,14 +47,14 @@ namespace undine
          const double                               time,
          const double                               dt);
 
-    /// That step() found, on all ranks [N].
+    /// The forces that step() found, the same on all ranks [N].
     const FrictionForces<double> &
     forces() const
     {
       return last_forces;
     }
 
-    /// Of the equations on this rank [bytes].
+    /// Memory of the equations on this rank [bytes].
     std::size_t
     memory_consumption() const;
 

@@ -28,12 +28,13 @@ namespace undine
                       const BoundaryCondition<dim>       &condition,
                       const double                        diffusivity);
 
-    /// s* in `field` becomes s^{n+1} at `time` = t^{n+1}. Returns the number of iterations. Throws
-    /// SolveError. Collective.
+    /// s* in `field` becomes s^{n+1} at `time` = t^{n+1}, `dt` = h [s]. Returns the number of
+    /// iterations. Throws SolveError. Collective.
     unsigned int
     step(Field<dim> &field, const double time, const double dt);
 
-    /// Of the matrix and what deal.II says of the preconditioner, on this rank [bytes].
+    /// Memory of the matrix and, as far as deal.II reports it, of the preconditioner on this rank
+    /// [bytes].
     std::size_t
     memory_consumption() const;
 

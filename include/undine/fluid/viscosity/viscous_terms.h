@@ -32,7 +32,8 @@ namespace undine
   };
 
 
-  /// The friction in a fluid and on all that it sticks to, of the velocity along one axis i:
+  /// The power of friction in a fluid and on all no-slip surfaces and boundaries, of the velocity
+  /// along one axis i (I6):
   ///
   ///     power = sum_c mu/V_c (sum +- a_f v_f + sum_k B_ck u_k)^2            cells and components
   ///           + sum mu W l/d (v_f - v_g)^2                       neighbours in a plane of faces
@@ -54,7 +55,8 @@ namespace undine
                  const NoSlipSurfaces<dim> &walls,
                  const double               viscosity);
 
-    /// Each term on one rank. Places are owned, or next to owned ones.
+    /// Call `action` for every term, each on one rank only. Its places are owned, or next to owned
+    /// ones.
     void
     for_each(const Action &action) const;
 

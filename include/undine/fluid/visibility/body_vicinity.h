@@ -34,9 +34,9 @@ namespace undine
     /// No bodies.
     BodyVicinity() = default;
 
-    /// `before` and `now`: what bodies leave of the grid, nullptr: everything; their surfaces,
-    /// which must outlive this, nullptr: none. Answers for cells of this rank and `width` layers
-    /// around them. Collective.
+    /// `before` and `now`: the topology of the fluid at the time of the last velocity and now,
+    /// nullptr: nothing is cut; `obstruction`: the surfaces, which must outlive this, nullptr:
+    /// none. Answers for cells of this rank and `width` layers around them. Collective.
     BodyVicinity(const MacGrid<dim>                              &grid,
                  const std::shared_ptr<const FluidTopology<dim>> &before,
                  const std::shared_ptr<const FluidTopology<dim>> &now,
@@ -47,19 +47,19 @@ namespace undine
     Place
     place(const dealii::Point<dim> &point) const;
 
-    /// True unless all cells on the straight way and `margin` cells around them are fluid, before,
-    /// now and in between.
+    /// True unless all cells on the segment between two places and `margin` cells around them are
+    /// fluid, before, now and in between.
     bool
     is_near(const Place &from, const Place &to) const;
 
-    /// True unless the cell at a place and those around it are: then multilinear interpolation
-    /// there sees all its samples. (All around: a face between a whole cell and a body that ends in
-    /// its plane has no sample, wherever in the cell the place is.)
+    /// True unless the cell at a place and those around it are fluid: then all samples of
+    /// multilinear interpolation are visible from there. (All around: a face between a whole cell
+    /// and a body that ends in its plane has no sample, wherever in the cell the place is.)
     bool
     is_next_to_body(const Place &place) const;
 
-    /// True if all cells of the box with two corners in these cells are fluid all over: nothing can
-    /// hide one place in it from another.
+    /// True if all cells of the box with two corners in these cells are fluid all over: no surface
+    /// can lie between two places in it.
     bool
     is_clear(const GridIndex<dim> &begin, const GridIndex<dim> &end) const;
 
@@ -70,11 +70,12 @@ namespace undine
       return facets;
     }
 
-    /// Does a surface hide one place from the other?
+    /// Does a surface lie between two places?
     bool
     is_hidden(const Place &from, const Place &to) const;
 
-    /// The share of the way at which a surface is met, see Obstruction.
+    /// The share of the segment at which a surface is met first [1]; infinity if none is, see
+    /// Obstruction::first_hit().
     double
     first_hit(const Place &from, const Place &to) const;
 

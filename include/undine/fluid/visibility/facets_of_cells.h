@@ -12,7 +12,7 @@
 
 namespace undine
 {
-  /// The facets in each cell, so that one need not look at others.
+  /// The facets in each cell, so that queries need not visit others.
   template <int dim>
   class FacetsOfCells
   {
@@ -20,6 +20,7 @@ namespace undine
     using FacetImage = typename Obstruction<dim>::FacetImage;
     using Slab       = typename Obstruction<dim>::Slab;
 
+    /// A facet, or one of its images, and the slab and box around it.
     struct Facet
     {
       FacetImage                       image;
@@ -29,16 +30,17 @@ namespace undine
     /// No facets, no cells.
     FacetsOfCells() = default;
 
-    /// Of those cells of `box`, images beyond periodic sides included, that add() is called for.
-    /// Keeps references.
+    /// For cells of `box`, images beyond periodic sides included; add() has to be called for each
+    /// cell with facets. Keeps references.
     FacetsOfCells(const MacGrid<dim>     &grid,
                   const Obstruction<dim> &surfaces,
                   const IndexBox<dim>    &box);
 
+    /// Find the facets in a cell.
     void
     add(const GridIndex<dim> &cell);
 
-    /// Are these among the cells?
+    /// Are these cells within `box`?
     bool
     know(const IndexBox<dim> &cells) const
     {
@@ -49,18 +51,20 @@ namespace undine
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     corners(const IndexBox<dim> &cells) const;
 
-    /// Those in a box of cells, each once.
+    /// The facets in a box of cells, each once.
     std::vector<const Facet *>
     in(const IndexBox<dim> &cells) const;
 
     /// A slab around all facets in a box of cells if it is parted by a wall, see Obstruction: what
-    /// is on one side of it is hidden from the other; exactly that if the wall is plane, otherwise
-    /// perhaps some of what could be seen past a rim just outside the cells. Else nothing.
+    /// is on one side of it is hidden from the other. This is exact if the wall is plane; otherwise
+    /// it may hide some of what is visible past a rim just outside the cells. Nothing if there is
+    /// no such wall.
     std::optional<Slab>
     wall(const IndexBox<dim> &cells) const;
 
-    /// Call action(facet) for the facets in those of the cells that a way passes and that are not
-    /// on one side of it, until it returns true; for some more than once.
+    /// Call action(image) for the facets in those of the cells that the segment from `from` to `to`
+    /// passes, unless both its ends are on the same side of the facet, until it returns true; for
+    /// some facets more than once.
     template <class Action>
     void
     until_facet(const IndexBox<dim>      &cells,
@@ -83,7 +87,7 @@ namespace undine
     }
 
   private:
-    /// Does a straight way come through a cell, or past it within rounding?
+    /// Does a segment pass through a cell, or past it within rounding?
     bool
     is_passed(const GridIndex<dim>     &cell,
               const dealii::Point<dim> &from,

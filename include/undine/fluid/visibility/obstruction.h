@@ -14,16 +14,16 @@
 
 namespace undine
 {
-  /// The surfaces of bodies as the fluid meets them during one step: where they are, at the end of
-  /// their last motion, and what they have passed over in it.
+  /// The surfaces of bodies as the fluid meets them during one step: where they are at the end of
+  /// their last motion, and which places that motion has freshly cleared.
   template <int dim>
   class Obstruction
   {
   public:
     virtual ~Obstruction() = default;
 
-    /// The share of the way from `from` to `to` at which a surface is met first; infinity if none
-    /// is. Ways that touch a surface, or begin or end on it, meet it.
+    /// The share of the segment from `from` to `to` at which a surface is met first [1]; infinity
+    /// if none is. Segments that touch a surface, or begin or end on it, meet it.
     virtual double
     first_hit(const dealii::Point<dim> &from, const dealii::Point<dim> &to) const = 0;
 
@@ -34,7 +34,7 @@ namespace undine
       dealii::Tensor<1, dim> to_facet; ///< shift from the image to the facet
     };
 
-    /// Those that may have a part in `box`.
+    /// The facets, and images of facets, that may have a part in `box`.
     virtual std::vector<FacetImage>
     facets_near(const dealii::BoundingBox<dim> &box) const = 0;
 
@@ -87,30 +87,31 @@ namespace undine
       }
     };
 
+    /// The patch that these facets form.
     virtual Patch
     patch(const std::vector<FacetImage> &images) const = 0;
 
-    /// Are these facets, all that have a part in `box`, like a wall there: all at less than 45
-    /// degrees to the slab around them, and none with a rim in the box? Then from one side of the
-    /// slab the other cannot be seen within the box.
+    /// Do these facets, all that have a part in `box`, form a wall there: all at less than 45
+    /// degrees to the slab around them, and none with a rim in the box? Then, within the box,
+    /// nothing on one side of the slab is visible from the other.
     virtual bool
     is_wall(const std::vector<FacetImage>  &images,
             const Slab                     &slab,
             const dealii::BoundingBox<dim> &box) const = 0;
 
-    /// first_hit() if there were nothing else.
+    /// first_hit() of this facet alone.
     virtual double
     first_hit(const FacetImage         &image,
               const dealii::Point<dim> &from,
               const dealii::Point<dim> &to) const = 0;
 
-    /// True if a surface has passed over `place` in the last motion: what was measured there before
-    /// says nothing about the fluid that is there now.
+    /// True if `place` is freshly cleared, which means that a surface has swept it in the last
+    /// motion: values from before say nothing about the fluid that is there now.
     virtual bool
     is_freshly_cleared(const dealii::Point<dim> &place) const = 0;
 
     /// Call `action` for all points of a lattice, boundary points and images included, that are in
-    /// `box` and were swept; for some more than once.
+    /// `box` and freshly cleared; for some more than once.
     virtual void
     for_each_freshly_cleared(const Lattice<dim>                                &lattice,
                              const IndexBox<dim>                               &box,

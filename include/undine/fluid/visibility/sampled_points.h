@@ -13,22 +13,24 @@
 
 namespace undine
 {
-  /// Which samples of fields there are at the points of their lattice for others to see: the value
-  /// of a point that is whole, those of the parts of a divided one, and none where a point is
-  /// closed or a surface has passed over a sample since it was taken.
+  /// Which samples a field has at the points of its lattice, irrespective of whether they are
+  /// visible from a query point: the value of a point that is whole, those of the sub-cells or
+  /// sub-faces of a divided one, and none where a point is closed or a sample is freshly cleared.
   template <int dim>
   class SampledPoints
   {
   public:
     using Place = typename BodyVicinity<dim>::Place;
 
-    /// Of fields like this one, with ghost layers of this width and boundary points, on what bodies
-    /// left of the grid before their last motion. Collective.
+    /// For fields like this one, with ghost layers of this width and boundary points, on the
+    /// topology of the fluid before the last motion of bodies. Collective.
     SampledPoints(const Field<dim>        &like,
                   const GridIndex<dim>    &width,
                   const Obstruction<dim>  &obstruction,
                   const BodyVicinity<dim> &vicinity);
 
+    /// One sample: its place, its number in Values and its measure: 1 for a whole point, else that
+    /// of the sub-cell or sub-face.
     struct Sample
     {
       Place       place;
@@ -36,7 +38,7 @@ namespace undine
       double      measure;
     };
 
-    /// What a field has at the samples, by their numbers.
+    /// The values of a field at the samples, by their numbers.
     class Values
     {
     public:
@@ -54,11 +56,11 @@ namespace undine
       std::vector<double> parts;
     };
 
-    /// Of a field for which is_for() holds, which must outlive them. Collective.
+    /// The values of a field for which is_for() holds, which must outlive them. Collective.
     Values
     values(const Field<dim> &field) const;
 
-    /// Has the field these points, parts and ghost layers?
+    /// Has the field these points, this topology and these ghost layers?
     bool
     is_for(const Field<dim> &field) const
     {
@@ -66,7 +68,7 @@ namespace undine
              field.stored() == stored;
     }
 
-    /// What is_for() asks for.
+    /// The points that such a field must store.
     const IndexBox<dim> &
     stored_points() const
     {
@@ -121,7 +123,7 @@ namespace undine
     void
     find_kinds(const GridIndex<dim> &width, const Obstruction<dim> &obstruction);
 
-    /// The parts of this rank that each may see.
+    /// The sub-cells or sub-faces of this rank that each rank has within its ghost layers.
     void
     find_parts_for_ranks(const GridIndex<dim> &width);
 

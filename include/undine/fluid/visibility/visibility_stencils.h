@@ -12,10 +12,11 @@
 
 namespace undine
 {
-  /// What can be seen of the corners of a cube between points of a lattice, from eyes in it, where
-  /// surfaces are about. Which samples lie on which side of each facet is found once for all eyes;
-  /// an eye then looks at the facets between it and what is on their other side, and at none where
-  /// a surface parts the cube like a wall.
+  /// Visibility stencils: which samples at the corners of a cube between points of a lattice are
+  /// visible from a query point in it, where surfaces are near. On which side of each occluder the
+  /// samples lie is found once for all query points; a query then tests only the facets between the
+  /// query point and samples on their other side, and none where a surface parts the cube like a
+  /// wall.
   template <int dim>
   class VisibilityStencils
   {
@@ -24,35 +25,36 @@ namespace undine
 
     using Values = typename SampledPoints<dim>::Values;
 
-    /// Of the cubes between stored points of fields like this one, see SampledPoints. Keeps
+    /// For the cubes between stored points of fields like this one, see SampledPoints. Keeps
     /// references to the surfaces and the vicinity. Collective.
     VisibilityStencils(const Field<dim>        &like,
                        const GridIndex<dim>    &width,
                        const Obstruction<dim>  &obstruction,
                        const BodyVicinity<dim> &vicinity);
 
-    /// What is looked at.
+    /// The samples.
     const SampledPoints<dim> &
     points() const
     {
       return sampled;
     }
 
-    /// The corners that are seen: of each the mean, by measure, of its samples that are.
+    /// The visible corners of a cube: of each the mean, by measure, of its visible samples.
     struct VisibilityStencil
     {
       std::array<double, n_corners> values;  ///< zero of the others
       unsigned int                  corners; ///< bit by bit
     };
 
-    /// Is `eye` in a cube, that above point `lower`, without facets and with corners that are
-    /// whole? Remembers the cube.
+    /// Is `query` in the cells of the cube above point `lower`, and has that cube no facets and
+    /// only whole corners? Remembers the cube.
     bool
     is_clear(const GridIndex<dim> &lower, const dealii::Point<dim> &query);
 
-    /// What `eye` sees of the `values` at these `corners` of a cube that is not clear; of its own
-    /// point, if it has one, only the nearest sample. Nothing if the eye is not in the cells of
-    /// the cube, or so close to a surface that it takes a closer look.
+    /// The `values` at those of the `corners`, a bit for each, that are visible from `query`, in a
+    /// cube that is not clear; of its own point `own`, if it is not nullptr, only the nearest
+    /// visible sample. Nothing if the query point is not in the cells of the cube, or so close to a
+    /// wall that single facets must be tested.
     std::optional<VisibilityStencil>
     stencil(const Values             &values,
             const GridIndex<dim>     &lower,
@@ -112,7 +114,7 @@ namespace undine
     bool
     add_to(Cube &cube, const GridIndex<dim> &lower, const IndexBox<dim> &cells);
 
-    /// Also says if all of them are in the cube's cells, and not too many.
+    /// Returns whether all of them are in the cells of the cube, and not too many.
     bool
     add_samples(Cube &cube, const GridIndex<dim> &lower);
 
@@ -120,18 +122,21 @@ namespace undine
     void
     add_wall(Cube &cube, const Slab &slab);
 
+    /// Group the facets in these cells into occluders.
     void
     add_screens(Cube &cube, const IndexBox<dim> &cells);
 
-    /// Tell the occluder which samples of the cube are on which side of it.
+    /// Set on which side of the occluder the samples of the cube are.
     void
     part(const Cube &cube, Occluder &occluder) const;
 
-    /// Those of the samples `wanted` that an eye sees; nothing if it takes a closer look.
+    /// Those of the samples `wanted` that are visible from a query point; nothing if single facets
+    /// must be tested.
     std::optional<Mask>
     visible(const Cube &cube, const dealii::Point<dim> &query, Mask wanted) const;
 
-    /// Is one of an occluder's facets between two places, not both on the same side of it?
+    /// Is one of an occluder's facets between the query point and `place`, which are not both on
+    /// the same side of it?
     bool
     hides(const Occluder           &occluder,
           const dealii::Point<dim> &query,
@@ -151,7 +156,7 @@ namespace undine
           action(samples[k]);
     }
 
-    /// Over what is seen of a corner. @{
+    /// Over the visible samples of a corner. @{
     double
     mean(const Values &values, const Cube &cube, const unsigned int corner, const Mask seen) const;
 

@@ -13,16 +13,16 @@
 
 namespace undine
 {
-  /// Interpolation of a field near bodies, from samples that can be seen from the place: no surface
-  /// lies between, and none has passed over the sample since it was taken. Of the parts of a
-  /// divided point the visible ones count, each at the point.
+  /// Interpolation of a field near bodies from the samples that are visible from a query point: no
+  /// surface lies between, and the sample is not freshly cleared. Of the sub-cells or sub-faces of
+  /// a divided point the visible ones count, as if they were at the point.
   template <int dim>
   class VisibleSamples
   {
   public:
     using Place = typename BodyVicinity<dim>::Place;
 
-    /// Of a field for which views->points().is_for() holds. The references must outlive it.
+    /// For a field for which stencils->points().is_for() holds. The references must outlive it.
     /// Collective.
     VisibleSamples(const Field<dim>                               &field,
                    const std::shared_ptr<VisibilityStencils<dim>> &stencils,
@@ -30,43 +30,44 @@ namespace undine
 
     VisibleSamples(const VisibleSamples &) = delete;
 
-    /// Multilinear weights of the 2^dim points around, those that cannot be seen left out; nothing
-    /// if none can.
+    /// The mean of the visible samples at the 2^dim points around `place`, by their multilinear
+    /// weights; nothing if none is visible.
     std::optional<double>
     at(const Place &place) const;
 
-    /// What a path from `foot` brings to `place`, the point `index` of the lattice or the centroid
-    /// of one of its parts, as far as it can be seen from the foot. The path is followed from the
-    /// point itself, where the samples count: what does not move is kept as it is, step after step,
-    /// and never smoothed. By cubics where nothing is in their way and the foot is not next to a
-    /// body.
+    /// The value that the path from `foot` brings to `place`, which is the point `index` of the
+    /// lattice or the centroid of one of its sub-cells or sub-faces, from the samples that are
+    /// visible from the foot; nothing if none is. Weights are those of a path to the point itself,
+    /// where samples count as being: what does not move is kept as it is, step after step, and
+    /// never smoothed. Cubic interpolation where no surface can lie between its points and the foot
+    /// is not next to a body.
     std::optional<double>
     along(const GridIndex<dim> &index, const dealii::Point<dim> &place, const Place &foot) const;
 
   private:
-    /// Can nothing hide the points that a cubic at `start` takes from an eye among them, and is the
-    /// eye not next to a body?
+    /// Are all points that a cubic at `start` takes certainly visible from `query`, which is among
+    /// them and not next to a body?
     bool
     is_clear_for_cubics(const dealii::Point<dim> &start, const Place &query) const;
 
-    /// Who looks.
+    /// From where samples must be visible.
     struct QueryPoint
     {
       Place                 place;
-      const GridIndex<dim> *own; ///< sees only the nearest part of this point; nullptr: no such
+      const GridIndex<dim> *own; ///< of this point only the nearest sample counts; nullptr: no such
     };
 
-    /// Multilinear weights at `place` of what `eye` sees.
+    /// The mean, by multilinear weights at `place`, of what is visible from `query`.
     std::optional<double>
     multilinear(const dealii::Point<dim> &place, const QueryPoint &query) const;
 
-    /// What `eye` sees of these corners of the cube above point `lower`.
+    /// Those of these corners of the cube above point `lower` that are visible from `query`.
     typename VisibilityStencils<dim>::VisibilityStencil
     seen_values(const GridIndex<dim> &lower,
                 const QueryPoint     &query,
                 const unsigned int    corners) const;
 
-    /// Mean, by measure, of what can be seen of one point of the lattice.
+    /// Mean, by measure, of the visible samples of one point of the lattice.
     std::optional<double>
     value_of(const GridIndex<dim> &index, const QueryPoint &query) const;
 

@@ -35,7 +35,7 @@ namespace undine
   std::uint64_t
   resumable_step(const std::filesystem::path &directory);
 
-  /// Where a run was taken up again.
+  /// The checkpoint from which a run was resumed.
   struct ResumedFrom
   {
     std::filesystem::path    directory;

@@ -18,8 +18,8 @@ namespace undine
   std::vector<StateArray>
   geometry_arrays(const Models<dim> &models, double time);
 
-  /// What has another geometry in a checkpoint than in the scene, "the grid of the fluid"; empty if
-  /// nothing. Sums may differ by rounding. Collective.
+  /// The first part of the geometry that differs between a checkpoint and the scene, such as "the
+  /// grid of the fluid"; empty if none does. Sums may differ by rounding. Collective.
   std::string
   geometry_difference(const std::vector<StateArray> &of_checkpoint,
                       const std::vector<StateArray> &of_scene,

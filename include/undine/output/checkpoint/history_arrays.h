@@ -9,7 +9,7 @@
 
 namespace undine
 {
-  /// Call `action(name, sample)` for what the choice of steps remembers.
+  /// Call `action(name, sample)` for the samples of a StepHistory.
   template <class History, class Action>
   void
   for_each_sample(History &history, const Action &action)
@@ -21,7 +21,7 @@ namespace undine
   }
 
 
-  /// Call `action(name, field)` for all fields of them.
+  /// Call `action(name, field)` for all fields of these samples.
   template <int dim, class History, class Action>
   void
   for_each_field_of_samples(History &history, const Action &action)
@@ -43,7 +43,7 @@ namespace undine
   StateArray
   pack_numbers(const StepHistory<dim> &history, MPI_Comm communicator);
 
-  /// The reverse. Collective.
+  /// Set the numbers of a history from that array. Collective.
   template <int dim>
   void
   unpack_numbers(StepHistory<dim> &history, const StateArray &array, MPI_Comm communicator);

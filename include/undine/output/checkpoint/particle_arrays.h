@@ -16,7 +16,7 @@ namespace undine
   std::vector<StateArray>
   pack_particles(const particles::ParticleState<dim> &state, double spacing);
 
-  /// The reverse. `arrays` are those of pack_particles() for a state of as many particles and
+  /// Set the state from `arrays`, those of pack_particles() for a state of as many particles and
   /// guesses.
   template <int dim>
   void

@@ -19,9 +19,9 @@ namespace undine
     std::vector<double> values;
   };
 
-  /// Where the surfaces of what stands in the fluid were, node by node: it decides which parts the
-  /// fields of pack() have. No array if nothing does. The reverse leaves all fields zero, on the
-  /// grid as those surfaces cut it. Collective. @{
+  /// Positions of the nodes of all surfaces in the fluid when its fields were computed [m]: they
+  /// determine the topology of the fields of pack(). No array if there is no surface.
+  /// unpack_surface() cuts the grid by them and sets all fields to zero on it. Collective. @{
   template <int dim>
   std::vector<StateArray>
   pack_surface(const Models<dim> &models, const State<dim> &state);
@@ -35,13 +35,13 @@ namespace undine
 
   /// Everything else in `state` but its clock. Nodal vectors are in the order of
   /// SolidModel::canonical_order(); fields of the fluid are in the order of their lattice, the
-  /// first direction running fastest, and so are the parts of its divided points. Of nodes and
-  /// parts each rank holds a stretch of equal length. Collective.
+  /// first direction running fastest, and so are the sub-cells and sub-faces of divided points. Of
+  /// nodes, sub-cells and sub-faces each rank holds a stretch of equal length. Collective.
   template <int dim>
   std::vector<StateArray>
   pack(const Models<dim> &models, const State<dim> &state);
 
-  /// The reverse. `arrays` are those of pack() for a state of the same parts, with other values.
+  /// Set the values of `state` from `arrays`, those of pack() for a state of the same shape.
   /// Collective.
   template <int dim>
   void

@@ -8,7 +8,7 @@
 
 namespace undine
 {
-  /// Where bodies are drawn.
+  /// The configuration in which bodies are drawn.
   enum class Configuration
   {
     rest,

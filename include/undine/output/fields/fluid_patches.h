@@ -12,8 +12,8 @@ namespace undine
   /// cells' corners (FluidSampler): velocity [m/s], reduced pressure [Pa], magnitude of the
   /// vorticity [1/s] and every scalar.
   ///
-  /// If bodies stand in the fluid: one patch for each component of a divided cell, corners that
-  /// cannot be seen from its centroid bearing the values there; in bodies the velocity of the
+  /// If bodies stand in the fluid: one patch for each component of a divided cell, with the values
+  /// at its centroid in corners that are not visible from there; in bodies the velocity of the
   /// nearest surface and zeros. Then there are also the number of the component in its cell (-1 in
   /// bodies) and the share of the cell that is fluid of this component [1]. Collective.
   template <int dim>

@@ -19,7 +19,7 @@
 
 namespace undine
 {
-  /// How the nodes of all surfaces move at the time of the state [m/s]. Collective.
+  /// Velocities of the nodes of all surfaces at the time of the state [m/s]. Collective.
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   surface_velocities(const Models<dim> &models, const State<dim> &state);
@@ -29,10 +29,11 @@ namespace undine
   /// of the walls, the pressure is continued linearly from the two nearest cells, scalars are
   /// those of the nearest cell.
   ///
-  /// Among bodies only what can be seen from the place counts: points behind a surface are left
-  /// out, and of divided cells and faces the visible parts count (VisibleSamples). Where none of
-  /// the points around can be seen, velocities are those of the nearest surface; pressure and
-  /// scalars those of the nearest component in the place's cell, in a body zero.
+  /// Between bodies only samples that are visible from the place count: points behind a surface are
+  /// left out, and of divided cells and faces the visible sub-cells and sub-faces count
+  /// (VisibleSamples). Where none of the points around is visible, velocities are those of the
+  /// nearest surface; pressure and scalars those of the nearest component in the place's cell, in a
+  /// body zero.
   template <int dim>
   class FluidSampler
   {
@@ -51,7 +52,7 @@ namespace undine
     double
     pressure(const dealii::Point<dim> &place) const;
 
-    /// In alphabetical order of their names.
+    /// Values of all scalars, in alphabetical order of their names.
     std::vector<double>
     scalars(const dealii::Point<dim> &place) const;
 
@@ -62,7 +63,7 @@ namespace undine
     double
     vorticity_magnitude(const GridIndex<dim> &corner) const;
 
-    /// What bodies leave of the cells; nullptr: everything.
+    /// How bodies divide the cells; nullptr: not at all.
     const SubLattice<dim> *
     divided_cells() const;
 
@@ -84,7 +85,7 @@ namespace undine
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     neighbours(const GridIndex<dim> &corner, unsigned int axis) const;
 
-    /// A field and what can be seen of it among bodies.
+    /// A field and, between bodies, its visible samples.
     struct Sampled
     {
       Field<dim>                           field;
@@ -95,7 +96,7 @@ namespace undine
     void
     see(Sampled &sampled) const;
 
-    /// Nothing if no point around can be seen.
+    /// Nothing if no point around is visible.
     std::optional<double>
     value(const Sampled &sampled, const dealii::Point<dim> &place) const;
 

@@ -12,9 +12,9 @@
 
 namespace undine
 {
-  /// A part of the solution as pictures need it: this rank's pieces of space with numbers at their
-  /// points. Every rank has the same fields, perhaps no pieces.
-  /// Pieces have `dim` directions and lie in a space of `spacedim`.
+  /// A part of the solution for visualisation: this rank's pieces of space with numbers at their
+  /// points. Every rank has the same fields, perhaps no pieces. Pieces have `dim` directions and
+  /// lie in a space of `spacedim`.
   template <int dim, int spacedim = dim>
   struct Patches
   {

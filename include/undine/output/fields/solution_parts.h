@@ -13,7 +13,7 @@
 
 namespace undine
 {
-  /// What formats for pictures have in common. @{
+  /// Functions that all formats of pictures use. @{
 
   /// The parts that the scene has: bodies, then fluid. Collective.
   template <int dim>

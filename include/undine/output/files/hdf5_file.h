@@ -29,6 +29,7 @@ namespace undine
   class HDF5Writer
   {
   public:
+    /// For a file at `path`, which commit() writes.
     HDF5Writer(const std::filesystem::path &path, MPI_Comm communicator);
 
     /// One number that belongs to the file; the same on all ranks. @{
@@ -91,21 +92,23 @@ namespace undine
   class HDF5Reader
   {
   public:
+    /// Opens the file.
     HDF5Reader(const std::filesystem::path &path, MPI_Comm communicator);
     HDF5Reader(const HDF5Reader &) = delete;
     HDF5Reader &
     operator=(const HDF5Reader &) = delete;
     ~HDF5Reader();
 
-    /// Value: double, std::uint64_t.
+    /// The number of this name that belongs to the file. Value: double, std::uint64_t.
     template <class Value>
     Value
     attribute(const std::string &name) const;
 
+    /// Is there an array of this name?
     bool
     contains(const std::string &name) const;
 
-    /// Of a whole array.
+    /// The size of a whole array in each direction.
     std::vector<hsize_t>
     size(const std::string &name) const;
 

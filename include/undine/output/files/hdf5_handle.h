@@ -12,6 +12,7 @@ namespace undine
   class HDF5Watch
   {
   public:
+    /// HDF5 prints nothing from here on.
     HDF5Watch();
     HDF5Watch(const HDF5Watch &) = delete;
     HDF5Watch &

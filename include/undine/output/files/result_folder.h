@@ -62,8 +62,8 @@ namespace undine
     void
     finish();
 
-    /// Of the rows of `statistics` so far, on the first rank; checkpoints say which rows they
-    /// belong to.
+    /// The digest of the rows of `statistics` so far, on the first rank; checkpoints store it to
+    /// find the rows that they belong to.
     std::uint64_t statistics_digest = 0;
 
   private:

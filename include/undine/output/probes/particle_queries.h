@@ -11,7 +11,7 @@
 
 namespace undine
 {
-  /// Where a particle is in the arrays of a state.
+  /// Position in the arrays of a state of the particle with this identity.
   template <int dim>
   std::size_t
   place_of_identity(const particles::ParticleState<dim> &state, const int identity);

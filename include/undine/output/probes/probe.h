@@ -19,11 +19,12 @@ namespace undine
   public:
     virtual ~Probe() = default;
 
+    /// Declares and reads the keys of this kind of probe.
     virtual void
     add_options(const Options &options) = 0;
 
-    /// `name` and `options` are those of the probe's subsection. Throws InputError if what the
-    /// probe looks at does not exist. Collective.
+    /// Prepare the measurement; `name` and `options` are those of the probe's subsection. Throws
+    /// InputError if what the probe measures does not exist. Collective.
     virtual void
     start(const std::string &name, const Options &options, const Models<dim> &models) = 0;
 

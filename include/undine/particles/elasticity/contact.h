@@ -7,11 +7,14 @@
 namespace undine::particles
 {
   /// Contact of elastic bodies with walls, with each other, and of parts of a body that were not
-  /// neighbours: particles closer than the spacing repel with the force k (q^4 - q^3) r, q = l0 /
-  /// |r|, equal and opposite: a spring of stiffness k when they touch, a barrier when they are
-  /// pressed into each other. Neighbours in the reference repel alike from 0.4 l0 on: where a body
-  /// is folded, mean deformations do not tell that they come to the same place. Who may come into
-  /// contact is listed once for all steps of a run.
+  /// neighbours: particles closer than the spacing l0 repel with the equal and opposite forces
+  ///
+  ///     k (q^4 - q^3) r,   q = l0 / |r|:
+  ///
+  /// a spring of stiffness k when they touch, a barrier when they are pressed into each other.
+  /// Neighbours in the reference repel alike from 0.4 l0 on: where a body is folded, mean
+  /// deformations do not tell that they come to the same place. Who may come into contact is listed
+  /// once for all steps of a run.
   template <int dim, class Real>
   struct Contact
   {

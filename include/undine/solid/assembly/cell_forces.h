@@ -22,7 +22,8 @@ namespace undine
   public:
     explicit CellForces(const SolidModel<dim> &model);
 
-    /// Choose a cell and its nodal displacements [m], from a ghosted vector. Throws nothing.
+    /// Choose a cell and its nodal displacements [m], from a ghosted vector. Throws nothing. Not
+    /// collective.
     void
     reinit(unsigned int cell, const dealii::TrilinosWrappers::MPI::Vector &displacement);
 

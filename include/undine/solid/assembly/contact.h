@@ -10,10 +10,11 @@
 
 namespace undine
 {
-  /// What keeps bodies apart, from each other and from walls: a potential E(d, t) [J] of the places
-  /// of their surfaces, zero where everything is further apart than a given gap, beyond all bounds
-  /// where a gap closes, and the ways on which no gap closes. All functions are collective; they
-  /// give the same on any number of ranks, up to rounding of the displacement.
+  /// Contact of bodies with each other and with walls: a potential E(d, t) [J] of the positions of
+  /// their surfaces, zero where everything is further apart than a given gap, unbounded where a gap
+  /// closes, and the paths on which no gap closes. All functions are collective; they give the same
+  /// on any number of ranks, up to rounding of the displacement. BodyContact implements (S16) and
+  /// (S17).
   template <int dim>
   class Contact
   {
@@ -35,7 +36,7 @@ namespace undine
     virtual std::vector<dealii::Tensor<1, dim>>
     nodal_forces(const Vector &displacement, double time) const = 0;
 
-    /// A += factor d^2E/dd^2, with places in A for all entries that this needs.
+    /// A += factor d^2E/dd^2, after A has been enlarged by the entries that this needs.
     virtual void
     add_stiffness(Matrix &A, double factor, const Vector &displacement, double time) const = 0;
 
@@ -46,13 +47,14 @@ namespace undine
       double        time;         ///< [s]
     };
 
-    /// Places that earlier stages have needed are not kept for this one: what is solved follows
+    /// Forgets the entries that earlier stages needed, so that the results of this stage follow
     /// from the state alone, whether a run was resumed or not.
     virtual void
     begin_stage() const = 0;
 
-    /// The largest part of the straight way on which no gap closes to less than a fifth [1]: 1 if
-    /// the whole way is free.
+    /// The largest part of the straight path of all nodes on which no gap closes to less than a
+    /// fifth of what it was at `from` or, if that is less, a length of the implementation
+    /// (BodyContact: half of the gap D) [1]; 1 if no gap does.
     virtual double
     free_part(const Place &from, const Place &to) const = 0;
 
@@ -66,18 +68,18 @@ namespace undine
   };
 
 
-  /// What a stage of a step (Stage) has to know for contact. Forces of contact count for the whole
-  /// way of the stage, by its end alone, and are no rates that later stages take up: the
-  /// trapezoidal rule would make energy of them when bodies part.
+  /// The data that contact needs at the start of a stage (Stage). Forces of contact count for the
+  /// whole duration of the stage, by its end alone, and are no rates that later stages use: with
+  /// the trapezoidal rule they would produce energy when bodies part.
   struct ContactStart
   {
-    /// Where the bodies were last, apart from each other [m]; empty: where the stage starts.
+    /// The last displacement at which no gap was closed [m]; empty: that at which the stage starts.
     dealii::TrilinosWrappers::MPI::Vector place;
-    double                                time        = 0; ///< of that [s]
-    double                                weight      = 1; ///< way over length of the stage [1]
+    double                                time   = 0; ///< of that [s]
+    double                                weight = 1; ///< duration over length of the stage [1]
     bool                                  keeps_rates = false;
 
-    /// E at t^n [J], if somebody has asked for it.
+    /// E at t^n [J], if the budget needs it.
     std::optional<double> old_energy;
   };
 } // namespace undine

@@ -20,7 +20,7 @@ namespace undine
     dealii::Tensor<1, dim> normal; ///< of length 1, to where bodies may be
   };
 
-  /// What a scene says about contact.
+  /// The settings of a scene for contact.
   template <int dim>
   struct ContactSettings
   {

@@ -6,24 +6,24 @@
 
 namespace undine
 {
-  /// What the material of all bodies answers to a displacement over the locally owned degrees of
-  /// freedom. Rows of fixed degrees of freedom are as full as any other: reactions are read there.
-  /// Collective. Throws SolveError on all ranks, naming body and place, where a point is inverted.
-  /// @{
+  /// Forces, stiffness and energy of the material of all bodies for a displacement over the locally
+  /// owned degrees of freedom. Rows of fixed degrees of freedom are as full as any other: reactions
+  /// are read there. Collective. Throws SolveError on all ranks, naming body and place, where a
+  /// point is inverted. @{
 
-  /// K_i(d) = int P(I + grad d) : grad N_i dX [N].
+  /// Internal forces K_i(d) = int P(I + grad d) : grad N_i dX [N] (S4).
   template <int dim>
   dealii::TrilinosWrappers::MPI::Vector
   internal_forces(const SolidModel<dim>                       &model,
                   const dealii::TrilinosWrappers::MPI::Vector &displacement);
 
-  /// K'(d) = dK/dd [N/m], exact and symmetric.
+  /// Tangent stiffness K'(d) = dK/dd [N/m] (S5), exact and symmetric.
   template <int dim>
   dealii::TrilinosWrappers::SparseMatrix
   internal_stiffness(const SolidModel<dim>                       &model,
                      const dealii::TrilinosWrappers::MPI::Vector &displacement);
 
-  /// int W dX [J].
+  /// Elastic energy int W dX [J].
   template <int dim>
   double
   elastic_energy(const SolidModel<dim>                       &model,

@@ -11,8 +11,8 @@
 
 namespace undine
 {
-  /// Nodal forces of the loads that a scene puts on its bodies, over the locally owned degrees of
-  /// freedom, as of the displacement. Collective. @{
+  /// Nodal forces of the loads that a scene puts on its bodies (S6), over the locally owned degrees
+  /// of freedom, as of the displacement. Collective. @{
 
   /// Forces that do not depend on the displacement [N]: gravity rho g, forces of other effects,
   /// loads per volume, tractions. `timing`, if given, gets the phases of effects.
@@ -23,7 +23,7 @@ namespace undine
              double                       time,
              TimingTree                  *timing = nullptr);
 
-  /// What of them is due to which effect.
+  /// The contribution of each effect to them, by its name [N].
   template <int dim>
   std::map<std::string, dealii::TrilinosWrappers::MPI::Vector>
   effect_loads(const SolidModel<dim> &model, const SolidEnvironment<dim> &environment, double time);

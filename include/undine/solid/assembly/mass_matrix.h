@@ -6,7 +6,8 @@
 
 namespace undine
 {
-  /// M_ij = int rho N_i . N_j dX [kg], with the rows of fixed degrees of freedom. Collective.
+  /// The mass matrix M_ij = int rho N_i . N_j dX [kg] (S3), with the rows of fixed degrees of
+  /// freedom. Collective.
   template <int dim>
   dealii::TrilinosWrappers::SparseMatrix
   mass_matrix(const SolidModel<dim> &model);

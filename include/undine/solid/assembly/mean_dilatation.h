@@ -11,8 +11,9 @@
 
 namespace undine
 {
-  /// Dilatation theta and pressure p of the three-field element on one cell: the elements' degree
-  /// minus one, discontinuous, condensed. With phi a basis of these polynomials and J = det F,
+  /// Dilatation theta and pressure p of the three-field element (S13), (S14) on one cell: the
+  /// elements' degree minus one, discontinuous, condensed. With phi a basis of these polynomials
+  /// and J = det F,
   ///
   ///     M = int phi phi^T,   theta = phi^T M^{-1} int phi J,   p = phi^T M^{-1} int phi U'(theta)
   ///

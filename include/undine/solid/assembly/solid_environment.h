@@ -32,7 +32,7 @@ namespace undine
     Expression<dim, dim> per_volume;   ///< at rest, besides [N/m^3]
   };
 
-  /// What the effects that a scene calls for do to its bodies.
+  /// The effects of a scene on its bodies.
   template <int dim>
   struct SolidEnvironment
   {
@@ -41,12 +41,13 @@ namespace undine
     double                        stiffness_damping = 0; ///< eta, C = alpha M + eta K' [s]
     std::vector<VolumeForce<dim>> forces;                ///< in order of their effects
 
-    std::optional<ContactSettings<dim>> contact_settings; ///< none: bodies do not feel each other
+    std::optional<ContactSettings<dim>> contact_settings; ///< none: no contact
     std::shared_ptr<const Contact<dim>> contact;          ///< by these settings, for this scene
 
     std::optional<SleepSettings> sleep_settings; ///< none: bodies do not sleep
 
-    /// Of the bodies that sleep: they count in `statistics`, and nowhere else; nullptr: none do.
+    /// Measures of the bodies that sleep, which count in `statistics` and nowhere else; nullptr:
+    /// none sleep.
     std::shared_ptr<const SolidMeasures<dim>> asleep;
   };
 } // namespace undine

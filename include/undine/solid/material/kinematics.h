@@ -11,7 +11,7 @@
 
 namespace undine
 {
-  /// What a law answers at one point of a body.
+  /// The stress of a material at one point of a body.
   template <int dim>
   struct PointStress
   {
@@ -27,7 +27,7 @@ namespace undine
     dealii::Tensor<4, dim> tangent;
   };
 
-  /// How much thicker a plane body gets.
+  /// The stretch of a plane body in the direction of its thickness.
   template <int dim>
   struct Thickness
   {
@@ -37,7 +37,7 @@ namespace undine
 
   /// How the displacement gradient H = du/dX [1] of a body in `dim` dimensions becomes the
   /// deformation gradient F of a material point in three dimensions, and how stress and tangent
-  /// come back:
+  /// come back (S7), (S8):
   ///
   ///     3D            F = I + H
   ///     plane strain  F = I + H in the plane, F_33 = 1, F_a3 = F_3a = 0
@@ -49,8 +49,8 @@ namespace undine
   /// Methods for Plasticity, section 9.2 for the plane stress projection].
   ///
   /// All functions throw SolveError if det F is not a positive number and the law does not tolerate
-  /// inversion, or if no F_33 > 0 makes P_33 = 0. They do no communication: who calls them in a
-  /// loop over the cells of one rank has to tell the other ranks.
+  /// inversion, or if no F_33 > 0 makes P_33 = 0. They are not collective: callers that loop over
+  /// the cells of one rank must pass errors on to the other ranks.
   template <int dim>
   class Kinematics
   {
@@ -59,6 +59,7 @@ namespace undine
 
     virtual ~Kinematics() = default;
 
+    /// Declare and read the keys; there are none unless a derived class has some.
     virtual void
     add_options(const Options &options);
 

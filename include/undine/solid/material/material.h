@@ -19,6 +19,7 @@ namespace undine
 
     virtual ~Material() = default;
 
+    /// Declare and read the constants of the law.
     virtual void
     add_options(const Options &options) = 0;
 
@@ -49,8 +50,8 @@ namespace undine
     volumetric_tangent(double J) const;
     /// @}
 
-    /// Is the law valid for det F <= 0 (a linear law does not see it)? The others throw SolveError
-    /// there, in whichever of their functions needs det F > 0.
+    /// Is the law valid for det F <= 0, as a linear law is? The others throw SolveError there, in
+    /// whichever of their functions needs det F > 0.
     virtual bool
     tolerates_inversion() const;
 

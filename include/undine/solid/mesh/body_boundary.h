@@ -10,11 +10,12 @@
 
 namespace undine
 {
-  /// What happens on one part of a body's boundary. Where parts that fix a displacement meet, the
-  /// one that the scene names first decides.
+  /// A boundary condition on a part of a body's boundary. Where parts that fix a displacement meet,
+  /// the one that the scene names first decides.
   template <int dim>
   struct BodyBoundary
   {
+    /// Kinds of boundary conditions.
     enum class Kind
     {
       clamp,             ///< d = initial d

@@ -12,7 +12,7 @@
 
 namespace undine
 {
-  /// How large the mesh of a shape is, and the shape.
+  /// The size of a shape and of its mesh.
   struct ShapeSize
   {
     /// How many of each there are in the whole mesh: vertices, lines, quadrilaterals, hexahedra.
@@ -33,11 +33,12 @@ namespace undine
   class BodyShape
   {
   public:
-    /// The parts of the boundary that a scene can speak of, by name.
+    /// The parts of the boundary that a scene can name, and their boundary indicators.
     using Sides = std::map<std::string, dealii::types::boundary_id>;
 
     virtual ~BodyShape() = default;
 
+    /// Declare and read the keys of this shape.
     virtual void
     add_options(const Options &options) = 0;
 
@@ -50,8 +51,8 @@ namespace undine
     virtual Sides
     sides(const dealii::Triangulation<dim> &mesh) const = 0;
 
-    /// For estimates: of the mesh that make_mesh() would make. Shapes whose mesh may be of any size
-    /// say it without making it. Throws as make_mesh() does.
+    /// For estimates: of the mesh that make_mesh() would make. Shapes whose mesh may be large
+    /// compute it without making the mesh. Throws as make_mesh() does.
     virtual ShapeSize
     size() const;
   };

@@ -9,9 +9,9 @@
 
 namespace undine
 {
-  /// What to tell the user about bodies that may be far too stiff: elements of degree 1 can hardly
-  /// bend without changing their volume, which a Poisson's ratio above 0.45 forbids. Bodies in
-  /// plane stress and laws with a volumetric part of their own (MeanDilatation) do not lock.
+  /// Warnings about bodies that may be far too stiff: elements of degree 1 can hardly bend without
+  /// changing their volume, which a Poisson's ratio above 0.45 forbids. Bodies in plane stress and
+  /// laws with a volumetric part of their own (MeanDilatation) do not lock.
   template <int dim>
   std::vector<std::string>
   locking_warnings(const SolidModel<dim> &model);

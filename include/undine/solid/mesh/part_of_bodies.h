@@ -35,14 +35,14 @@ namespace undine
       return in_part;
     }
 
-    /// What a vector of all bodies says of the part. @{
+    /// The entries of a vector of all bodies that belong to the part. @{
     Vector
     taken_from(const Vector &of_all) const;
     SolidState
     taken_from(const SolidState &of_all) const;
     /// @}
 
-    /// Vectors of all bodies get what those of the part say; elsewhere they stay. @{
+    /// Overwrite the entries of `of_all` that belong to the part by `of_part`; the others stay. @{
     void
     put_into(Vector &of_all, const Vector &of_part) const;
     void

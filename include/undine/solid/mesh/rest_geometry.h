@@ -23,8 +23,12 @@ namespace undine
 
     unsigned int
     n_cells() const; ///< locally owned
+
+    /// Quadrature points of each cell.
     unsigned int
     n_points() const;
+
+    /// Nodes of each cell.
     unsigned int
     n_nodes() const;
 
@@ -59,7 +63,7 @@ namespace undine
     shape(unsigned int node, unsigned int point) const;
 
     /// Gradients of all nodes' shape functions with respect to rest positions [1/m] at one point,
-    /// into an array that is kept from call to call.
+    /// into an array that may be reused from call to call.
     void
     gradients(std::vector<dealii::Tensor<1, dim>> &result,
               unsigned int                         cell,

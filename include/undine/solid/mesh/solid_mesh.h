@@ -20,7 +20,7 @@ namespace undine
                   const std::vector<Body<dim>>                 &bodies,
                   const std::vector<bool>                      &kept);
 
-  /// A face of the boundary, and what happens there.
+  /// A face of the boundary and the boundary condition on it.
   template <int dim>
   struct LoadedFace
   {

@@ -47,10 +47,11 @@ namespace undine
     /// Read these sections and build. Collective. Throws InputError, FileError.
     SolidModel(const Options &options, MPI_Comm communicator);
 
-    /// Some of the bodies by themselves, as if the others were not there. Bodies keep their
-    /// numbers; those that are not `kept` have no cells. Collective.
+    /// A model of some of the bodies, as if there were no others. Bodies keep their numbers; those
+    /// that are not `kept` have no cells. Collective.
     SolidModel(const SolidModel &all, const std::vector<bool> &kept);
 
+    /// All bodies of the scene, also those without cells in this model.
     const std::vector<Body<dim>> &
     bodies() const;
 
@@ -70,6 +71,8 @@ namespace undine
     dof_handler() const;
     const dealii::Mapping<dim> &
     mapping() const;
+
+    /// Quadrature on the locally owned cells at rest.
     const RestGeometry<dim> &
     geometry() const;
 
@@ -77,6 +80,7 @@ namespace undine
     const std::vector<LoadedFace<dim>> &
     faces() const;
 
+    /// Numbers of the degrees of freedom that this rank owns.
     const dealii::IndexSet &
     locally_owned() const;
 
@@ -88,7 +92,7 @@ namespace undine
     unsigned int
     axis(Index dof) const;
 
-    /// Where the node of a degree of freedom, known to any rank, is at rest [m].
+    /// Position at rest of the node of a degree of freedom, known to any rank [m].
     const dealii::Point<dim> &
     rest_position(Index dof) const;
 
@@ -96,7 +100,7 @@ namespace undine
     const std::vector<FixedDof> &
     fixed() const;
 
-    /// Those of all ranks.
+    /// The fixed degrees of freedom of all ranks.
     const dealii::IndexSet &
     all_fixed() const;
 

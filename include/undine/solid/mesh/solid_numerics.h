@@ -11,8 +11,8 @@
 
 namespace undine
 {
-  /// How the bodies' equations are discretised and solved: the section `Solid numerics`, and the
-  /// integrator of section `Time`.
+  /// The discretisation and solution of the bodies' equations: the section `Solid numerics`, and
+  /// the integrator of section `Time`.
   struct SolidNumerics
   {
     /// Read the keys.

@@ -18,6 +18,7 @@ namespace undine
   class Factorisation
   {
   public:
+    /// Factorise a copy of A.
     void
     factorise(const dealii::TrilinosWrappers::SparseMatrix &A);
 

@@ -16,10 +16,10 @@ namespace undine
     static constexpr double of_factors_with_dilatation = 8e10;
   };
 
-  /// About how many operations a factorisation of the bodies' tangent takes: the sum over bodies of
-  /// n w^2, where the n unknowns lie in a row of slices of w along the direction with the most
-  /// elements. A thin sheet or a slender bar takes far fewer than a cube with as many unknowns.
-  /// Collective.
+  /// The approximate number of operations of a factorisation of the bodies' tangent: the sum over
+  /// bodies of n w^2, where the n unknowns lie in a row of slices of w along the direction with the
+  /// most elements. A thin sheet or a slender bar takes far fewer than a cube with as many
+  /// unknowns. Collective.
   template <int dim>
   double
   factorisation_work(const SolidModel<dim> &model);

@@ -11,8 +11,8 @@
 
 namespace undine
 {
-  /// Is a factorisation what the key `Linear solver` asks for, or with `auto` the cheaper way?
-  /// Collective.
+  /// Does the key `Linear solver` ask for a factorisation, or is it, with `auto`, the cheaper
+  /// method (factorisation_work())? Collective.
   template <int dim>
   bool
   solves_directly(const SolidModel<dim> &model);

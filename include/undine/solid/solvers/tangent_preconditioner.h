@@ -11,11 +11,12 @@
 
 namespace undine
 {
-  /// What stands for A^{-1}, A being a Jacobian of the bodies' equations, in a preconditioner: its
-  /// factors where solves_directly(), otherwise some steps of conjugate gradients with multigrid,
-  /// not always the same: outer iterations must be flexible. The factors do not mind a tangent that
-  /// is indefinite (a body that buckles); conjugate gradients that meet a direction in which it is
-  /// not positive, and do not converge, give way to them until the next matrix comes.
+  /// An approximation of A^{-1}, A being a Jacobian of the bodies' equations, for preconditioners:
+  /// its factors where solves_directly(), otherwise some steps of conjugate gradients with
+  /// multigrid. These are no fixed linear operator: outer iterations must be flexible. Factors also
+  /// serve a tangent that is indefinite (a body that buckles); conjugate gradients that meet a
+  /// direction in which it is not positive, and do not converge, are replaced by them until the
+  /// next matrix comes.
   template <int dim>
   class TangentPreconditioner
   {
@@ -26,7 +27,8 @@ namespace undine
     /// `model` must outlive it.
     explicit TangentPreconditioner(const SolidModel<dim> &model);
 
-    /// A is kept as a copy. Collective. Throws SolveError if it is singular or not a number.
+    /// Copies A; `displacement` [m] says where the bodies are. Collective. Throws SolveError if it
+    /// is singular or not a number.
     void
     initialize(const Matrix &A, const Vector &displacement);
 
@@ -34,7 +36,7 @@ namespace undine
     void
     vmult(Vector &x, const Vector &b);
 
-    /// What was unusual since initialize(); empty if nothing was.
+    /// A note on anything unusual since initialize(); empty if there was nothing.
     const std::string &
     note() const;
 

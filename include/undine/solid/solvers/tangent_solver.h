@@ -14,10 +14,10 @@ namespace undine
   /// Solves linear systems with the Jacobian of the bodies' equations, as `Linear solver` says: by
   /// factorisation, or by conjugate gradients with smoothed aggregation (ML) that knows the
   /// rigid-body motions. Where follower pressures make the tangent unsymmetric, GMRES takes the
-  /// place of conjugate gradients. An iteration that does not converge, as when the tangent is not
-  /// positive definite, gives way to the factorisation, with `auto` for all of the stage. The
-  /// analysis of the sparsity pattern is kept from one system to the next, the multigrid hierarchy
-  /// in a stage until the number of iterations has grown by half.
+  /// place of conjugate gradients. Where the iteration does not converge, as when the tangent is
+  /// not positive definite, a factorisation takes its place, with `auto` for the rest of the stage.
+  /// The analysis of the sparsity pattern is reused from one system to the next, the multigrid
+  /// hierarchy within a stage until the number of iterations has grown by half.
   template <int dim>
   class TangentSolver
   {
@@ -39,11 +39,11 @@ namespace undine
     void
     begin_stage();
 
-    /// Of the iterative solver, since begin_stage().
+    /// Iterations of the iterative solver since begin_stage().
     unsigned int
     iterations() const;
 
-    /// What was unusual since then; empty if nothing was.
+    /// A note on anything unusual since then; empty if there was nothing.
     const std::string &
     note() const;
 

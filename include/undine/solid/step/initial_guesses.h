@@ -9,9 +9,8 @@
 
 namespace undine
 {
-  /// u [m/s] that keeps d^n, but for what supports that have moved draw along: bodies follow
-  /// prescribed motions by a linear prediction, which `solver` solves. Collective. Throws
-  /// SolveError.
+  /// u [m/s] for which bodies stay at d^n, except that they follow supports that have moved, by a
+  /// linear prediction that `solver` solves. Collective. Throws SolveError.
   template <int dim>
   typename SolidModel<dim>::Vector
   resting_guess(const SolidEquations<dim> &equations,

@@ -9,13 +9,14 @@
 
 namespace undine
 {
-  /// What became of the bodies' energy and momentum in a step, each term from its own formula. With
-  /// dd = d^{n+1} - d^n, the terms of StepCoefficients and W = sum_e w_e,
+  /// The balance of the bodies' energy and momentum over a step, each term from its own formula.
+  /// With dd = d^{n+1} - d^n, the terms of StepCoefficients and W = sum_e w_e,
   ///
-  ///     kinetic + elastic = loads + nodal + supports + contact - damping - inertia_loss -
-  ///     elastic_loss momentum = h (loads_force + damping_force + supports_force + contact_force +
-  ///     nodal forces)
-  ///                - inertia_gap
+  ///     kinetic + elastic = loads + nodal + supports + contact - damping
+  ///                         - inertia_loss - elastic_loss
+  ///
+  ///     momentum = h (loads_force + damping_force + supports_force + contact_force
+  ///                   + nodal forces) - inertia_gap
   ///
   /// up to the tolerance of Newton's method and to rounding. Where an integrator averages forces
   /// over other times (W < 1) the rest of them is in inertia_loss and inertia_gap.
@@ -32,7 +33,7 @@ namespace undine
     double inertia_loss = 0; ///< the integrator's: M (m u + ...).dd - kinetic [J], and the rest
     double elastic_loss = 0; ///< the integrator's: sum_e w_e K(d_e).dd - int K(d).dd [J]
 
-    /// What of the loads is due to which effect, by its own force [J].
+    /// The contribution of each effect to the loads, by its own force [J].
     std::map<std::string, double> loads_by_effect;
 
     double contact_energy = 0; ///< gain of the potential of contact, over all stages [J]
@@ -45,7 +46,7 @@ namespace undine
     dealii::Tensor<1, dim> contact_force;  ///< [N]
   };
 
-  /// What bodies have.
+  /// Energy and momentum of all bodies.
   template <int dim>
   struct SolidAmounts
   {

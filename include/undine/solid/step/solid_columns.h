@@ -14,15 +14,15 @@ namespace undine
 {
   /// Integrals over the bodies, all collective. @{
 
-  /// u M u / 2 [J].
+  /// The kinetic energy u.M u / 2 [J].
   template <int dim>
   double
   kinetic_energy(const SolidModel<dim>                        &model,
                  const dealii::TrilinosWrappers::SparseMatrix &mass,
                  const dealii::TrilinosWrappers::MPI::Vector  &velocity);
 
-  /// - d . f of the dead loads at `time` [J]. Follower pressures have no potential and are left
-  /// out.
+  /// The potential -d.f of the dead loads f at `time` [s], [J]. Follower pressures have no
+  /// potential and are left out.
   template <int dim>
   double
   load_potential(const SolidModel<dim>                       &model,
@@ -30,21 +30,21 @@ namespace undine
                  const dealii::TrilinosWrappers::MPI::Vector &displacement,
                  double                                       time);
 
-  /// int rho u dX of all bodies [kg m/s].
+  /// The linear momentum int rho u dX of all bodies [kg m/s].
   template <int dim>
   dealii::Tensor<1, dim>
   linear_momentum(const SolidModel<dim>                       &model,
                   const dealii::TrilinosWrappers::MPI::Vector &velocity);
 
-  /// int rho (X + d) x u dX of all bodies about the origin [kg m^2/s]: one component in 2D, three
-  /// in 3D.
+  /// The angular momentum int rho (X + d) x u dX of all bodies about the origin [kg m^2/s]; in 2D
+  /// only the third component is not zero.
   template <int dim>
   dealii::Tensor<1, 3>
   angular_momentum(const SolidModel<dim>                       &model,
                    const dealii::TrilinosWrappers::MPI::Vector &displacement,
                    const dealii::TrilinosWrappers::MPI::Vector &velocity);
 
-  /// What a body measures now.
+  /// Mass, volume and centre of mass of a body.
   template <int dim>
   struct BodyMeasure
   {
@@ -66,11 +66,12 @@ namespace undine
                  const dealii::TrilinosWrappers::MPI::Vector &velocity);
   /// @}
 
-  /// What `statistics` says of the bodies at a time, in 2D per metre of depth. Of bodies that a
-  /// model leaves out all is zero.
+  /// The measures of the bodies in `statistics` at one time, in 2D per metre of depth. All of them
+  /// are zero for bodies that a model leaves out.
   template <int dim>
   struct SolidMeasures
   {
+    /// The measures of one body.
     struct OfBody
     {
       BodyMeasure<dim>                    measure;
@@ -87,8 +88,8 @@ namespace undine
     std::vector<OfBody>    bodies;
   };
 
-  /// Of the bodies that the model has. `report` is that of the step that led to `state`: with an
-  /// empty one, balances and reactions are zero. Collective.
+  /// The measures of the bodies that the model has. `report` is that of the step that led to
+  /// `state`: with an empty one, balances and reactions are zero. Collective.
   template <int dim>
   SolidMeasures<dim>
   measure_solid(const SolidModel<dim>       &model,
@@ -98,6 +99,7 @@ namespace undine
                 double                       time,
                 const SolidReport<dim>      &report);
 
+  /// The columns of `statistics` for these measures; `bodies` gives the names.
   template <int dim>
   Columns
   columns_of(const SolidMeasures<dim> &measures, const std::vector<Body<dim>> &bodies);

@@ -13,10 +13,11 @@
 
 namespace undine
 {
-  /// The balance of momentum over one step (StepCoefficients) as equations for the end velocity
-  /// u = u^{n+1}: residual, Jacobian and what u makes of the state. Fixed degrees of freedom have a
-  /// zero residual and a diagonal Jacobian; u has to carry the prescribed velocity there, which
-  /// guess() does, and d^{n+1} is the prescribed displacement exactly.
+  /// The balance of momentum over one step (T1), with StepCoefficients, as equations for the end
+  /// velocity u = u^{n+1}: residual, Jacobian and what u makes of the state. Fixed degrees of
+  /// freedom have a zero residual and a diagonal Jacobian; u has to carry the prescribed velocity
+  /// there, which guess() does, and d^{n+1} is the prescribed displacement exactly. All functions
+  /// that take or return vectors are collective.
   template <int dim>
   class SolidEquations
   {
@@ -49,15 +50,18 @@ namespace undine
     Vector
     guess_at_rest() const;
 
-    /// The u nearest to `guess` on the way from the last place of the bodies at which nothing
-    /// closes a gap (Contact). Throws SolveError if supports or obstacles alone close one.
+    /// The u nearest to `guess`, on the segment that begins at the velocity which leads to the last
+    /// position of the bodies (ContactStart), up to which no gap closes (Contact). `guess` itself
+    /// without contact. Throws SolveError if supports or obstacles alone close a gap. Collective.
     Vector
     kept_apart(const Vector &guess) const;
 
-    /// The part of `correction` that can be added to u without closing a gap [1].
+    /// The part of `correction` that can be added to `velocity` without closing a gap [1].
+    /// Collective.
     double
     free_part(const Vector &velocity, const Vector &correction) const;
 
+    /// matrix times the unknown = right_side.
     struct LinearSystem
     {
       Matrix matrix;
@@ -80,18 +84,23 @@ namespace undine
     void
     add_forces(const Vector &more);
 
-    /// The left side of the balance for u [N], zero at fixed degrees of freedom. Throws SolveError.
+    /// The left side of the balance for u [N], zero at fixed degrees of freedom. Throws SolveError
+    /// where a point is inverted. Collective.
     Vector
     residual(const Vector &velocity);
 
-    /// The same with the fixed degrees of freedom, where it is the force of the supports, divided
-    /// by the sum of the stages' weights [N].
+    /// Forces of the supports on the bodies at fixed degrees of freedom [N], zero elsewhere: the
+    /// left side of the balance there, divided by the sum of the stages' weights, except given
+    /// nodal forces, which are not averaged. Throws as residual() does. Collective.
     Vector
     reactions(const Vector &velocity);
 
-    /// For each body |sum over its degrees of freedom of M (m u + m_u u^n + m_a a^n) +
-    /// alpha M (c u + c_u u^n) - loads - contact - supports| / scale [1]: the balance of linear
-    /// momentum, in which inner forces cancel. `reactions` are those of the same u.
+    /// The balance of linear momentum of each body, in which inner forces cancel, [bodies] [1]:
+    ///
+    ///     | sum over its nodes of  M (m u + m_u u^n + m_a a^n) + alpha M (c u + c_u u^n)
+    ///                              - loads - contact - supports |  /  scale
+    ///
+    /// `reactions` are those of the same u. Collective. Throws SolveError as residual() does.
     std::vector<double>
     momentum_residuals(const Vector &velocity, const Vector &reactions) const;
 
@@ -119,13 +128,13 @@ namespace undine
       return coefficients.displacement;
     }
 
-    /// What forces of contact add to the velocity in the step [m/s]; empty if there are none or if
-    /// nobody needs it. Collective.
+    /// The contribution of forces of contact to the velocity in the step [m/s]; empty if there are
+    /// none, or if neither the integrator nor later stages need it. Collective.
     Vector
     contact_velocity(const Vector &velocity) const;
 
-    /// The state at the end of the step, given contact_velocity(), which is no part of the
-    /// acceleration.
+    /// The state at the end of the step, given contact_velocity(), which is not included in the
+    /// acceleration. Collective.
     SolidState
     end_state(const Vector &velocity, const Vector &contact_velocity) const;
 

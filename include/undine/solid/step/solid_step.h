@@ -16,7 +16,7 @@
 
 namespace undine
 {
-  /// How a step of the bodies went.
+  /// The report on a step of the bodies.
   template <int dim>
   struct SolidReport
   {
@@ -36,7 +36,8 @@ namespace undine
     /// SolidEquations::contact_velocity() [m/s].
     dealii::TrilinosWrappers::MPI::Vector contact_velocity;
 
-    /// What was unusual: "the tangent is indefinite: solved directly". Empty if nothing was.
+    /// A note on anything unusual, such as "the tangent is indefinite: solved directly"; empty if
+    /// there was nothing.
     std::string note;
   };
 
@@ -90,15 +91,15 @@ namespace undine
                       const SolidEnvironment<dim> &environment,
                       double                       time) const;
 
-    /// Of a state. Collective.
+    /// Energy and momentum of a state. Collective.
     SolidAmounts<dim>
     amounts(const SolidState &state) const;
 
-    /// M [kg].
+    /// The mass matrix M [kg].
     const Matrix &
     mass() const;
 
-    /// Of each body at t = 0 [m^dim].
+    /// Volume of each body at t = 0 [m^dim].
     const std::vector<double> &
     initial_volumes() const;
 

@@ -10,7 +10,7 @@
 
 namespace undine
 {
-  /// A time step of h [s] from t^n, written for the one unknown u = u^{n+1} [m/s]:
+  /// A time step of h [s] from t^n (T1), written for the one unknown u = u^{n+1} [m/s]:
   ///
   ///     M (m u + m_u u^n + m_a a^n) + C (c u + c_u u^n)
   ///       + sum_e w_e [ K(d_e) - f(d_e, t_e) ] - J p = 0                                       [N]
@@ -44,12 +44,13 @@ namespace undine
     double             acceleration_velocity     = 0; ///< b_u [1/s]
     double             acceleration_acceleration = 0; ///< b_a [1]
 
-    /// Of the stages [1]: reactions and the pressure's share of the acceleration are divided by it.
+    /// Sum of the stages' weights [1]: reactions and the pressure's share of the acceleration are
+    /// divided by it.
     double
     sum_of_weights() const;
   };
 
-  /// How exact a method is: of a free oscillation exp(i w t) it makes exp(i w (1 + e) t) with
+  /// The accuracy of a method: it turns a free oscillation exp(i w t) into exp(i w (1 + e) t) with
   /// |e| = C (w h)^p to the leading order. The error of one step is C h^(p+1) |y^(p+1)|.
   struct TimeAccuracy
   {
@@ -57,23 +58,26 @@ namespace undine
     double       constant; ///< C [1]
   };
 
-  /// A way to advance the bodies in time. One integrator is one .cc file that registers itself.
+  /// A method to advance the bodies in time. One integrator is one .cc file that registers itself.
   class TimeIntegrator
   {
   public:
     virtual ~TimeIntegrator() = default;
 
+    /// Declare and read the keys of this integrator.
     virtual void
     add_options(const Options &options) = 0;
 
-    /// The parts of a step of `dt` [s]; `knows_rates`: those at its begin are known.
+    /// The stages of a step of `dt` [s]; `knows_rates`: rates at its begin are known. A single one
+    /// unless the integrator has more.
     virtual Stages
     stages(double dt, bool knows_rates) const;
 
-    /// The numbers of a stage of length `dt` [s].
+    /// The coefficients of a stage of length `dt` [s].
     virtual StepCoefficients
     coefficients(double dt) const = 0;
 
+    /// Order and constant of the error in time.
     virtual TimeAccuracy
     accuracy() const = 0;
 
@@ -81,8 +85,8 @@ namespace undine
     virtual bool
     uses_acceleration() const;
 
-    /// Prescribed motions know their acceleration; the integrator's own is that of the time
-    /// t^{n+1} + shift h [1].
+    /// Where a motion is prescribed, a^{n+1} is its acceleration at the time to which the
+    /// integrator's a belongs, t^{n+1} + shift h; returns the shift [1].
     virtual double
     acceleration_shift() const;
   };

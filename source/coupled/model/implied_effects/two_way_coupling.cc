@@ -3,7 +3,7 @@
 
 namespace undine
 {
-  /// Fluid and bodies push each other.
+  /// Fluid and bodies act on each other.
   template <int dim>
   class TwoWayCoupling : public ImpliedEffect<dim>
   {

@@ -6,8 +6,8 @@
 
 namespace undine
 {
-  /// s^{n+1}(x) = s^n(foot of x), with cubic interpolation. Fields with a maximum principle are
-  /// limited to the bounds of the samples around the foot (quasi-monotone, Bermejo & Staniforth
+  /// s^{n+1}(x) = s^n(foot of x), with cubic interpolation (F9). Fields with a maximum principle
+  /// are limited to the bounds of the samples around the foot (quasi-monotone, Bermejo & Staniforth
   /// 1992). Third order in space, at limited extrema second.
   template <int dim>
   class CubicSemiLagrangian : public Advection<dim>

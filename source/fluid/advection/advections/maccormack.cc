@@ -10,7 +10,7 @@ namespace undine
 {
   /// Semi-Lagrangian step forward, one back, and half of what that round trip changed subtracted:
   ///
-  ///     s1 = A(s^n),  s0 = A^-1(s1),  s^{n+1} = s1 + (s^n - s0) / 2
+  ///     s1 = A(s^n),  s0 = A^-1(s1),  s^{n+1} = s1 + (s^n - s0) / 2                       (F10)
   ///
   /// for fields with a maximum principle limited to the bounds of the samples that made s1. Second
   /// order in space (Selle, Fedkiw, Kim, Liu, Rossignac 2008). Plain semi-Lagrangian where a path
@@ -85,7 +85,7 @@ namespace undine
       BoundedValue   found;
     };
 
-    /// Of each field where the way back may correct it: at the same points.
+    /// Of each field where the step back may correct it: at the same points.
     using Predictions = std::vector<std::vector<Prediction>>;
   };
 

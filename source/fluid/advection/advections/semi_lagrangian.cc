@@ -6,8 +6,8 @@
 
 namespace undine
 {
-  /// s^{n+1}(x) = s^n(foot of x), with multilinear interpolation (Stam 1999). Never exceeds the
-  /// bounds of s^n; smears by about dx^2 / (8 h) of diffusivity.
+  /// s^{n+1}(x) = s^n(foot of x), with multilinear interpolation (F8) (Stam 1999). Never exceeds
+  /// the bounds of s^n; smears by about dx^2 / (8 h) of diffusivity.
   template <int dim>
   class SemiLagrangian : public Advection<dim>
   {

@@ -6,10 +6,10 @@ namespace undine
 {
   /// Hooke's law of small strains and small rotations, eps = sym(F) - I:
   ///
-  ///     W = lambda/2 (tr eps)^2 + mu eps : eps
+  ///     W = lambda/2 (tr eps)^2 + mu eps : eps                                            (S9)
   ///     P = lambda tr(eps) I + 2 mu eps
   ///
-  /// It takes a rotation for a strain, and does not see inversion.
+  /// It takes a rotation for a strain, and does not detect inversion.
   class LinearElastic : public IsotropicMaterial
   {
   public:

@@ -10,7 +10,7 @@ namespace undine
   /// Neo-Hookean law split into distortion and dilatation, with J = det F, I_1 = F : F, B = F^-T,
   /// G = mu and K the bulk modulus:
   ///
-  ///     W = G/2 (J^(-2/3) I_1 - 3) + U(J),  U = K/2 (J - 1)^2
+  ///     W = G/2 (J^(-2/3) I_1 - 3) + U(J),  U = K/2 (J - 1)^2                             (S12)
   ///     P = g (F - I_1/3 B) + U'(J) J B,  g = mu J^(-2/3)
   ///     A_ijkl = g (delta_ik delta_jl - 2/3 (F_ij B_kl + B_ij F_kl)
   ///                 + 2/9 I_1 B_ij B_kl + I_1/3 B_il B_kj) + the part of U

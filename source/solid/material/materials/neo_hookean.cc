@@ -9,7 +9,7 @@ namespace undine
 {
   /// Compressible neo-Hookean law, with J = det F, I_1 = F : F and B = F^-T:
   ///
-  ///     W = mu/2 (I_1 - 3 - 2 ln J) + lambda/4 (J^2 - 1 - 2 ln J)
+  ///     W = mu/2 (I_1 - 3 - 2 ln J) + lambda/4 (J^2 - 1 - 2 ln J)                         (S11)
   ///     P = mu F + q B,  q = lambda/2 (J^2 - 1) - mu
   ///     A_ijkl = mu delta_ik delta_jl + lambda J^2 B_ij B_kl - q B_il B_kj
   ///

@@ -7,7 +7,7 @@ namespace undine
   /// Hooke's law between the Green-Lagrange strain E = (F^T F - I) / 2 and the second
   /// Piola-Kirchhoff stress S [Holzapfel, Nonlinear Solid Mechanics, section 6.5]:
   ///
-  ///     W = lambda/2 (tr E)^2 + mu E : E
+  ///     W = lambda/2 (tr E)^2 + mu E : E                                                  (S10)
   ///     P = F S,  S = lambda tr(E) I + 2 mu E
   ///     A_ijkl = delta_ik S_jl + lambda F_ij F_kl + mu (F_il F_kj + (F F^T)_ik delta_jl)
   ///

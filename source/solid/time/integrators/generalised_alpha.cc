@@ -8,7 +8,7 @@ namespace undine
   /// radius at infinite frequency, alpha_m = (2r-1)/(r+1), alpha_f = r/(r+1),
   /// gamma = 1/2 - alpha_m + alpha_f, beta = (1 - alpha_m + alpha_f)^2 / 4:
   ///
-  ///     M [(1-alpha_m) a^{n+1} + alpha_m a^n] + C u_f + K(d_f) - f(t_f) = 0,
+  ///     M [(1-alpha_m) a^{n+1} + alpha_m a^n] + C u_f + K(d_f) - f(t_f) = 0,              (T4)
   ///         x_f = (1-alpha_f) x^{n+1} + alpha_f x^n  for d, u and t
   ///     u^{n+1} = u^n + h [(1-gamma) a^n + gamma a^{n+1}] + M^{-1} h J p
   ///     d^{n+1} = d^n + h u^n + h^2 (1/2-beta) a^n

@@ -6,7 +6,7 @@ namespace undine
   /// Newmark's method in impulse form with beta = gamma / 2:
   ///
   ///     M (u^{n+1} - u^n) / h + C ((1-g) u^n + g u^{n+1})
-  ///       + (1-g) [K(d^n) - f^n] + g [K(d^{n+1}) - f^{n+1}] = J p
+  ///       + (1-g) [K(d^n) - f^n] + g [K(d^{n+1}) - f^{n+1}] = J p                         (T3)
   ///     d^{n+1} = d^n + h (u^n + u^{n+1}) / 2
   ///
   /// gamma = 1/2 is the trapezoid, second order; gamma = 1 with one Newton iteration is the scheme

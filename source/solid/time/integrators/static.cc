@@ -5,7 +5,7 @@ namespace undine
 {
   /// Equilibrium at the end of every step, without inertia and damping:
   ///
-  ///     K(d^{n+1}) = f(t^{n+1}) + J p,   u^{n+1} = (d^{n+1} - d^n) / h
+  ///     K(d^{n+1}) = f(t^{n+1}) + J p,   u^{n+1} = (d^{n+1} - d^n) / h                    (T5)
   class Static : public TimeIntegrator
   {
   public:
