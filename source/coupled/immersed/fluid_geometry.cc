@@ -11,6 +11,24 @@
 
 namespace undine
 {
+  namespace
+  {
+    /// Does any rank have a cell or a component of one? Collective.
+    template <int dim>
+    bool
+    has_fluid(const MacGrid<dim> &grid, const SubLattice<dim> &cells)
+    {
+      bool any = false;
+      for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
+        any = any || cells.kind(cell) == SubLattice<dim>::Kind::whole;
+      });
+      for (std::size_t k = 0; !any && k < cells.all().size(); ++k)
+        any = cells.owns(k);
+      return dealii::Utilities::MPI::max(any ? 1 : 0, grid.communicator()) == 1;
+    }
+  } // namespace
+
+
   template <int dim>
   FluidGeometry<dim>::FluidGeometry(const Models<dim> &models)
     : surface(*models.surface)
@@ -60,6 +78,7 @@ namespace undine
         close_sampled_pockets(voids, grid, cells, parts);
         parts = make_fluid_topology(grid, cells, voids);
       }
+    fluid_is_left = undine::has_fluid(grid, parts.open->cells);
   }
 
 
@@ -94,21 +113,6 @@ namespace undine
         positions.clear(); // the cut is incomplete
         throw;
       }
-  }
-
-
-  template <int dim>
-  bool
-  FluidGeometry<dim>::has_fluid() const
-  {
-    const auto &cells_of_fluid = parts.open->cells;
-    bool        any            = false;
-    for_each(model.grid().cells()->owned(), [&](const GridIndex<dim> &cell) {
-      any = any || cells_of_fluid.kind(cell) == SubLattice<dim>::Kind::whole;
-    });
-    for (std::size_t k = 0; !any && k < cells_of_fluid.all().size(); ++k)
-      any = cells_of_fluid.owns(k);
-    return dealii::Utilities::MPI::max(any ? 1 : 0, model.grid().communicator()) == 1;
   }
 
 

@@ -43,9 +43,12 @@ namespace undine
     typename CharacteristicTracer<dim>::Bodies
     bodies() const;
 
-    /// Do bodies and obstacles leave any fluid in the domain? Collective.
+    /// Do bodies and obstacles leave any fluid in the domain? The same on all ranks.
     bool
-    has_fluid() const;
+    has_fluid() const
+    {
+      return fluid_is_left;
+    }
 
     /// Are the surfaces where they were when the fields of the fluid were computed?
     bool
@@ -152,6 +155,7 @@ namespace undine
     CutWorkspace<dim>                          work;
     CutTopology<dim>                           parts;
     CutReport                                  last_report;
+    bool                                       fluid_is_left = true;
     std::unique_ptr<const BoundaryFlux<dim>>   flux_operator;
     std::unique_ptr<const SurfaceQueries<dim>> queries;
   };
