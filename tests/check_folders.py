@@ -72,7 +72,8 @@ def check_foreign_files(program, scene, folder):
 def check_unfinished_runs(program, scene, folder):
     """A run that can go on is replaced only by --overwrite."""
     results = folder / "unfinished"
-    process = subprocess.Popen([program, scene, "--output", results, *settings("Output/checkpoint/Interval=2")],
+    endless = settings("Time/End=1e6", "Output/checkpoint/Interval=2")
+    process = subprocess.Popen([program, scene, "--output", results, *endless],
                                env=scene_tools.environment(), stdout=subprocess.DEVNULL)
     while not (results / "checkpoint/slot_1.h5").exists() and process.poll() is None:
         time.sleep(0.02)
@@ -83,7 +84,7 @@ def check_unfinished_runs(program, scene, folder):
     result = call(program, "resume", results)
     expect("so is one that goes on", result.returncode == 4 and f"process {process.pid}" in result.stderr, result)
     process.send_signal(signal.SIGKILL)
-    process.wait()
+    expect("the run is killed before its end", process.wait() == -signal.SIGKILL)
     expect("a killed run leaves its lock", (results / "lock").exists())
 
     before = contents(results)
