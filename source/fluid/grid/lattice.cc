@@ -90,6 +90,29 @@ namespace undine
 
 
   template <int dim>
+  bool
+  Lattice<dim>::is_boundary_point(const GridIndex<dim> &index) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!rows[d].periodic() && (index[d] < 0 || index[d] >= rows[d].size()))
+        return true;
+    return false;
+  }
+
+
+  template <int dim>
+  const GhostLayers<dim> &
+  Lattice<dim>::ghost_layers(const GridIndex<dim> &stored, const GridIndex<dim> &width) const
+  {
+    const Widths widths{stored, width};
+    const auto   known = ghost_layers_of_widths.find(widths);
+    return known != ghost_layers_of_widths.end() ?
+             known->second :
+             ghost_layers_of_widths.try_emplace(widths, *this, stored, width).first->second;
+  }
+
+
+  template <int dim>
   dealii::types::global_dof_index
   Lattice<dim>::number(const GridIndex<dim> &index) const
   {

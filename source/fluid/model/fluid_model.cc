@@ -27,7 +27,8 @@ namespace undine
   {
     const auto fluid = scene.section("Fluid");
     Parameters parameters;
-    parameters.planes = read_planes<dim>(scene.section("Domain"));
+    const auto domain = scene.section("Domain");
+    domain.attempt([&] { parameters.planes = read_planes<dim>(domain); });
     fluid.require(
       "Density", parameters.density, "kg/m^3", Allowed::positive(), "Mass per volume, constant.");
     fluid.add("Initial velocity",

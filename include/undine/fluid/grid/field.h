@@ -164,6 +164,7 @@ namespace undine
 
     std::shared_ptr<const Lattice<dim>>       points;
     std::shared_ptr<const FluidTopology<dim>> open;
+    GridIndex<dim>                            layers{}; ///< of ghost points that are stored
     IndexBox<dim>                             box;
     std::array<std::ptrdiff_t, dim>           strides{};
     std::vector<double>                       values;

@@ -30,6 +30,13 @@ namespace undine
     {
       return std::equal(values, values + dim, other.values);
     }
+
+    /// Lexicographic, for lists with keys.
+    bool
+    operator<(const GridIndex &other) const
+    {
+      return std::lexicographical_compare(values, values + dim, other.values, other.values + dim);
+    }
   };
 
   /// The same number in all directions.

@@ -3,6 +3,7 @@
 #define undine_fluid_grid_lattice_h
 
 #include <undine/fluid/grid/blocks.h>
+#include <undine/fluid/grid/ghost_layers.h>
 #include <undine/fluid/grid/row.h>
 
 #include <deal.II/base/index_set.h>
@@ -10,7 +11,9 @@
 #include <deal.II/base/types.h>
 
 #include <array>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace undine
@@ -93,12 +96,24 @@ namespace undine
     GridIndex<dim>
     wrapped(GridIndex<dim> index) const;
 
+    /// Is it neither a point nor the image of one (see Row)?
+    bool
+    is_boundary_point(const GridIndex<dim> &index) const;
+
+    /// How fields that store `stored` layers around the owned points fetch the inner `width`: made
+    /// at the first call and kept. Collective.
+    const GhostLayers<dim> &
+    ghost_layers(const GridIndex<dim> &stored, const GridIndex<dim> &width) const;
+
   private:
+    using Widths = std::pair<GridIndex<dim>, GridIndex<dim>>;
+
     std::shared_ptr<const Blocks<dim>>           block_structure;
     std::array<Row, dim>                         rows;
     unsigned int                                 axis;
     IndexBox<dim>                                mine;
     std::vector<dealii::types::global_dof_index> first_number; ///< of each rank
+    mutable std::map<Widths, GhostLayers<dim>>   ghost_layers_of_widths;
   };
 } // namespace undine
 

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/grid/ghost_layers.h>
+
+#include <undine/fluid/grid/lattice.h>
+
+#include <deal.II/base/array_view.h>
+
+#include <map>
+
+namespace undine
+{
+  template <int dim>
+  GhostLayers<dim>::GhostLayers(const Lattice<dim>   &lattice,
+                                const GridIndex<dim> &stored,
+                                const GridIndex<dim> &width)
+  {
+    using dealii::types::global_dof_index;
+    const auto rank = lattice.blocks().rank();
+    const auto box  = lattice.with_ghosts(rank, stored);
+    // Both are lists of what is stored; what does not take part is "invalid" there.
+    std::vector<global_dof_index> owned(box.size(), dealii::numbers::invalid_dof_index);
+    std::vector<global_dof_index> ghosts(owned);
+    for_each(lattice.owned(), [&](const GridIndex<dim> &index) {
+      owned[box.position(index)] = lattice.number(index);
+    });
+
+    std::map<global_dof_index, std::size_t> first_of; // a point can have several images here
+    for_each(lattice.with_ghosts(rank, width), [&](const GridIndex<dim> &index) {
+      if (lattice.owned().contains(index) || lattice.is_boundary_point(index))
+        return;
+      const auto point    = lattice.wrapped(index);
+      const auto position = box.position(index);
+      if (lattice.owned().contains(point))
+        images.emplace_back(box.position(point), position);
+      else
+        {
+          const auto number       = lattice.number(point);
+          const auto [first, new_] = first_of.try_emplace(number, position);
+          if (new_)
+            ghosts[position] = number;
+          else
+            images.emplace_back(first->second, position);
+        }
+    });
+    partitioner.reinit(owned, ghosts, lattice.blocks().communicator());
+  }
+
+
+  template <int dim>
+  void
+  GhostLayers<dim>::update(std::vector<double> &values) const
+  {
+    partitioner.export_to_ghosted_array(dealii::ArrayView<const double>(values.data(), values.size()),
+                                        dealii::make_array_view(values));
+    for (const auto &[from, to] : images)
+      values[to] = values[from];
+  }
+
+
+  template class GhostLayers<2>;
+  template class GhostLayers<3>;
+} // namespace undine
