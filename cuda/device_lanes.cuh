@@ -4,8 +4,51 @@
 
 #include <undine/particles/math/matrix.h>
 
+#include <cooperative_groups.h>
+#include <cooperative_groups/reduce.h>
+
 namespace undine::particles
 {
+  /// Who takes part in a sum besides a particle's own lanes: nobody, or the rest of the warp. @{
+  struct Nobody
+  {
+    __device__ static unsigned int
+    mask(const unsigned int own)
+    {
+      return own;
+    }
+
+    template <int lanes, class Real>
+    __device__ static Real
+    sum(const Real value)
+    {
+      namespace cg = cooperative_groups;
+      return cg::reduce(cg::tiled_partition<lanes>(cg::this_thread_block()),
+                        value,
+                        cg::plus<Real>());
+    }
+  };
+
+  struct RestOfWarp
+  {
+    __device__ static unsigned int
+    mask(const unsigned int)
+    {
+      return 0xffffffffu;
+    }
+
+    template <int lanes, class Real>
+    __device__ static Real
+    sum(Real value)
+    {
+      for (int distance = 1; distance < lanes; distance *= 2)
+        value += __shfl_xor_sync(0xffffffffu, value, distance);
+      return value;
+    }
+  };
+  /// @}
+
+
   /// Neighbouring threads of a warp that share the work on one particle, see OneLane. They must all
   /// call sum() and ballot(), and so must all other threads that are `Present`.
   template <class Present>
@@ -29,13 +72,13 @@ namespace undine::particles
     __device__ static float
     sum(float value)
     {
-      return butterfly(value);
+      return Present::template sum<number>(value);
     }
 
     __device__ static double
     sum(double value)
     {
-      return butterfly(value);
+      return Present::template sum<number>(value);
     }
 
     template <int dim, class Real>
@@ -43,7 +86,7 @@ namespace undine::particles
     sum(Vector<dim, Real> value)
     {
       for (int axis = 0; axis < dim; ++axis)
-        value[axis] = butterfly(value[axis]);
+        value[axis] = Present::template sum<number>(value[axis]);
       return value;
     }
 
@@ -53,7 +96,7 @@ namespace undine::particles
     {
       for (int i = 0; i < dim; ++i)
         for (int j = 0; j < dim; ++j)
-          value[i][j] = butterfly(value[i][j]);
+          value[i][j] = Present::template sum<number>(value[i][j]);
       return value;
     }
 
@@ -89,37 +132,7 @@ namespace undine::particles
     {
       return Present::mask(((1u << count()) - 1) << first());
     }
-
-    template <class Real>
-    __device__ static Real
-    butterfly(Real value)
-    {
-      for (int distance = 1; distance < count(); distance *= 2)
-        value += __shfl_xor_sync(mask(), value, distance);
-      return value;
-    }
   };
-
-
-  /// Who takes part in a sum besides a particle's own lanes. @{
-  struct Nobody
-  {
-    __device__ static unsigned int
-    mask(const unsigned int own)
-    {
-      return own;
-    }
-  };
-
-  struct RestOfWarp
-  {
-    __device__ static unsigned int
-    mask(const unsigned int)
-    {
-      return 0xffffffffu;
-    }
-  };
-  /// @}
 
   using DeviceLanes = LanesWith<Nobody>;
 
