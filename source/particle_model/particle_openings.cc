@@ -154,14 +154,14 @@ namespace undine
     options.add("Region",
                 region,
                 "",
-                Allowed::anything(),
+                Allowed::constant_in_time(),
                 "Only where this is positive on the sides; by default all of them. The rest is a "
                 "wall. Where boundaries overlap, the later one counts.");
     options.add("Velocity",
                 velocity,
                 "m/s",
-                Allowed::anything(),
-                "Of an inflow, normal to the side and constant in time.");
+                Allowed::constant_in_time(),
+                "Of an inflow, normal to the side.");
     kind                 = word == "inflow" ? OpeningKind::inflow : OpeningKind::outflow;
     const bool is_inflow = kind == OpeningKind::inflow;
     for (const auto &name : names)
@@ -174,10 +174,6 @@ namespace undine
       throw options.error("Velocity",
                           "is not used by an outflow",
                           "Remove it: fluid leaves with the velocity it has.");
-    if (velocity.names_time() || region.names_time())
-      throw options.error(velocity.names_time() ? "Velocity" : "Region",
-                          "names the time, but inflows of particles are constant",
-                          "Try: an expression without t.");
   }
 
 
