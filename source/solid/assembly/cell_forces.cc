@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/solid/assembly/cell_forces.h>
-#include <undine/solid/material/cofactor.h>
+#include <undine/solid/material/cofactor_derivative.h>
 #include <undine/solid/material/positive_jacobian.h>
 
 #include <fmt/format.h>

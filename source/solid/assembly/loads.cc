@@ -2,7 +2,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/base/parallel/throw_together.h>
 #include <undine/solid/assembly/loads.h>
-#include <undine/solid/material/cofactor.h>
+#include <undine/solid/material/cofactor_derivative.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>

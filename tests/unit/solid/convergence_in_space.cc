@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_scene.h"
 
-#include <undine/solid/material/cofactor.h>
 
 #include <catch2/catch.hpp>
 
