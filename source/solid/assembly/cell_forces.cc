@@ -7,6 +7,7 @@
 #include <deal.II/physics/elasticity/kinematics.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace undine
 {
@@ -73,11 +74,10 @@ namespace undine
       catch (const SolveError &error)
         {
           const auto &position = geometry.position(cell, q);
-          std::string place;
-          for (unsigned int axis = 0; axis < dim; ++axis)
-            place += fmt::format("{}{:.4g}", axis == 0 ? "" : ", ", position[axis]);
-          throw SolveError(fmt::format(
-            "body '{}', the point that rests at ({}): {}", body->name, place, error.what()));
+          throw SolveError(fmt::format("body '{}', the point that rests at ({:.4g}): {}",
+                                       body->name,
+                                       fmt::join(position.begin_raw(), position.end_raw(), ", "),
+                                       error.what()));
         }
   }
 

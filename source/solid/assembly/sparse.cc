@@ -57,7 +57,7 @@ namespace undine
                            std::equal(a.starts, a.starts + n_rows + 1, b.starts));
     for (int entry = 0; same && !shared && entry < a.epetra.NumMyNonzeros(); ++entry)
       same = a.epetra.GCID(a.columns[entry]) == b.epetra.GCID(b.columns[entry]);
-    return dealii::Utilities::MPI::min(int(same), A.get_mpi_communicator()) > 0;
+    return !dealii::Utilities::MPI::logical_or(!same, A.get_mpi_communicator());
   }
 
 

@@ -34,7 +34,7 @@ namespace undine
         {
           failed = true;
         }
-      return dealii::Utilities::MPI::max(int(failed), communicator) > 0;
+      return dealii::Utilities::MPI::logical_or(failed, communicator);
     }
 
 

@@ -77,7 +77,7 @@ namespace undine
       {
         failed = true;
       }
-    if (dealii::Utilities::MPI::max(int(failed), model.communicator()) > 0)
+    if (dealii::Utilities::MPI::logical_or(failed, model.communicator()))
       result.reset();
     return result;
   }
