@@ -21,21 +21,6 @@ namespace undine
     using Leaf = std::pair<dealii::BoundingBox<dim>, unsigned int>;
 
 
-    template <int dim>
-    dealii::BoundingBox<dim>
-    box_around(const FacetNodes<dim> &corners)
-    {
-      std::pair<dealii::Point<dim>, dealii::Point<dim>> ends(corners[0], corners[0]);
-      for (const auto &corner : corners)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            ends.first[d]  = std::min(ends.first[d], corner[d]);
-            ends.second[d] = std::max(ends.second[d], corner[d]);
-          }
-      return dealii::BoundingBox<dim>(ends);
-    }
-
-
     /// The angle of a facet at its corner k; ends of segments count alike. @{
     double
     angle(const FacetNodes<2> &, const unsigned int)
@@ -83,7 +68,7 @@ namespace undine
             ridge_normals[surface.ridges(facet)[k]] += normal;
             node_normals[surface.facets()[facet][k]] += angle(nodes, k) * normal;
           }
-        leaves.emplace_back(box_around<dim>(nodes), facet);
+        leaves.emplace_back(dealii::BoundingBox<dim>(nodes), facet);
       }
     auto box = leaves.front().first;
     for (const auto &leaf : leaves)

@@ -4,9 +4,7 @@
 
 #include <deal.II/base/bounding_box.h>
 
-#include <algorithm>
 #include <array>
-#include <utility>
 
 namespace undine
 {
@@ -15,19 +13,9 @@ namespace undine
   dealii::BoundingBox<dim>
   box_around(const std::array<dealii::Point<dim>, n> &points, const double thickness)
   {
-    std::pair<dealii::Point<dim>, dealii::Point<dim>> corners(points[0], points[0]);
-    for (const auto &point : points)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          corners.first[d]  = std::min(corners.first[d], point[d]);
-          corners.second[d] = std::max(corners.second[d], point[d]);
-        }
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        corners.first[d] -= thickness;
-        corners.second[d] += thickness;
-      }
-    return dealii::BoundingBox<dim>(corners);
+    dealii::BoundingBox<dim> result(points);
+    result.extend(thickness);
+    return result;
   }
 
   template <int dim>

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/solid/assembly/cell_forces.h>
-#include <undine/solid/material/cofactor.h>
+#include <undine/solid/material/cofactor_derivative.h>
 #include <undine/solid/material/positive_jacobian.h>
 
+#include <deal.II/physics/elasticity/kinematics.h>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace undine
 {
-  namespace
-  {
-    template <int dim>
-    dealii::Tensor<2, dim>
-    deformation_gradient(const dealii::Tensor<2, dim> &H)
-    {
-      return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) + H;
-    }
-  } // namespace
+  namespace deformation = dealii::Physics::Elasticity::Kinematics;
 
 
   template <int dim>
@@ -79,11 +74,10 @@ namespace undine
       catch (const SolveError &error)
         {
           const auto &position = geometry.position(cell, q);
-          std::string place;
-          for (unsigned int axis = 0; axis < dim; ++axis)
-            place += fmt::format("{}{:.4g}", axis == 0 ? "" : ", ", position[axis]);
-          throw SolveError(fmt::format(
-            "body '{}', the point that rests at ({}): {}", body->name, place, error.what()));
+          throw SolveError(fmt::format("body '{}', the point that rests at ({:.4g}): {}",
+                                       body->name,
+                                       fmt::join(position.begin_raw(), position.end_raw(), ", "),
+                                       error.what()));
         }
   }
 
@@ -96,7 +90,7 @@ namespace undine
       return;
     std::vector<double> jacobians(geometry.n_points());
     at_all_points([&](const unsigned int q, const Tensor2 &H) {
-      jacobians[q] = determinant(deformation_gradient(H));
+      jacobians[q] = determinant(deformation::F(H));
       assert_positive_jacobian(jacobians[q]);
     });
     dilatation.reinit(cell, *body->material, jacobians);
@@ -113,7 +107,7 @@ namespace undine
     at_all_points([&](const unsigned int q, const Tensor2 &H) {
       Tensor2 stress = body->kinematics->stress(*body->material, H).stress;
       if (is_separated())
-        stress += dilatation.pressure(q) * cofactor(deformation_gradient(H));
+        stress += dilatation.pressure(q) * cofactor(deformation::F(H));
       add_forces(stress, geometry.JxW(cell, q));
     });
     return local_forces;
@@ -132,7 +126,7 @@ namespace undine
       auto moduli = body->kinematics->respond(*body->material, H).tangent;
       if (is_separated())
         {
-          const auto F = deformation_gradient(H);
+          const auto F = deformation::F(H);
           moduli += dilatation.pressure(q) * cofactor_derivative(F);
           add_volume_gradient(cofactor(F), q);
         }
@@ -162,7 +156,7 @@ namespace undine
   double
   CellForces<dim>::stretched_volume(const unsigned int point)
   {
-    return determinant(deformation_gradient(displacement_gradient(point)));
+    return determinant(deformation::F(displacement_gradient(point)));
   }
 
 

@@ -2,11 +2,13 @@
 #include <undine/base/core/errors.h>
 #include <undine/base/parallel/throw_together.h>
 #include <undine/solid/assembly/loads.h>
-#include <undine/solid/material/cofactor.h>
+#include <undine/solid/material/cofactor_derivative.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/physics/elasticity/kinematics.h>
+#include <deal.II/physics/transformations.h>
 
 #include <algorithm>
 
@@ -14,6 +16,8 @@ namespace undine
 {
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+  using dealii::Physics::Transformations::nansons_formula;
+  namespace deformation = dealii::Physics::Elasticity::Kinematics;
 
   namespace
   {
@@ -185,14 +189,6 @@ namespace undine
     }
 
 
-    template <int dim>
-    dealii::Tensor<2, dim>
-    deformation_gradient(const dealii::Tensor<2, dim> &H)
-    {
-      return dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) + H;
-    }
-
-
     /// F_33 cof(F) n: the deformed normal times the deformed area per area at rest [1].
     template <int dim>
     dealii::Tensor<1, dim>
@@ -201,7 +197,7 @@ namespace undine
                     const dealii::Tensor<1, dim> &normal)
     {
       const double stretch = body.kinematics->thickness(*body.material, H).stretch;
-      return stretch * (cofactor(deformation_gradient(H)) * normal);
+      return stretch * nansons_formula(normal, deformation::F(H));
     }
 
 
@@ -212,10 +208,9 @@ namespace undine
                                const dealii::Tensor<2, dim> &H,
                                const dealii::Tensor<1, dim> &normal)
     {
-      const auto             F          = deformation_gradient(H);
       const auto             thickness  = body.kinematics->thickness(*body.material, H);
-      const auto             derivative = cofactor_derivative(F);
-      const auto             in_plane   = cofactor(F) * normal;
+      const auto             derivative = cofactor_derivative(deformation::F(H));
+      const auto             in_plane   = nansons_formula(normal, deformation::F(H));
       dealii::Tensor<3, dim> result;
       for (unsigned int a = 0; a < dim; ++a)
         {

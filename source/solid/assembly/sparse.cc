@@ -6,9 +6,9 @@
 #include <Epetra_CrsGraph.h>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
+#include <Epetra_Vector.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace undine
 {
@@ -36,26 +36,14 @@ namespace undine
     double
     mean_diagonal(const Matrix &matrix)
     {
-      const Rows rows(matrix);
-      double     sum = 0;
-      for (int row = 0; row < rows.epetra.NumMyRows(); ++row)
-        for (int entry = rows.starts[row]; entry < rows.starts[row + 1]; ++entry)
-          if (rows.epetra.GCID(rows.columns[entry]) == rows.epetra.GRID(row))
-            sum += std::abs(rows.values[entry]);
-      return dealii::Utilities::MPI::sum(sum, matrix.get_mpi_communicator()) / matrix.m();
+      Epetra_Vector diagonal(matrix.trilinos_matrix().RowMap());
+      const int     error = matrix.trilinos_matrix().ExtractDiagonalCopy(diagonal);
+      AssertThrow(error == 0, dealii::ExcTrilinosError(error));
+      double sum = 0;
+      diagonal.Norm1(&sum);
+      return sum / matrix.m();
     }
   } // namespace
-
-
-  void
-  add_matrix(Matrix &A, const double factor, const Matrix &B)
-  {
-    const Rows to(A), from(B);
-    AssertThrow(to.epetra.NumMyNonzeros() == from.epetra.NumMyNonzeros(),
-                dealii::ExcMessage("The matrices differ in their sparsity patterns."));
-    for (int entry = 0; entry < to.epetra.NumMyNonzeros(); ++entry)
-      to.values[entry] += factor * from.values[entry];
-  }
 
 
   bool
@@ -69,7 +57,7 @@ namespace undine
                            std::equal(a.starts, a.starts + n_rows + 1, b.starts));
     for (int entry = 0; same && !shared && entry < a.epetra.NumMyNonzeros(); ++entry)
       same = a.epetra.GCID(a.columns[entry]) == b.epetra.GCID(b.columns[entry]);
-    return dealii::Utilities::MPI::min(int(same), A.get_mpi_communicator()) > 0;
+    return !dealii::Utilities::MPI::logical_or(!same, A.get_mpi_communicator());
   }
 
 

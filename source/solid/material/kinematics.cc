@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/base/core/registry.h>
+#include <undine/solid/material/cofactor_derivative.h>
 #include <undine/solid/material/kinematics.h>
 #include <undine/solid/material/positive_jacobian.h>
 
@@ -78,35 +79,28 @@ namespace undine
     }
 
 
-    /// P with U'(J) J F^-T.
+    /// P with U'(J) cof F.
     Tensor<2, 3>
     whole_stress(const Material &material, const Tensor<2, 3> &F)
     {
       const auto P = material.stress(F);
       if (!material.has_separate_volumetric_part())
         return P;
-      const double J = determinant(F);
-      return P + material.volumetric_stress(J) * J * transpose(invert(F));
+      return P + material.volumetric_stress(determinant(F)) * cofactor(F);
     }
 
 
-    /// A with (U'' J^2 + U' J) B_ij B_kl - U' J B_il B_kj, B = F^-T.
+    /// A with U'' (cof F)_ij (cof F)_kl + U' d(cof F)_ij / dF_kl.
     Tensor<4, 3>
     whole_tangent(const Material &material, const Tensor<2, 3> &F)
     {
-      auto A = material.tangent(F);
+      const auto A = material.tangent(F);
       if (!material.has_separate_volumetric_part())
         return A;
-      const double J         = determinant(F);
-      const auto   B         = transpose(invert(F));
-      const double pressure  = material.volumetric_stress(J) * J;
-      const double stiffness = material.volumetric_tangent(J) * J * J + pressure;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          for (unsigned int k = 0; k < 3; ++k)
-            for (unsigned int l = 0; l < 3; ++l)
-              A[i][j][k][l] += stiffness * B[i][j] * B[k][l] - pressure * B[i][l] * B[k][j];
-      return A;
+      const double J        = determinant(F);
+      const auto   gradient = cofactor(F); // of J
+      return A + material.volumetric_tangent(J) * outer_product(gradient, gradient) +
+             material.volumetric_stress(J) * cofactor_derivative(F);
     }
 
 

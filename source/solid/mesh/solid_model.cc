@@ -4,10 +4,9 @@
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
-
-#include <algorithm>
 
 namespace undine
 {
@@ -87,14 +86,8 @@ namespace undine
   SolidModel<dim>::distribute_dofs()
   {
     dofs.distribute_dofs(element);
-    std::vector<Index> on_owned_cells;
-    for (const auto &cell : dofs.active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const Index dof : cell_dofs<dim>(cell))
-          on_owned_cells.push_back(dof);
-    std::sort(on_owned_cells.begin(), on_owned_cells.end());
-    relevant = dofs.locally_owned_dofs();
-    relevant.add_indices(on_owned_cells.begin(), on_owned_cells.end());
+    // Not the locally relevant ones, which are all: no cell is artificial.
+    relevant = dealii::DoFTools::extract_locally_active_dofs(dofs);
   }
 
 
@@ -163,14 +156,8 @@ namespace undine
   SolidModel<dim>::make_sparsity()
   {
     dealii::DynamicSparsityPattern pattern(dofs.n_dofs(), dofs.n_dofs(), relevant);
-    for (const auto &cell : dofs.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          auto indices = cell_dofs<dim>(cell);
-          std::sort(indices.begin(), indices.end());
-          for (const Index row : indices)
-            pattern.add_entries(row, indices.begin(), indices.end(), true);
-        }
+    dealii::DoFTools::make_sparsity_pattern(
+      dofs, pattern, dealii::AffineConstraints<double>(), true, mesh.locally_owned_subdomain());
     dealii::SparsityTools::distribute_sparsity_pattern(
       pattern, locally_owned(), communicator(), relevant);
     sparsity.reinit(locally_owned(), pattern, communicator());

@@ -2,6 +2,7 @@
 #include <undine/solid/mesh/solid_point.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -69,13 +70,11 @@ namespace undine
   {
     const auto location = locate(model, find_body(model, body), position);
     if (!(location.distance < 1e-6))
-      {
-        std::string place;
-        for (unsigned int axis = 0; axis < dim; ++axis)
-          place += fmt::format("{}{:g}", axis == 0 ? "" : ", ", position[axis]);
-        throw InputError("the point (" + place + ") is not in the body '" + body +
-                         "' at rest. Try: a point of its mesh, whose curved sides are polygons");
-      }
+      throw InputError(
+        fmt::format("the point ({:g}) is not in the body '{}' at rest. Try: a point of its mesh, "
+                    "whose curved sides are polygons",
+                    fmt::join(position.begin_raw(), position.end_raw(), ", "),
+                    body));
     owner = location.cell->subdomain_id();
     if (!location.cell->is_locally_owned())
       return;

@@ -3,8 +3,10 @@
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,25 +63,16 @@ namespace undine
     }
 
 
-    /// Number of pivots of a positive semi-definite matrix that are more than rounding.
+    /// Number of singular values of a square matrix that are more than rounding.
     unsigned int
-    rank(dealii::FullMatrix<double> A)
+    rank(const dealii::FullMatrix<double> &A)
     {
-      const double negligible = 1e-10 * A.linfty_norm();
-      unsigned int result     = 0;
-      for (; result < A.m(); ++result)
-        {
-          unsigned int pivot = 0;
-          for (unsigned int i = 1; i < A.m(); ++i)
-            if (A(i, i) > A(pivot, pivot))
-              pivot = i;
-          if (!(A(pivot, pivot) > negligible))
-            break;
-          const auto before = A;
-          for (unsigned int i = 0; i < A.m(); ++i)
-            for (unsigned int j = 0; j < A.n(); ++j)
-              A(i, j) -= before(i, pivot) * before(pivot, j) / before(pivot, pivot);
-        }
+      dealii::LAPACKFullMatrix<double> factors(A.m());
+      factors = A;
+      factors.compute_svd();
+      unsigned int result = 0;
+      for (unsigned int i = 0; i < A.m(); ++i)
+        result += factors.singular_value(i) > 1e-10 * A.linfty_norm();
       return result;
     }
 
@@ -155,16 +148,13 @@ namespace undine
           const double motion   = model.prescribed_displacement(entry, 0);
           if (std::abs(motion - start) <= 1e-9 * (sizes[entry.body] + std::abs(start)))
             continue;
-          std::string place;
-          for (unsigned int axis = 0; axis < dim; ++axis)
-            place += fmt::format("{}{:.4g}", axis == 0 ? "" : ", ", position[axis]);
           throw body.boundaries[entry.boundary].options.error(
             "Displacement",
-            fmt::format("is {:.6g} m at t = 0 along {} where the body rests at ({}), but its "
+            fmt::format("is {:.6g} m at t = 0 along {} where the body rests at ({:.4g}), but its "
                         "'Initial displacement' there is {:.6g} m",
                         motion,
                         "xyz"[entry.axis],
-                        place,
+                        fmt::join(position.begin_raw(), position.end_raw(), ", "),
                         start),
             "Try: a motion that starts at the 'Initial displacement' of body '" + body.name +
               "'; a jump would be an infinite velocity.");

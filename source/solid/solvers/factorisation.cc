@@ -34,7 +34,7 @@ namespace undine
         {
           failed = true;
         }
-      return dealii::Utilities::MPI::max(int(failed), communicator) > 0;
+      return dealii::Utilities::MPI::logical_or(failed, communicator);
     }
 
 
@@ -71,7 +71,7 @@ namespace undine
     if (is_new)
       analyse(A);
     matrix = 0;
-    add_matrix(matrix, 1, A);
+    matrix.add(1., A);
     const auto act = [&] {
       if (!std::isfinite(matrix.frobenius_norm()))
         return -1;

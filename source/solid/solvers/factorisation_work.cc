@@ -37,21 +37,14 @@ namespace undine
       std::vector<Extents<dim>> result(model.bodies().size(), empty);
       for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
         {
-          auto of_cell = empty;
-          for (const auto dof : geometry.dofs(cell))
-            for (unsigned int axis = 0; axis < dim; ++axis)
-              {
-                const double x      = model.rest_position(dof)[axis];
-                of_cell.lower[axis] = std::min(of_cell.lower[axis], x);
-                of_cell.upper[axis] = std::max(of_cell.upper[axis], x);
-              }
-          auto &body = result[geometry.body(cell)];
+          const auto box  = geometry.cell(cell)->bounding_box();
+          auto      &body = result[geometry.body(cell)];
           body.n_cells += 1;
-          body.sum += of_cell.upper - of_cell.lower;
           for (unsigned int axis = 0; axis < dim; ++axis)
             {
-              body.lower[axis] = std::min(body.lower[axis], of_cell.lower[axis]);
-              body.upper[axis] = std::max(body.upper[axis], of_cell.upper[axis]);
+              body.sum[axis] += box.side_length(axis);
+              body.lower[axis] = std::min(body.lower[axis], box.lower_bound(axis));
+              body.upper[axis] = std::max(body.upper[axis], box.upper_bound(axis));
             }
         }
       const auto communicator = model.communicator();

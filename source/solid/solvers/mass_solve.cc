@@ -27,7 +27,7 @@ namespace undine
     clear_fixed(right_side, model);
 
     auto matrix = model.matrix();
-    add_matrix(matrix, 1, mass);
+    matrix.add(1., mass);
     fix_rows_and_columns(matrix, model.all_fixed());
     dealii::TrilinosWrappers::PreconditionJacobi preconditioner;
     preconditioner.initialize(matrix);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/solid/assembly/sparse.h>
 #include <undine/solid/mesh/rigid_motions.h>
 #include <undine/solid/solvers/factorisation_work.h>
 #include <undine/solid/solvers/tangent_multigrid.h>
@@ -68,7 +67,7 @@ namespace undine
     bool failed = !std::isfinite(A.frobenius_norm());
     auto result = std::make_unique<TangentMultigrid>();
     result->matrix.reinit(A);
-    add_matrix(result->matrix, 1, A);
+    result->matrix.add(1., A);
     try
       {
         if (!failed)
@@ -78,7 +77,7 @@ namespace undine
       {
         failed = true;
       }
-    if (dealii::Utilities::MPI::max(int(failed), model.communicator()) > 0)
+    if (dealii::Utilities::MPI::logical_or(failed, model.communicator()))
       result.reset();
     return result;
   }

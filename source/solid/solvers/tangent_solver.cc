@@ -77,7 +77,7 @@ namespace undine
         failed = true;
       }
     all_iterations += control.last_step();
-    if (dealii::Utilities::MPI::max(int(failed), model.communicator()) > 0)
+    if (dealii::Utilities::MPI::logical_or(failed, model.communicator()))
       return false;
     if (first_iterations == 0)
       first_iterations = std::max(control.last_step(), 1u);

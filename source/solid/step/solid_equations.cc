@@ -60,12 +60,12 @@ namespace undine
     try
       {
         damping_stiffness.reinit(model.matrix());
-        add_matrix(damping_stiffness, 1, internal_stiffness(model, displacement));
+        damping_stiffness.add(1., internal_stiffness(model, displacement));
       }
     catch (const SolveError &)
       {
         // The extrapolation may invert a cell where d^n does not.
-        add_matrix(damping_stiffness, 1, internal_stiffness(model, old_state.displacement));
+        damping_stiffness.add(1., internal_stiffness(model, old_state.displacement));
       }
     timing.memory.hold_briefly("damping", damping_stiffness.memory_consumption());
   }
@@ -338,15 +338,15 @@ namespace undine
         {
           const double factor = stage.weight * stage.position * coefficients.displacement;
           const Vector d      = stage_displacement(end, stage.position);
-          add_matrix(result, factor, internal_stiffness(model, d));
+          result.add(factor, internal_stiffness(model, d));
           if (has_pressure)
-            add_matrix(result, -factor, pressure_stiffness(model, d, time + stage.position * dt));
+            result.add(-factor, pressure_stiffness(model, d, time + stage.position * dt));
         }
     const double mass_factor = coefficients.mass + coefficients.damping * environment.mass_damping;
     if (mass_factor != 0)
-      add_matrix(result, mass_factor, mass);
+      result.add(mass_factor, mass);
     if (damping_stiffness.m() > 0)
-      add_matrix(result, coefficients.damping * environment.stiffness_damping, damping_stiffness);
+      result.add(coefficients.damping * environment.stiffness_damping, damping_stiffness);
     if (contact)
       {
         const auto timed = timing.section("contact");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_scene.h"
 
-#include <undine/solid/material/cofactor.h>
+#include <deal.II/physics/elasticity/kinematics.h>
 
 #include <catch2/catch.hpp>
 
@@ -46,8 +46,7 @@ namespace
     auto P = body.kinematics->stress(*body.material, H).stress;
     if (body.kinematics->separates_volumetric_part(*body.material))
       {
-        const dealii::Tensor<2, dim> F =
-          dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()) + H;
+        const auto F = dealii::Physics::Elasticity::Kinematics::F(H);
         P += body.material->volumetric_stress(determinant(F)) * cofactor(F);
       }
     return P;

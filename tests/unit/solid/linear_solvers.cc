@@ -132,7 +132,7 @@ TEST_CASE("an indefinite tangent is solved directly, and that is said", "[solid]
   // The stiffness less a mass that outweighs it in many modes.
   const Solid<2> solid(beam<2>("multigrid", 12));
   auto           A = internal_stiffness(solid.model, solid.model.vector());
-  add_matrix(A, -1e6, mass_matrix(solid.model));
+  A.add(-1e6, mass_matrix(solid.model));
   fix_rows_and_columns(A, solid.model.all_fixed());
   auto b = solid.model.vector();
   for (const auto dof : solid.model.locally_owned())

@@ -10,12 +10,6 @@
 
 namespace undine
 {
-  /// A += factor B for matrices with one sparsity pattern (SolidModel::matrix()).
-  void
-  add_matrix(dealii::TrilinosWrappers::SparseMatrix       &A,
-             double                                        factor,
-             const dealii::TrilinosWrappers::SparseMatrix &B);
-
   /// Have A and B the same entries, on all ranks? Collective.
   bool
   same_pattern(const dealii::TrilinosWrappers::SparseMatrix &A,

@@ -2,6 +2,8 @@
 #include <undine/base/core/registry.h>
 #include <undine/solid/material/isotropic_material.h>
 
+#include <deal.II/physics/elasticity/standard_tensors.h>
+
 namespace undine
 {
   /// Hooke's law of small strains and small rotations, eps = sym(F) - I:
@@ -16,34 +18,22 @@ namespace undine
     double
     energy(const Gradient &F) const override
     {
-      const Gradient eps        = strain(F);
-      const double   dilatation = trace(eps);
-      return 0.5 * lambda * dilatation * dilatation + mu * eps.norm_square();
+      const auto   eps        = strain(F);
+      const double dilatation = trace(eps);
+      return 0.5 * lambda * dilatation * dilatation + mu * (eps * eps);
     }
 
     Gradient
     stress(const Gradient &F) const override
     {
-      const Gradient eps       = strain(F);
-      Gradient       result    = 2 * mu * eps;
-      const double   spherical = lambda * trace(eps);
-      for (unsigned int i = 0; i < 3; ++i)
-        result[i][i] += spherical;
-      return result;
+      const auto eps = strain(F);
+      return lambda * trace(eps) * Isotropic::I + 2 * mu * eps;
     }
 
     Tangent
     tangent(const Gradient &) const override
     {
-      Tangent result;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          {
-            result[i][i][j][j] += lambda;
-            result[i][j][i][j] += mu;
-            result[i][j][j][i] += mu;
-          }
-      return result;
+      return lambda * Isotropic::IxI + 2 * mu * Isotropic::S;
     }
 
     bool
@@ -59,17 +49,12 @@ namespace undine
     }
 
   private:
-    static Gradient
+    using Isotropic = dealii::Physics::Elasticity::StandardTensors<3>;
+
+    static dealii::SymmetricTensor<2, 3>
     strain(const Gradient &F)
     {
-      Gradient eps;
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          eps[i][i] = F[i][i] - 1;
-          for (unsigned int j = 0; j < i; ++j)
-            eps[i][j] = eps[j][i] = 0.5 * (F[i][j] + F[j][i]);
-        }
-      return eps;
+      return symmetrize(F) - Isotropic::I;
     }
   };
 

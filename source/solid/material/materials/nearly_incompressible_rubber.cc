@@ -40,16 +40,13 @@ namespace undine
       const Gradient B  = transpose(invert(F));
       const double   I1 = F.norm_square();
 
-      // -2/3 F_ij B_kl + 2/9 I_1 B_ij B_kl is this times B_kl.
-      const Gradient C = (2. / 9.) * g * I1 * B - (2. / 3.) * g * F;
-      Tangent        result;
+      Tangent result = outer_product((2. / 9.) * g * I1 * B - (2. / 3.) * g * F, B) -
+                       (2. / 3.) * g * outer_product(B, F);
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           {
             for (unsigned int k = 0; k < 3; ++k)
-              for (unsigned int l = 0; l < 3; ++l)
-                result[i][j][k][l] = C[i][j] * B[k][l] - (2. / 3.) * g * B[i][j] * F[k][l] +
-                                     (g * I1 / 3) * B[i][l] * B[k][j];
+              result[i][j][k] += (g * I1 / 3) * B[k][j] * B[i];
             result[i][j][i][j] += g;
           }
       return result;

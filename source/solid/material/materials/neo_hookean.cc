@@ -43,13 +43,12 @@ namespace undine
       const double   stiffness = lambda * J * J;
       const double   q         = pressure_factor(J);
 
-      Tangent result;
+      Tangent result = stiffness * outer_product(B, B);
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           {
             for (unsigned int k = 0; k < 3; ++k)
-              for (unsigned int l = 0; l < 3; ++l)
-                result[i][j][k][l] = stiffness * B[i][j] * B[k][l] - q * B[i][l] * B[k][j];
+              result[i][j][k] -= q * B[k][j] * B[i];
             result[i][j][i][j] += mu;
           }
       return result;

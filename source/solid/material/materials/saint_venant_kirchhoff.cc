@@ -2,8 +2,13 @@
 #include <undine/base/core/registry.h>
 #include <undine/solid/material/isotropic_material.h>
 
+#include <deal.II/physics/elasticity/kinematics.h>
+
 namespace undine
 {
+  namespace deformation = dealii::Physics::Elasticity::Kinematics;
+
+
   /// Hooke's law between the Green-Lagrange strain E = (F^T F - I) / 2 and the second
   /// Piola-Kirchhoff stress S [Holzapfel, Nonlinear Solid Mechanics, section 6.5]:
   ///
@@ -18,9 +23,9 @@ namespace undine
     double
     energy(const Gradient &F) const override
     {
-      const Gradient E          = strain(F);
-      const double   dilatation = trace(E);
-      return 0.5 * lambda * dilatation * dilatation + mu * E.norm_square();
+      const auto   E          = deformation::E(F);
+      const double dilatation = trace(E);
+      return 0.5 * lambda * dilatation * dilatation + mu * (E * E);
     }
 
     Gradient
@@ -32,43 +37,26 @@ namespace undine
     Tangent
     tangent(const Gradient &F) const override
     {
-      const Gradient S = second_stress(F);
-      Gradient       left; // F F^T
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int k = 0; k < 3; ++k)
-          left[i][k] = F[i] * F[k];
-
-      Tangent result;
+      const auto S      = second_stress(F);
+      const auto b      = deformation::b(F); // F F^T
+      Tangent    result = lambda * outer_product(F, F);
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           for (unsigned int k = 0; k < 3; ++k)
             {
-              for (unsigned int l = 0; l < 3; ++l)
-                result[i][j][k][l] += lambda * F[i][j] * F[k][l] + mu * F[i][l] * F[k][j];
-              result[i][j][k][j] += mu * left[i][k];
+              result[i][j][k] += mu * F[k][j] * F[i];
+              result[i][j][k][j] += mu * b[i][k];
               result[i][j][i][k] += S[j][k];
             }
       return result;
     }
 
   private:
-    static Gradient
-    strain(const Gradient &F)
-    {
-      Gradient E = 0.5 * (transpose(F) * F);
-      for (unsigned int i = 0; i < 3; ++i)
-        E[i][i] -= 0.5;
-      return E;
-    }
-
-    Gradient
+    dealii::SymmetricTensor<2, 3>
     second_stress(const Gradient &F) const
     {
-      const Gradient E = strain(F);
-      Gradient       S = 2 * mu * E;
-      for (unsigned int i = 0; i < 3; ++i)
-        S[i][i] += lambda * trace(E);
-      return S;
+      const auto E = deformation::E(F);
+      return lambda * trace(E) * dealii::unit_symmetric_tensor<3>() + 2 * mu * E;
     }
   };
 
