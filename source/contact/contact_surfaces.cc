@@ -51,7 +51,7 @@ namespace undine
       for (;;)
         {
           const auto &boundary = fluid.boundaries().at(side, cell);
-          if (boundary.is_open() || boundary.kind == BoundaryKind::inflow)
+          if (boundary.lets_fluid_pass())
             return false;
           unsigned int axis = 0;
           while (axis < dim && (axis == side.axis || ++cell[axis] == along[axis]))

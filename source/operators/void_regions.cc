@@ -153,7 +153,7 @@ namespace undine
       [&](const unsigned int axis, const GridIndex<dim> &face, const auto &inside) {
         const int   number   = static_cast<int>(value_at(marks, inside));
         const auto &boundary = boundaries.at({axis, face[axis] > 0 ? 1u : 0u}, inside.cell);
-        if (number >= 0 && (boundary.is_open() || boundary.kind == BoundaryKind::inflow))
+        if (number >= 0 && boundary.lets_fluid_pass())
           complaint = fmt::format("The void region '{}' joins the boundary '{}' of the fluid. Try: "
                                   "close the gap in the bodies around it, or make that part of the "
                                   "boundary a wall.",

@@ -12,15 +12,6 @@ namespace undine
     constexpr double rounding = 1e-6; // of the speed, or [spacings]
 
 
-    Side
-    side_by_name(const std::string &name)
-    {
-      const auto        &names  = side_names();
-      const unsigned int number = std::find(names.begin(), names.end(), name) - names.begin();
-      return {number / 2, number % 2};
-    }
-
-
     /// Where the side is along its axis [m].
     template <int dim>
     double

@@ -138,8 +138,7 @@ namespace undine
         }
       for (const auto &boundary :
            read_boundaries<dim>(scene.section("Fluid").section("Boundaries")))
-        grid.has_openings = grid.has_openings || boundary.kind == BoundaryKind::outflow ||
-                            boundary.kind == BoundaryKind::pressure;
+        grid.has_openings = grid.has_openings || boundary.is_open();
       return std::pow(volume / grid.cells, 1. / dim);
     }
 

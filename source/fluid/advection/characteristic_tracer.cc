@@ -256,7 +256,7 @@ namespace undine
           break;
         const auto  hit      = place + when * path;
         const auto &boundary = fluid_model.boundaries().at(side, hit);
-        if (boundary.is_open() || boundary.kind == BoundaryKind::inflow)
+        if (boundary.lets_fluid_pass())
           return {hit, true};
         end[side.axis] = side.end == 0 ? grid.lower()[side.axis] : grid.upper()[side.axis];
       }

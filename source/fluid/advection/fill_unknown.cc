@@ -101,7 +101,7 @@ namespace undine
             layer.upper[axis] = std::min(layer.upper[axis], index + 1);
             for_each(layer, [&](const GridIndex<dim> &cell) {
               const auto &boundary = model.boundaries().at(side, cell);
-              if (!boundary.is_open() && boundary.kind != BoundaryKind::inflow)
+              if (!boundary.lets_fluid_pass())
                 return;
               const auto value = [&](const dealii::Point<dim> &place) {
                 return condition.holds(boundary) ? condition.held_value(boundary, axis, place, time)

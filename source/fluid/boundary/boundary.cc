@@ -34,15 +34,6 @@ namespace undine
     }
 
 
-    Side
-    side_by_name(const std::string &name)
-    {
-      const auto &names = side_names();
-      const auto  found = std::find(names.begin(), names.end(), name) - names.begin();
-      return {static_cast<unsigned int>(found / 2), static_cast<unsigned int>(found % 2)};
-    }
-
-
     /// Refuse `key` unless the boundary is of a kind that reads it.
     void
     check_use(const Options     &options,
@@ -154,6 +145,15 @@ namespace undine
   }
 
 
+  Side
+  side_by_name(const std::string &name)
+  {
+    const auto &names = side_names();
+    const auto  found = std::find(names.begin(), names.end(), name) - names.begin();
+    return {static_cast<unsigned int>(found / 2), static_cast<unsigned int>(found % 2)};
+  }
+
+
   template <int dim>
   bool
   Boundary<dim>::holds_normal_velocity() const
@@ -166,8 +166,7 @@ namespace undine
   bool
   Boundary<dim>::holds_tangential_velocity() const
   {
-    return kind == BoundaryKind::no_slip_wall || kind == BoundaryKind::moving_wall ||
-           kind == BoundaryKind::inflow;
+    return has_friction() || kind == BoundaryKind::inflow;
   }
 
 
@@ -176,6 +175,22 @@ namespace undine
   Boundary<dim>::is_open() const
   {
     return kind == BoundaryKind::pressure || kind == BoundaryKind::outflow;
+  }
+
+
+  template <int dim>
+  bool
+  Boundary<dim>::lets_fluid_pass() const
+  {
+    return is_open() || kind == BoundaryKind::inflow;
+  }
+
+
+  template <int dim>
+  bool
+  Boundary<dim>::has_friction() const
+  {
+    return kind == BoundaryKind::no_slip_wall || kind == BoundaryKind::moving_wall;
   }
 
 

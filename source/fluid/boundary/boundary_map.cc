@@ -133,7 +133,7 @@ namespace undine
   BoundaryMap<dim>::wall_that_needs_viscosity() const
   {
     for (const auto &boundary : boundaries)
-      if (boundary.kind == BoundaryKind::no_slip_wall || boundary.kind == BoundaryKind::moving_wall)
+      if (boundary.has_friction())
         return boundary.name;
     return "";
   }

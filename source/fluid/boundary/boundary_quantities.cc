@@ -175,7 +175,7 @@ namespace undine
     for (unsigned int b = 0; b < forces.size(); ++b)
       {
         const auto &boundary = boundaries.all()[b];
-        if (boundary.holds_normal_velocity() && boundary.kind != BoundaryKind::inflow)
+        if (boundary.holds_normal_velocity() && !boundary.lets_fluid_pass())
           for (unsigned int d = 0; d < dim; ++d)
             columns.push_back({what + " on " + boundary.name + ", " + "xyz"[d], "N", forces[b][d]});
       }

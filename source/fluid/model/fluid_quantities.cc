@@ -157,7 +157,7 @@ namespace undine
     for (unsigned int b = 0; b < fluxes.size(); ++b)
       {
         const auto &boundary = model.boundaries().all()[b];
-        if (boundary.is_open() || boundary.kind == BoundaryKind::inflow)
+        if (boundary.lets_fluid_pass())
           columns.push_back(
             {"Flux through " + boundary.name, "m^" + std::to_string(dim) + "/s", fluxes[b]});
       }

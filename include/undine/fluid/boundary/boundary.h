@@ -36,6 +36,10 @@ namespace undine
   const std::vector<std::string> &
   side_names();
 
+  /// The side of a name that is in side_names().
+  Side
+  side_by_name(const std::string &name);
+
   /// What the fluid does at a boundary. v is the velocity, n the outward normal.
   enum class BoundaryKind
   {
@@ -71,6 +75,14 @@ namespace undine
     /// The pressure on the faces is given: pressure and outflow.
     bool
     is_open() const;
+
+    /// Fluid crosses it: inflow, pressure and outflow.
+    bool
+    lets_fluid_pass() const;
+
+    /// A wall at which the fluid's tangential velocity is that of the wall.
+    bool
+    has_friction() const;
 
     /// The given velocity along `axis` [m/s] on a face or boundary point of a side normal to
     /// `normal_axis`; zero if none is given.
