@@ -183,7 +183,7 @@ namespace undine
         scene.models.solid = std::make_unique<const SolidModel<dim>>(options, communicator);
       if (options.section("Fluid").given())
         scene.models.fluid = std::make_unique<const FluidModel<dim>>(options, communicator);
-      scene.models.direction   = read_direction(options, scene.models.solid && scene.models.fluid);
+      scene.models.direction   = read_direction(options);
       const bool has_obstacles = options.section("Obstacles").given();
       if (scene.models.fluid && (scene.models.solid || has_obstacles))
         {
@@ -302,7 +302,7 @@ namespace undine
   declare_scene(const Options &options)
   {
     read_without_models<dim>(options);
-    read_direction(options, true);
+    read_direction(options);
     SolidModel<dim>::declare(options);
     FluidModel<dim>::declare(options);
     Obstacles<dim>::declare(options);
