@@ -107,8 +107,7 @@ namespace undine
           }
         else
           {
-            const double way =
-              add("way of the fluid over length", U * largest.time / L, "U T / L");
+            const double way = add("way of the fluid over length", U * largest.time / L, "U T / L");
             const std::string rule =
               "without friction a fluid that moves by a tenth of a length carries its "
               "velocity along, by less than a thousandth not";
@@ -119,8 +118,8 @@ namespace undine
           }
         if (gravity > 0 && is_on("buoyancy"))
           {
-            const double richardson = add(
-              "Richardson number", largest.lift * gravity * L / (U * U), "|beta ds| g L / U^2");
+            const double richardson =
+              add("Richardson number", largest.lift * gravity * L / (U * U), "|beta ds| g L / U^2");
             if (richardson < 1e-3)
               call_idle("buoyancy", "lift does not bend a flow with Ri < 0.001");
           }
@@ -203,23 +202,22 @@ namespace undine
         const std::string name = "two-way coupling";
         if (models.direction == Direction::body_to_fluid)
           {
-            const double pushed =
-              add("mass of fluid over mass of body", 1 / mass, "rho_f / rho_s");
+            const double pushed = add("mass of fluid over mass of body", 1 / mass, "rho_f / rho_s");
             if (pushed > 0.01)
               call_missing(name, "the fluid that a body pushes weighs more than a hundredth of it");
             return;
           }
-        const double      speed  = U > 0 ? largest.body_speed / U : 0;
-        const double      motion = add("motion of bodies",
+        const double      speed   = U > 0 ? largest.body_speed / U : 0;
+        const double      motion  = add("motion of bodies",
                                   std::max(largest.displacement / L, speed),
                                   "larger of displacement / L and speed / U");
-        const bool        is_on  = models.direction == Direction::two_way;
+        const bool        two_way = models.direction == Direction::two_way;
         const std::string rule =
           "the fluid does not notice bodies that move by less than 0.0001 of lengths and "
           "speeds ('Direction = fluid to body' would do), and does above 0.01";
-        if (is_on && U > 0 && motion < 1e-4)
+        if (two_way && U > 0 && motion < 1e-4)
           call_idle(name, rule);
-        if (!is_on && motion > 0.01)
+        if (!two_way && motion > 0.01)
           call_missing(name, rule);
       }
 

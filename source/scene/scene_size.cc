@@ -232,8 +232,8 @@ namespace undine
     if (has_body)
       measure_bodies<dim>(size, scene, width);
     size.is_coupled = has_grid && has_body;
-    size.grid.moves = size.grid.moves ||
-                      (size.is_coupled && read_direction(scene) != Direction::fluid_to_body);
+    size.grid.moves =
+      size.grid.moves || (size.is_coupled && read_direction(scene) != Direction::fluid_to_body);
     size.grid.cut_cells = std::min(size.grid.cut_cells, size.grid.cells);
     return size;
   }

@@ -136,9 +136,7 @@ namespace undine
 
   template <int dim>
   void
-  StepError<dim>::accept(State<dim>       &state,
-                         const State<dim> &old_state,
-                         const Report     &report) const
+  StepError<dim>::accept(State<dim> &state, const State<dim> &old_state, const Report &report) const
   {
     const double dt      = report.dt;
     auto        &history = state.history;

@@ -127,8 +127,7 @@ namespace undine
         {
           report.dt = asked / (1u << report.cuts);
           budget->start();
-          const auto rates =
-            state.clock.step > 0 ? RatesAtBegin::known : RatesAtBegin::unknown;
+          const auto rates = state.clock.step > 0 ? RatesAtBegin::known : RatesAtBegin::unknown;
           physics->advance(state, integrator->stages(report.dt, rates), report);
           append(report.columns, budget->columns());
           assert_finite(report.columns);

@@ -17,8 +17,8 @@ namespace undine
       for (unsigned int d = 0; d < dim; ++d)
         {
           const auto ends = periodic[d] ? Row::Ends::periodic : Row::Ends::bounded;
-          rows[d]         = d == normal_axis ? Row::of_planes(planes[d], ends)
-                                             : Row::of_centres(planes[d], ends);
+          rows[d] =
+            d == normal_axis ? Row::of_planes(planes[d], ends) : Row::of_centres(planes[d], ends);
         }
       return rows;
     }

@@ -51,7 +51,7 @@ namespace undine
   {
     const int n_cells = planes.size() - 1;
     return ends == Ends::periodic ? Row(planes, 0, n_cells, planes.back() - planes.front())
-                    : Row(planes, 0, n_cells + 1, 0);
+                                  : Row(planes, 0, n_cells + 1, 0);
   }
 
 
@@ -59,8 +59,8 @@ namespace undine
   Row::of_centres(const std::vector<double> &planes, const Ends ends)
   {
     const bool          periodic = ends == Ends::periodic;
-    const int           n_cells = planes.size() - 1;
-    const double        length  = planes.back() - planes.front();
+    const int           n_cells  = planes.size() - 1;
+    const double        length   = planes.back() - planes.front();
     std::vector<double> centres;
     if (!periodic)
       centres.push_back(planes.front());

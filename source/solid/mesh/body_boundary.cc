@@ -114,8 +114,7 @@ namespace undine
     , options(options)
     , where("1")
     , kind(read_kind<dim>(options))
-    , directions(read_directions<dim>(options,
-                                      fixes_displacement() ? Use::optional : Use::refused))
+    , directions(read_directions<dim>(options, fixes_displacement() ? Use::optional : Use::refused))
   {
     const auto use_by = [this](const Kind user) {
       return kind == user ? Use::required : Use::refused;
@@ -132,11 +131,11 @@ namespace undine
                 Allowed::constant_in_time(),
                 "Only faces at whose rest centre this is positive.");
     add_of_one_kind(options,
-                "Displacement",
-                motion,
-                "m",
-                use_by(Kind::prescribed_motion),
-                "Of the point that rests at x; needed by a prescribed motion, and only there.");
+                    "Displacement",
+                    motion,
+                    "m",
+                    use_by(Kind::prescribed_motion),
+                    "Of the point that rests at x; needed by a prescribed motion, and only there.");
     add_of_one_kind(
       options,
       "Traction",
@@ -145,13 +144,14 @@ namespace undine
       use_by(Kind::traction),
       "Force per area at rest; keeps its direction and size when the body deforms. Needed "
       "by a traction, and only there.");
-    add_of_one_kind(options,
-                "Pressure",
-                pressure,
-                "Pa",
-                use_by(Kind::pressure),
-                "Pushes into the body along the deformed normal, per deformed area. Needed by a "
-                "pressure, and only there.");
+    add_of_one_kind(
+      options,
+      "Pressure",
+      pressure,
+      "Pa",
+      use_by(Kind::pressure),
+      "Pushes into the body along the deformed normal, per deformed area. Needed by a "
+      "pressure, and only there.");
   }
 
 

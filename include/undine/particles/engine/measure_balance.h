@@ -143,8 +143,7 @@ namespace undine::particles
       result.potential     = sums[2];
       for (int axis = 0; axis < dim; ++axis)
         result.momentum[axis] = sums[3 + axis];
-      Elasticity<dim, Real> elasticity{
-        constants.grid, constants.spacing, constants.reach, bodies};
+      Elasticity<dim, Real> elasticity{constants.grid, constants.spacing, constants.reach, bodies};
       elasticity.is_damped = false;
       executor.for_each(bodies.n, DeformBodies<dim, Real>{elasticity});
       for (std::size_t b = 0; b < body_sizes.size(); ++b)
