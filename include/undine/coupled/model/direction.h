@@ -14,8 +14,8 @@ namespace undine
     body_to_fluid  ///< the bodies move as if there were no fluid
   };
 
-  /// Read the key. Throws InputError, also if the scene has not both a fluid and bodies, which the
-  /// key speaks of, or if other keys of the section contradict it.
+  /// Read the key. Throws InputError, also if it chooses a single direction in a scene that has not
+  /// both a fluid and bodies, or against other keys of the section.
   Direction
   read_direction(const Options &scene);
 } // namespace undine
