@@ -91,8 +91,8 @@ TEST_CASE("effects that contradict the scene are refused with a hint", "[effects
   check_contains(
     complaint("scalar transport",
               section("scalar transport", section("heat", "set Dirichlet boundaries = lid")),
-              true,
               Made::of_fluid),
+    "no boundary named 'lid'",
     "'other sides'");
   check_contains(complaint("scalar transport",
                            section("scalar transport", section("pressure", "")),
