@@ -255,8 +255,7 @@ namespace undine
           refuse("Obstacles",
                  "obstacles stand in a fluid, but the scene has none",
                  "Try: add a subsection 'Fluid' or remove the obstacles.");
-        options.attempt([&] { read_direction(options, given("Bodies") && given("Fluid")); },
-                        {"Coupling"});
+        options.attempt([&] { read_direction(options); }, {"Coupling"});
       }
     options.assert_all_used(all_sections<dim>());
     options.throw_mistakes();
