@@ -224,8 +224,10 @@ namespace undine
   {
     const auto &index = cut.cells[number].index;
     const int   first = cut.cells[number].first_component;
-    Cell        cell{false, windings_around(cut, index), work.closure_defects[number], {}, {}, {}};
-    cell.components[0] = components.size();
+    Cell        cell{};
+    cell.windings       = windings_around(cut, index);
+    cell.closure_defect = work.closure_defects[number];
+    cell.components[0]  = components.size();
     components.insert(components.end(),
                       cut.components.begin() + first,
                       cut.components.begin() + cut.end_component(number));

@@ -7,18 +7,17 @@ namespace undine
 {
   namespace
   {
+    /// Append a piece of the last face. Whether it is debris is to be said in `work.debris_piece`.
     template <int dim>
     void
     add_piece(CutCells<dim>            &cut,
               CutWorkspace<dim>        &work,
               const double              area,
               const dealii::Point<dim> &centroid,
-              const Rims<dim>          &rims,
-              const bool                debris)
+              const Rims<dim>          &rims)
     {
       const int face = cut.faces.size() - 1;
       cut.pieces.push_back({face, area, centroid, {{cut.outside, cut.outside}}, rims});
-      work.debris_piece.push_back(debris);
       if (area <
           -reported_inversion * cut.block.face_area(cut.faces[face].axis, cut.faces[face].index))
         work.face_records[face].flags |= cut_negative_area;
@@ -88,7 +87,8 @@ namespace undine
         Rims<2> rims;
         rims[2 * along].length     = interval.from < 0 ? 1 : 0; // a node of the grid
         rims[2 * along + 1].length = interval.to < 0 ? 1 : 0;
-        add_piece(cut, work, end - start, centroid, rims, false);
+        add_piece(cut, work, end - start, centroid, rims);
+        work.debris_piece.push_back(false);
       }
   }
 
@@ -123,7 +123,8 @@ namespace undine
         centroid[face.axis] = planes.position(face.axis, face.index[face.axis]);
         for (unsigned int d = 0; d < 2; ++d)
           centroid[axes[d]] = planes.position(axes[d], face.index[axes[d]]) + region.centroid(d);
-        add_piece(cut, work, region.area, centroid, rims[r], region.debris);
+        add_piece(cut, work, region.area, centroid, rims[r]);
+        work.debris_piece.push_back(region.debris);
       }
   }
 

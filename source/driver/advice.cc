@@ -55,17 +55,21 @@ namespace undine
         return value;
       }
 
-      /// Remark on an effect that is on if `idle`, on one that is off if `missed`.
+      /// Remark on an effect that is on and could be left out: the number that was added last says
+      /// so by this rule.
       void
-      judge(const std::string &effect,
-            const bool         on,
-            const bool         idle,
-            const bool         missed,
-            const std::string &rule)
+      call_idle(const std::string &effect, const std::string &rule)
       {
         const auto &number = result.numbers.back();
-        if (on ? idle : missed)
-          result.remarks.push_back({effect, on, number.name, number.value, rule});
+        result.remarks.push_back({effect, true, number.name, number.value, rule});
+      }
+
+      /// The same of an effect that is off and would matter.
+      void
+      call_missing(const std::string &effect, const std::string &rule)
+      {
+        const auto &number = result.numbers.back();
+        result.remarks.push_back({effect, false, number.name, number.value, rule});
       }
 
       double
@@ -88,47 +92,45 @@ namespace undine
           {
             const double reynolds =
               add("Reynolds number", density * U * L / largest.viscosity, "rho U L / mu");
-            judge("convection",
-                  carries,
-                  reynolds<0.01, reynolds> 1,
-                  "friction outweighs inertia where Re < 0.01, inertia counts where Re > 1");
-            add("friction layer over cell width",
-                L / std::sqrt(reynolds) / narrowest_cell(),
-                "L / sqrt(Re) / dx");
-            judge("viscosity",
-                  true,
-                  result.numbers.back().value < 0.1,
-                  false,
-                  "layers of friction thinner than a tenth of a cell are not resolved");
+            const std::string rule =
+              "friction outweighs inertia where Re < 0.01, inertia counts where Re > 1";
+            if (carries && reynolds < 0.01)
+              call_idle("convection", rule);
+            if (!carries && reynolds > 1)
+              call_missing("convection", rule);
+            const double layer = add("friction layer over cell width",
+                                     L / std::sqrt(reynolds) / narrowest_cell(),
+                                     "L / sqrt(Re) / dx");
+            if (layer < 0.1)
+              call_idle("viscosity",
+                        "layers of friction thinner than a tenth of a cell are not resolved");
           }
         else
           {
-            add("way of the fluid over length", U * largest.time / L, "U T / L");
-            judge("convection",
-                  carries,
-                  result.numbers.back().value<1e-3, result.numbers.back().value> 0.1,
-                  "without friction a fluid that moves by a tenth of a length carries its "
-                  "velocity along, by less than a thousandth not");
+            const double way = add("way of the fluid over length", U * largest.time / L, "U T / L");
+            const std::string rule =
+              "without friction a fluid that moves by a tenth of a length carries its "
+              "velocity along, by less than a thousandth not";
+            if (carries && way < 1e-3)
+              call_idle("convection", rule);
+            if (!carries && way > 0.1)
+              call_missing("convection", rule);
           }
         if (gravity > 0 && is_on("buoyancy"))
           {
-            add("Richardson number", largest.lift * gravity * L / (U * U), "|beta ds| g L / U^2");
-            judge("buoyancy",
-                  true,
-                  result.numbers.back().value < 1e-3,
-                  false,
-                  "lift does not bend a flow with Ri < 0.001");
+            const double richardson =
+              add("Richardson number", largest.lift * gravity * L / (U * U), "|beta ds| g L / U^2");
+            if (richardson < 1e-3)
+              call_idle("buoyancy", "lift does not bend a flow with Ri < 0.001");
           }
         if (gravity > 0)
           {
             const bool weighs = models.solid || models.void_regions || is_on("buoyancy");
             add("Froude number", U / std::sqrt(gravity * L), "U / sqrt(g L)");
-            judge("gravity",
-                  true,
-                  !weighs,
-                  false,
-                  "the weight of a fluid of one density, without bodies in it, is part of its "
-                  "pressure");
+            if (!weighs)
+              call_idle("gravity",
+                        "the weight of a fluid of one density, without bodies in it, is part of "
+                        "its pressure");
           }
       }
 
@@ -139,20 +141,18 @@ namespace undine
         for (const auto &body : models.solid->bodies())
           is_finite = is_finite || body.material->is_objective();
         add("largest displacement gradient", largest.gradient, "|dd/dX|");
-        judge("finite strain",
-              is_finite,
-              largest.gradient<1e-3, largest.gradient> 0.05,
-              "strains and rotations below 0.001 are linear, above 0.05 not");
+        const std::string rule = "strains and rotations below 0.001 are linear, above 0.05 not";
+        if (is_finite && largest.gradient < 1e-3)
+          call_idle("finite strain", rule);
+        if (!is_finite && largest.gradient > 0.05)
+          call_missing("finite strain", rule);
         if (is_on("damping") && largest.damped > 0 && largest.body_energy > 0)
           {
-            add("damped energy over energy of bodies",
-                largest.damped / largest.body_energy,
-                "sum |C u . dd| / max (kinetic + elastic)");
-            judge("damping",
-                  true,
-                  result.numbers.back().value < 1e-3,
-                  false,
-                  "less than a thousandth of the bodies' energy went there");
+            const double share = add("damped energy over energy of bodies",
+                                     largest.damped / largest.body_energy,
+                                     "sum |C u . dd| / max (kinetic + elastic)");
+            if (share < 1e-3)
+              call_idle("damping", "less than a thousandth of the bodies' energy went there");
           }
       }
 
@@ -172,14 +172,13 @@ namespace undine
           judge_weight(mass, U, L);
         else
           {
-            add("weight over pressure of the flow",
-                std::abs(mass - 1) * earth * L / (U * U),
-                "|rho_s/rho_f - 1| g L / U^2 with g = 9.81 m/s^2");
-            judge("gravity",
-                  false,
-                  false,
-                  result.numbers.back().value > 0.1,
-                  "on Earth the weight of bodies would exceed a tenth of what the flow does");
+            const double weight = add("weight over pressure of the flow",
+                                      std::abs(mass - 1) * earth * L / (U * U),
+                                      "|rho_s/rho_f - 1| g L / U^2 with g = 9.81 m/s^2");
+            if (weight > 0.1)
+              call_missing(
+                "gravity",
+                "on Earth the weight of bodies would exceed a tenth of what the flow does");
           }
         add("Cauchy number", fluid * U * U / modulus, "rho U^2 / (lambda + 2 mu)");
         judge_direction(mass, U, L);
@@ -190,14 +189,11 @@ namespace undine
       {
         if (gravity == 0 || U == 0)
           return;
-        add("weight over pressure of the flow",
-            std::abs(mass - 1) * gravity * L / (U * U),
-            "|rho_s/rho_f - 1| g L / U^2");
-        judge("gravity",
-              true,
-              result.numbers.back().value < 1e-3,
-              false,
-              "the weight of bodies is below a thousandth of what the flow does");
+        const double weight = add("weight over pressure of the flow",
+                                  std::abs(mass - 1) * gravity * L / (U * U),
+                                  "|rho_s/rho_f - 1| g L / U^2");
+        if (weight < 1e-3)
+          call_idle("gravity", "the weight of bodies is below a thousandth of what the flow does");
       }
 
       void
@@ -206,23 +202,23 @@ namespace undine
         const std::string name = "two-way coupling";
         if (models.direction == Direction::body_to_fluid)
           {
-            add("mass of fluid over mass of body", 1 / mass, "rho_f / rho_s");
-            judge(name,
-                  false,
-                  false,
-                  result.numbers.back().value > 0.01,
-                  "the fluid that a body pushes weighs more than a hundredth of it");
+            const double pushed = add("mass of fluid over mass of body", 1 / mass, "rho_f / rho_s");
+            if (pushed > 0.01)
+              call_missing(name, "the fluid that a body pushes weighs more than a hundredth of it");
             return;
           }
-        const double speed = U > 0 ? largest.body_speed / U : 0;
-        add("motion of bodies",
-            std::max(largest.displacement / L, speed),
-            "larger of displacement / L and speed / U");
-        judge(name,
-              models.direction == Direction::two_way,
-              U > 0 && result.numbers.back().value<1e-4, result.numbers.back().value> 0.01,
-              "the fluid does not notice bodies that move by less than 0.0001 of lengths and "
-              "speeds ('Direction = fluid to body' would do), and does above 0.01");
+        const double      speed   = U > 0 ? largest.body_speed / U : 0;
+        const double      motion  = add("motion of bodies",
+                                  std::max(largest.displacement / L, speed),
+                                  "larger of displacement / L and speed / U");
+        const bool        two_way = models.direction == Direction::two_way;
+        const std::string rule =
+          "the fluid does not notice bodies that move by less than 0.0001 of lengths and "
+          "speeds ('Direction = fluid to body' would do), and does above 0.01";
+        if (two_way && U > 0 && motion < 1e-4)
+          call_idle(name, rule);
+        if (!two_way && motion > 0.01)
+          call_missing(name, rule);
       }
 
       const Models<dim> &models;

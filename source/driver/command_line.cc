@@ -3,6 +3,7 @@
 #include <undine/driver/command_line.h>
 
 #include <deal.II/base/config.h>
+#include <deal.II/base/mpi.h>
 
 #include <CLI/CLI.hpp>
 
@@ -42,7 +43,7 @@ namespace undine
 
 
   Request
-  read_command_line(const int argc, char **argv, const bool first_rank)
+  read_command_line(const int argc, char **argv, const MPI_Comm communicator)
   {
     Request  request;
     CLI::App app(
@@ -77,7 +78,7 @@ namespace undine
     catch (const CLI::ParseError &stop)
       {
         request.exit_code = app.exit(stop, out, err) == 0 ? 0 : 2;
-        if (first_rank)
+        if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
           {
             std::cout << out.str();
             std::cerr << err.str();

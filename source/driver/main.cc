@@ -59,8 +59,7 @@ main(int argc, char **argv)
   undine::end_run_when_out_of_memory();
   try
     {
-      const bool first_rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-      const auto request    = undine::read_command_line(argc, argv, first_rank);
+      const auto request = undine::read_command_line(argc, argv, MPI_COMM_WORLD);
       undine::execute(request, MPI_COMM_WORLD);
       return request.exit_code;
     }

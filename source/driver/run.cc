@@ -267,7 +267,7 @@ namespace undine
       scene.directory = results_folder(request, scene.directory);
       ResultFolder folder(communicator, scene.directory);
       if (request.action != Request::Action::resume || scene.directory != request.directory)
-        assert_replaceable(folder, request.overwrite, communicator);
+        assert_replaceable(folder, request, communicator);
       print_header(log, scene, options, communicator);
       print_remarks(options, log);
       size.print(log, scene.directory);

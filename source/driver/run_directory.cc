@@ -25,10 +25,12 @@ namespace undine
 
 
   void
-  assert_replaceable(const ResultFolder &folder, const bool overwrite, const MPI_Comm communicator)
+  assert_replaceable(const ResultFolder &folder,
+                     const Request      &request,
+                     const MPI_Comm      communicator)
   {
     folder.assert_nothing_foreign();
-    if (overwrite || folder.is_finished())
+    if (request.overwrite || folder.is_finished())
       return;
     on_first_rank(communicator, [&] {
       const auto step = resumable_step(folder.path());

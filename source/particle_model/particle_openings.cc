@@ -268,14 +268,13 @@ namespace undine
   open_sides(const std::vector<ParticleOpening<dim>> &openings, const ParticleDomain<dim> &domain)
   {
     std::vector<particles::OpenSide> result;
-    const auto add = [&](const Side &side, const double plane, const bool is_inflow) {
+    const auto add = [&](const Side &side, const double plane) -> particles::OpenSide & {
       particles::OpenSide open;
-      open.axis      = side.axis;
-      open.plane     = plane;
-      open.inward    = -side.sign();
-      open.is_inflow = is_inflow;
-      open.depth     = is_inflow ? domain.layers * domain.spacing : 0.;
+      open.axis   = side.axis;
+      open.plane  = plane;
+      open.inward = -side.sign();
       result.push_back(open);
+      return result.back();
     };
     const auto inflows  = sides_of(openings, OpeningKind::inflow);
     const auto outflows = sides_of(openings, OpeningKind::outflow);
@@ -284,13 +283,17 @@ namespace undine
         const Side   side{number / 2, number % 2};
         const double plane = plane_of(side, domain);
         if (inflows.count(number) != 0)
-          add(side, plane, true);
+          {
+            auto &inflow     = add(side, plane);
+            inflow.is_inflow = true;
+            inflow.depth     = domain.layers * domain.spacing;
+          }
         if (outflows.count(number) != 0)
-          add(side, plane, false);
+          add(side, plane);
         else if (domain.sides[number] == ParticleSide::open)
-          add(side, plane + side.sign() * domain.room, false);
+          add(side, plane + side.sign() * domain.room);
         else if (is_beside_an_open_side(side, domain)) // drops fly over the wall
-          add(side, plane + side.sign() * domain.spacing * domain.layers, false);
+          add(side, plane + side.sign() * domain.spacing * domain.layers);
       }
     return result;
   }

@@ -183,7 +183,7 @@ namespace undine
         scene.models.solid = std::make_unique<const SolidModel<dim>>(options, communicator);
       if (options.section("Fluid").given())
         scene.models.fluid = std::make_unique<const FluidModel<dim>>(options, communicator);
-      scene.models.direction   = read_direction(options, scene.models.solid && scene.models.fluid);
+      scene.models.direction   = read_direction(options);
       const bool has_obstacles = options.section("Obstacles").given();
       if (scene.models.fluid && (scene.models.solid || has_obstacles))
         {
@@ -255,8 +255,7 @@ namespace undine
           refuse("Obstacles",
                  "obstacles stand in a fluid, but the scene has none",
                  "Try: add a subsection 'Fluid' or remove the obstacles.");
-        options.attempt([&] { read_direction(options, given("Bodies") && given("Fluid")); },
-                        {"Coupling"});
+        options.attempt([&] { read_direction(options); }, {"Coupling"});
       }
     options.assert_all_used(all_sections<dim>());
     options.throw_mistakes();
@@ -302,7 +301,7 @@ namespace undine
   declare_scene(const Options &options)
   {
     read_without_models<dim>(options);
-    read_direction(options, true);
+    read_direction(options);
     SolidModel<dim>::declare(options);
     FluidModel<dim>::declare(options);
     Obstacles<dim>::declare(options);

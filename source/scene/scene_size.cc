@@ -219,7 +219,7 @@ namespace undine
         size.particles = measure_particles<dim>(scene);
         return size;
       }
-    size.stages         = choose_time_integrator(scene)->stages(1, true).size();
+    size.stages         = choose_time_integrator(scene)->stages(1, RatesAtBegin::known).size();
     const bool has_grid = scene.section("Fluid").given();
     const bool has_body = scene.section("Bodies").given();
     double     width    = 0;
@@ -231,8 +231,8 @@ namespace undine
     if (has_body)
       measure_bodies<dim>(size, scene, width);
     size.is_coupled = has_grid && has_body;
-    size.grid.moves = size.grid.moves ||
-                      (size.is_coupled && read_direction(scene, true) != Direction::fluid_to_body);
+    size.grid.moves =
+      size.grid.moves || (size.is_coupled && read_direction(scene) != Direction::fluid_to_body);
     size.grid.cut_cells = std::min(size.grid.cut_cells, size.grid.cells);
     return size;
   }

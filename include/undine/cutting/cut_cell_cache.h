@@ -77,7 +77,7 @@ namespace undine
 
     struct Cell
     {
-      bool                                 is_kept;
+      bool                                 is_kept = false;
       Windings                             windings;
       double                               closure_defect;
       std::array<std::size_t, 2>           components; ///< the first; one past the last

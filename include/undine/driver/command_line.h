@@ -2,6 +2,8 @@
 #ifndef undine_driver_command_line_h
 #define undine_driver_command_line_h
 
+#include <mpi.h>
+
 #include <string>
 #include <vector>
 
@@ -29,9 +31,9 @@ namespace undine
     int                      exit_code = 0;
   };
 
-  /// Reads the program's arguments. `first_rank` is true where help and errors are to be printed.
+  /// Reads the program's arguments. The first rank prints help and errors.
   Request
-  read_command_line(int argc, char **argv, const bool first_rank);
+  read_command_line(int argc, char **argv, MPI_Comm communicator);
 } // namespace undine
 
 #endif

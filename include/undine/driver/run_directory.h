@@ -4,6 +4,7 @@
 
 #include <undine/base/core/timing.h>
 #include <undine/base/options/options.h>
+#include <undine/driver/command_line.h>
 #include <undine/driver/log.h>
 #include <undine/output/checkpoint/checkpoint.h>
 #include <undine/output/files/result_folder.h>
@@ -14,10 +15,11 @@
 
 namespace undine
 {
-  /// Throws FileError if a new run in the folder would replace one that has not reached its end and
-  /// can be taken up again, unless `overwrite`, or files that no run has written. Collective.
+  /// Throws FileError if a new run in the folder would replace files that no run has written, or,
+  /// unless the user asks for that, a run that has not reached its end and can be taken up again.
+  /// Collective.
   void
-  assert_replaceable(const ResultFolder &folder, bool overwrite, MPI_Comm communicator);
+  assert_replaceable(const ResultFolder &folder, const Request &request, MPI_Comm communicator);
 
   /// Make the folder that of a new run, or, if that is where the run is taken up again `from`, that
   /// of a run which goes on, and write original.prm, parameters.prm and parameters.json into it. A

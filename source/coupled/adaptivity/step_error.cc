@@ -27,7 +27,7 @@ namespace undine
     TimeAccuracy
     accuracy_of(const Models<dim> &models, const TimeIntegrator &integrator)
     {
-      const bool by_stages = integrator.stages(1, true).front().keeps_rates;
+      const bool by_stages = integrator.stages(1, RatesAtBegin::known).front().keeps_rates;
       return models.solid || by_stages ? integrator.accuracy() : fluid_accuracy;
     }
 
@@ -136,11 +136,9 @@ namespace undine
 
   template <int dim>
   void
-  StepError<dim>::accept(State<dim>       &state,
-                         const State<dim> &old_state,
-                         const double      dt,
-                         const bool        was_cut) const
+  StepError<dim>::accept(State<dim> &state, const State<dim> &old_state, const Report &report) const
   {
+    const double dt      = report.dt;
     auto        &history = state.history;
     const double time    = state.clock.time + dt;
     const double run     = std::max(state.clock.end_time, time);
@@ -155,7 +153,7 @@ namespace undine
         if (history.n_samples == n_samples)
           estimate(history, allowed_rate(state, time));
       }
-    if (was_cut)
+    if (report.cuts > 0)
       history.step = dt;
     else if (history.best_step > 0)
       history.step = std::min(2 * history.step, history.next_step);

@@ -31,10 +31,9 @@ namespace undine
 
 
   template <int dim>
-  Budget<dim>::Budget(const Models<dim> &models, const bool is_on, const bool has_stages)
+  Budget<dim>::Budget(const Models<dim> &models, const BudgetOf kept)
     : models(models)
-    , on(is_on)
-    , has_stages(has_stages)
+    , kept(kept)
     , has_contact(models.wishes_of_effects().contact_settings.has_value())
     , has_sleep(models.wishes_of_effects().sleep_settings.has_value())
     , surface(models.surface.get())
@@ -75,7 +74,7 @@ namespace undine
   Budget<dim>::start(const Velocity<dim> &velocity)
   {
     start();
-    if (!on)
+    if (!is_on())
       return;
     fluid = amount(velocity);
     gain.energy -= fluid.energy;
@@ -107,7 +106,7 @@ namespace undine
   void
   Budget<dim>::add(const Phase phase, const Velocity<dim> &velocity)
   {
-    if (!on)
+    if (!is_on())
       return;
     const Amount now = amount(velocity);
     terms[phase].energy += now.energy - fluid.energy;
@@ -123,7 +122,7 @@ namespace undine
                    const Velocity<dim>         &velocity,
                    const std::optional<double> &work)
   {
-    if (!on)
+    if (!is_on())
       return;
     const Amount now = amount(velocity);
     const double done =
@@ -223,7 +222,7 @@ namespace undine
              (has_sleep || models.surface->surface().n_nodes() > models.surface->n_body_nodes());
     if (term < by_loads)
       return models.fluid && models.solid && (term != by_friction || models.has_friction());
-    return models.solid && (has_stages || term != by_stages) &&
+    return models.solid && (kept == BudgetOf::steps_of_several_stages || term != by_stages) &&
            (has_contact || term != by_contact) && (has_sleep || term != by_sleep);
   }
 
@@ -262,7 +261,7 @@ namespace undine
   Columns
   Budget<dim>::columns() const
   {
-    if (!on)
+    if (!is_on())
       return {};
     Columns result{{"energy gain", "J", gain.energy}};
     double  energies = std::abs(energy), impulses = impulse_of_fluid;

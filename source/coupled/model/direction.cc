@@ -4,7 +4,7 @@
 namespace undine
 {
   Direction
-  read_direction(const Options &scene, const bool couples)
+  read_direction(const Options &scene)
   {
     const auto  section = scene.section("Coupling");
     std::string name    = "two-way";
@@ -17,7 +17,7 @@ namespace undine
                 "no fluid, which follows them. Both are solved one after the other.");
     if (name == "two-way")
       return Direction::two_way;
-    if (!couples)
+    if (!scene.section("Fluid").given() || !scene.section("Bodies").given())
       throw section.error("Direction",
                           "says who feels whom, but the scene has not both a fluid and bodies",
                           "Remove it, or add a subsection 'Fluid' or 'Bodies'.");

@@ -54,7 +54,7 @@ namespace undine
   bool
   SteppingScheme<dim>::has_stages() const
   {
-    return integrator->stages(1, true).size() > 1;
+    return integrator->stages(1, RatesAtBegin::known).size() > 1;
   }
 
 
@@ -62,7 +62,10 @@ namespace undine
   Report
   SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
   {
-    budget = std::make_unique<Budget<dim>>(models, keeps_budget, has_stages());
+    budget = std::make_unique<Budget<dim>>(models,
+                                           !keeps_budget  ? BudgetOf::nothing
+                                           : has_stages() ? BudgetOf::steps_of_several_stages
+                                                          : BudgetOf::steps_of_one_stage);
     if (models.solid && models.wishes_of_effects().sleep_settings)
       physics = std::make_unique<SleepingBodies<dim>>(
         models, *budget, timing, [this, &timing](const Models<dim> &awake) {
@@ -124,7 +127,8 @@ namespace undine
         {
           report.dt = asked / (1u << report.cuts);
           budget->start();
-          physics->advance(state, integrator->stages(report.dt, state.clock.step > 0), report);
+          const auto rates = state.clock.step > 0 ? RatesAtBegin::known : RatesAtBegin::unknown;
+          physics->advance(state, integrator->stages(report.dt, rates), report);
           append(report.columns, budget->columns());
           assert_finite(report.columns);
           judge_error(state, saved, report);
@@ -162,7 +166,7 @@ namespace undine
         ++report.rejections;
         throw SolveError("its error in time is too large");
       }
-    step_error->accept(state, saved, report.dt, report.cuts > 0);
+    step_error->accept(state, saved, report);
     add_error(report, state);
   }
 

@@ -34,21 +34,30 @@ namespace undine
     }
 
 
-    /// Refuse `key` unless the boundary is of a kind that reads it.
+    /// What a boundary of its kind does with a key.
+    enum class Use
+    {
+      refused,
+      optional,
+      required
+    };
+
+
+    /// Throws InputError if the boundary gives a `key` that its kind refuses, or lacks one that its
+    /// kind requires.
     void
     check_use(const Options     &options,
               const std::string &key,
-              const bool         used,
-              const bool         needed,
+              const Use          use,
               const std::string &kind)
     {
       if (options.is_reference())
         return;
-      if (options.given(key) && !used)
+      if (use == Use::refused && options.given(key))
         throw options.error(key,
                             "is not used by a boundary of the kind '" + kind + "'",
                             "Remove it or choose another 'Kind'.");
-      if (needed && !options.given(key))
+      if (use == Use::required && !options.given(key))
         throw options.error(
           key, "must be given for a boundary of the kind '" + kind + "'", "Allowed: expressions.");
     }
@@ -99,9 +108,10 @@ namespace undine
       const bool has_velocity =
         boundary.kind == BoundaryKind::inflow || boundary.kind == BoundaryKind::moving_wall;
       const bool has_pressure = boundary.kind == BoundaryKind::pressure;
-      check_use(options, "Velocity", has_velocity, has_velocity, kind);
-      check_use(options, "Pressure", has_pressure, has_pressure, kind);
-      check_use(options, "Region", boundary.kind != BoundaryKind::periodic, false, kind);
+      const bool is_periodic  = boundary.kind == BoundaryKind::periodic;
+      check_use(options, "Velocity", has_velocity ? Use::required : Use::refused, kind);
+      check_use(options, "Pressure", has_pressure ? Use::required : Use::refused, kind);
+      check_use(options, "Region", is_periodic ? Use::refused : Use::optional, kind);
       return boundary;
     }
 

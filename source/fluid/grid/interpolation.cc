@@ -103,7 +103,9 @@ namespace undine
 
   template <int dim>
   double
-  interpolate_cubic(const Field<dim> &field, const dealii::Point<dim> &place, const bool limited)
+  interpolate_cubic(const Field<dim>         &field,
+                    const dealii::Point<dim> &place,
+                    const Overshoot           overshoot)
   {
     std::array<Row::Stencil, dim> stencils;
     GridIndex<dim>                begin;
@@ -133,7 +135,7 @@ namespace undine
           along += stencils[0].weights[k] * sample[k];
         sum += weight * along;
       }
-    if (!limited)
+    if (overshoot == Overshoot::kept)
       return sum;
     const auto samples = samples_around(field, place);
     const auto bounds  = std::minmax_element(samples.values.begin(), samples.values.end());
@@ -146,11 +148,11 @@ namespace undine
   template double
   interpolate(const Field<3> &, const dealii::Point<3> &);
   template double
-  interpolate_cubic(const Field<2> &, const dealii::Point<2> &, const bool);
+  interpolate_cubic(const Field<2> &, const dealii::Point<2> &, const Overshoot);
   template dealii::Tensor<1, 2>
   interpolate(const Velocity<2> &, const dealii::Point<2> &);
   template double
-  interpolate_cubic(const Field<3> &, const dealii::Point<3> &, const bool);
+  interpolate_cubic(const Field<3> &, const dealii::Point<3> &, const Overshoot);
   template dealii::Tensor<1, 3>
   interpolate(const Velocity<3> &, const dealii::Point<3> &);
   template BoundedValue

@@ -15,8 +15,11 @@ namespace undine
     {
       std::array<Row, dim> rows;
       for (unsigned int d = 0; d < dim; ++d)
-        rows[d] = d == normal_axis ? Row::of_planes(planes[d], periodic[d])
-                                   : Row::of_centres(planes[d], periodic[d]);
+        {
+          const auto ends = periodic[d] ? Row::Ends::periodic : Row::Ends::bounded;
+          rows[d] =
+            d == normal_axis ? Row::of_planes(planes[d], ends) : Row::of_centres(planes[d], ends);
+        }
       return rows;
     }
   } // namespace

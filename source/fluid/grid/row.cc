@@ -47,19 +47,20 @@ namespace undine
 
 
   Row
-  Row::of_planes(const std::vector<double> &planes, const bool periodic)
+  Row::of_planes(const std::vector<double> &planes, const Ends ends)
   {
     const int n_cells = planes.size() - 1;
-    return periodic ? Row(planes, 0, n_cells, planes.back() - planes.front())
-                    : Row(planes, 0, n_cells + 1, 0);
+    return ends == Ends::periodic ? Row(planes, 0, n_cells, planes.back() - planes.front())
+                                  : Row(planes, 0, n_cells + 1, 0);
   }
 
 
   Row
-  Row::of_centres(const std::vector<double> &planes, const bool periodic)
+  Row::of_centres(const std::vector<double> &planes, const Ends ends)
   {
-    const int           n_cells = planes.size() - 1;
-    const double        length  = planes.back() - planes.front();
+    const bool          periodic = ends == Ends::periodic;
+    const int           n_cells  = planes.size() - 1;
+    const double        length   = planes.back() - planes.front();
     std::vector<double> centres;
     if (!periodic)
       centres.push_back(planes.front());

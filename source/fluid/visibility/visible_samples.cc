@@ -78,7 +78,7 @@ namespace undine
     if (!is_clear_for_cubics(start, foot))
       return multilinear(start, query);
     const bool is_scalar = lattice.normal_axis() >= dim;
-    return interpolate_cubic(field, start, is_scalar);
+    return interpolate_cubic(field, start, is_scalar ? Overshoot::clipped : Overshoot::kept);
   }
 
 

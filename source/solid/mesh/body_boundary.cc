@@ -44,11 +44,20 @@ namespace undine
     }
 
 
+    /// What a boundary of its kind does with a key.
+    enum class Use
+    {
+      refused,
+      optional,
+      required
+    };
+
+
     template <int dim>
     std::array<bool, dim>
-    read_directions(const Options &options, const bool used)
+    read_directions(const Options &options, const Use use)
     {
-      if (!options.is_reference() && options.given("Components") && !used)
+      if (!options.is_reference() && options.given("Components") && use == Use::refused)
         throw options.error("Components",
                             "is not used by a boundary of this 'Kind'",
                             "Remove it, or choose the 'Kind' clamp or prescribed motion.");
@@ -73,24 +82,27 @@ namespace undine
     }
 
 
-    /// Declare and read a key that the boundary needs if it is of the kind that uses it, and that
-    /// is refused otherwise.
+    /// Declare and read a key that boundaries of one kind require, and that all others refuse.
     template <class Value>
     void
-    add_if_used(const Options     &options,
-                const std::string &key,
-                Value             &variable,
-                const std::string &unit,
-                const bool         used,
-                const std::string &help)
+    add_of_one_kind(const Options     &options,
+                    const std::string &key,
+                    Value             &variable,
+                    const std::string &unit,
+                    const Use          use,
+                    const std::string &help)
     {
-      if (!options.is_reference() && options.given(key) != used)
-        throw used ? options.error(key,
-                                   "must be given for a boundary of this 'Kind'",
-                                   "Allowed: expressions [" + unit + "]. " + help)
-                   : options.error(key,
-                                   "is not used by a boundary of this 'Kind'",
-                                   "Remove it or choose another 'Kind'.");
+      if (!options.is_reference())
+        {
+          if (use == Use::required && !options.given(key))
+            throw options.error(key,
+                                "must be given for a boundary of this 'Kind'",
+                                "Allowed: expressions [" + unit + "]. " + help);
+          if (use == Use::refused && options.given(key))
+            throw options.error(key,
+                                "is not used by a boundary of this 'Kind'",
+                                "Remove it or choose another 'Kind'.");
+        }
       options.add(key, variable, unit, Allowed::anything(), help);
     }
   } // namespace
@@ -102,8 +114,11 @@ namespace undine
     , options(options)
     , where("1")
     , kind(read_kind<dim>(options))
-    , directions(read_directions<dim>(options, fixes_displacement()))
+    , directions(read_directions<dim>(options, fixes_displacement() ? Use::optional : Use::refused))
   {
+    const auto use_by = [this](const Kind user) {
+      return kind == user ? Use::required : Use::refused;
+    };
     options.add("Sides",
                 sides,
                 "",
@@ -115,27 +130,28 @@ namespace undine
                 "1",
                 Allowed::constant_in_time(),
                 "Only faces at whose rest centre this is positive.");
-    add_if_used(options,
-                "Displacement",
-                motion,
-                "m",
-                kind == Kind::prescribed_motion,
-                "Of the point that rests at x; needed by a prescribed motion, and only there.");
-    add_if_used(
+    add_of_one_kind(options,
+                    "Displacement",
+                    motion,
+                    "m",
+                    use_by(Kind::prescribed_motion),
+                    "Of the point that rests at x; needed by a prescribed motion, and only there.");
+    add_of_one_kind(
       options,
       "Traction",
       traction,
       "Pa",
-      kind == Kind::traction,
+      use_by(Kind::traction),
       "Force per area at rest; keeps its direction and size when the body deforms. Needed "
       "by a traction, and only there.");
-    add_if_used(options,
-                "Pressure",
-                pressure,
-                "Pa",
-                kind == Kind::pressure,
-                "Pushes into the body along the deformed normal, per deformed area. Needed by a "
-                "pressure, and only there.");
+    add_of_one_kind(
+      options,
+      "Pressure",
+      pressure,
+      "Pa",
+      use_by(Kind::pressure),
+      "Pushes into the body along the deformed normal, per deformed area. Needed by a "
+      "pressure, and only there.");
   }
 
 

@@ -14,7 +14,7 @@ namespace undine
 
 
   Stages
-  TimeIntegrator::stages(const double dt, const bool) const
+  TimeIntegrator::stages(const double dt, const RatesAtBegin) const
   {
     return {single_stage(dt)};
   }

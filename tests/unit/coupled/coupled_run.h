@@ -22,7 +22,7 @@ namespace undine_tests
       if (options.section("Fluid").given())
         models.fluid = std::make_unique<const FluidModel<dim>>(options, MPI_COMM_WORLD);
       models.effects   = make_effects<dim>(options);
-      models.direction = read_direction(options, models.solid && models.fluid);
+      models.direction = read_direction(options);
       if (models.fluid && (models.solid || options.section("Obstacles").given()))
         add_surface();
       options.assert_all_used();

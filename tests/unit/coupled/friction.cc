@@ -41,7 +41,7 @@ namespace
     const Options options(read_scene_text(swirl_among_bodies<dim>() + section("Obstacles", bodies) +
                                           section("Effects", viscosity(30))));
     const auto    models = make_models<dim>(options);
-    Budget<dim>   budget(models, true);
+    Budget<dim>   budget(models, BudgetOf::steps_of_one_stage);
     TimingTree    timing;
     FluidAlone<dim> scheme(models, budget, timing);
     State<dim>      state;

@@ -11,11 +11,28 @@ namespace
   using Place = std::array<double, 2>;
 
 
+  /// Is a loop the rim of the face, or does it lie within?
+  enum class Loop
+  {
+    rim,
+    within
+  };
+
+
+  /// On which side of a loop the fluid is.
+  enum class Fluid
+  {
+    inside,
+    outside
+  };
+
+
   /// Append the edges of a closed loop through `places`, with the fluid on its left.
   void
-  add_loop(std::vector<PlanarEdge> &edges, const std::vector<Place> &places, const bool on_rim)
+  add_loop(std::vector<PlanarEdge> &edges, const std::vector<Place> &places, const Loop loop)
   {
-    const int first = edges.size(), n = places.size();
+    const bool on_rim = loop == Loop::rim;
+    const int  first = edges.size(), n = places.size();
     for (int i = 0; i < n; ++i)
       edges.push_back(
         {first + i, first + (i + 1) % n, first + i, on_rim, places[i], places[(i + 1) % n]});
@@ -23,13 +40,13 @@ namespace
 
 
   std::vector<Place>
-  square(const Place &middle, const double half, const bool fluid_inside)
+  square(const Place &middle, const double half, const Fluid fluid)
   {
     std::vector<Place> result{{{middle[0] - half, middle[1] - half}},
                               {{middle[0] + half, middle[1] - half}},
                               {{middle[0] + half, middle[1] + half}},
                               {{middle[0] - half, middle[1] + half}}};
-    if (!fluid_inside)
+    if (fluid == Fluid::outside)
       std::swap(result[1], result[3]);
     return result;
   }
@@ -39,8 +56,8 @@ namespace
 TEST_CASE("A hole is cut out of the region around it", "[interface]")
 {
   std::vector<PlanarEdge> edges;
-  add_loop(edges, square({{.5, .5}}, .5, true), true);
-  add_loop(edges, square({{.25, .5}}, .125, false), false);
+  add_loop(edges, square({{.5, .5}}, .5, Fluid::inside), Loop::rim);
+  add_loop(edges, square({{.25, .5}}, .125, Fluid::outside), Loop::within);
   PlanarProblem problem;
   CHECK(problem.find_regions(edges, 0, edges.size(), 1e-14) == 0);
   REQUIRE(problem.regions().size() == 1);
@@ -54,10 +71,10 @@ TEST_CASE("A hole is cut out of the region around it", "[interface]")
 TEST_CASE("A hollow island has a region of its own, found by rays", "[interface]")
 {
   std::vector<PlanarEdge> edges;
-  add_loop(edges, square({{.5, .5}}, .5, true), true);
-  add_loop(edges, square({{.5, .5}}, .375, false), false);
-  add_loop(edges, square({{.5, .5}}, .25, true), false);
-  add_loop(edges, square({{.5, .5}}, .125, false), false);
+  add_loop(edges, square({{.5, .5}}, .5, Fluid::inside), Loop::rim);
+  add_loop(edges, square({{.5, .5}}, .375, Fluid::outside), Loop::within);
+  add_loop(edges, square({{.5, .5}}, .25, Fluid::inside), Loop::within);
+  add_loop(edges, square({{.5, .5}}, .125, Fluid::outside), Loop::within);
   PlanarProblem problem;
   CHECK(problem.find_regions(edges, 0, edges.size(), 1e-14) == 0);
   REQUIRE(problem.regions().size() == 2);
@@ -71,8 +88,8 @@ TEST_CASE("A hollow island has a region of its own, found by rays", "[interface]
 TEST_CASE("Loops of rounding size are debris and join nothing", "[interface]")
 {
   std::vector<PlanarEdge> edges;
-  add_loop(edges, square({{.5, .5}}, .5, true), true);
-  add_loop(edges, square({{.25, .5}}, 1e-9, false), false);
+  add_loop(edges, square({{.5, .5}}, .5, Fluid::inside), Loop::rim);
+  add_loop(edges, square({{.25, .5}}, 1e-9, Fluid::outside), Loop::within);
   PlanarProblem problem;
   CHECK(problem.find_regions(edges, 0, edges.size(), 1e-14) == 0);
   REQUIRE(problem.regions().size() == 2);
@@ -84,12 +101,12 @@ TEST_CASE("Loops of rounding size are debris and join nothing", "[interface]")
 TEST_CASE("Outlines that do not close are flagged", "[interface]")
 {
   std::vector<PlanarEdge> edges;
-  add_loop(edges, square({{.5, .5}}, .5, true), true);
+  add_loop(edges, square({{.5, .5}}, .5, Fluid::inside), Loop::rim);
   edges.pop_back();
   PlanarProblem problem;
   CHECK((problem.find_regions(edges, 0, edges.size(), 1e-14) & cut_loop) != 0);
 
   edges.clear();
-  add_loop(edges, square({{.5, .5}}, .25, false), false);
+  add_loop(edges, square({{.5, .5}}, .25, Fluid::outside), Loop::within);
   CHECK((problem.find_regions(edges, 0, edges.size(), 1e-14) & cut_nesting) != 0);
 }

@@ -16,12 +16,18 @@ namespace
                     "set Young's modulus = 1\nset Poisson's ratio = 0.3"));
 
 
+  /// What a scene is made of.
+  enum class Made
+  {
+    of_fluid,
+    of_bodies,
+    of_both
+  };
+
+
   /// What check() of the effect `name` says when the scene's effects are `text`.
   std::string
-  complaint(const std::string &name,
-            const std::string &text,
-            const bool         has_fluid,
-            const bool         has_solid)
+  complaint(const std::string &name, const std::string &text, const Made scene)
   {
     const auto options =
       read_scene_text(std::string(FluidText{"4, 4"}) + body + section("Effects", text));
@@ -29,8 +35,12 @@ namespace
       const auto              effects = make_effects<2>(options);
       const FluidModel<2>     fluid(options, MPI_COMM_WORLD);
       const SolidModel<2>     solid(options, MPI_COMM_WORLD);
-      Effect<2>::Surroundings around{
-        has_fluid ? &fluid : nullptr, has_solid ? &solid : nullptr, false, {}, {}};
+      constexpr bool          has_obstacles = false;
+      Effect<2>::Surroundings around{scene == Made::of_bodies ? nullptr : &fluid,
+                                     scene == Made::of_fluid ? nullptr : &solid,
+                                     has_obstacles,
+                                     {},
+                                     {}};
       const Effect<2> *asked = nullptr;
       auto             names = options.section("Effects").named_sections("effect");
       std::sort(names.begin(), names.end());
@@ -63,38 +73,38 @@ namespace
 
 TEST_CASE("effects that contradict the scene are refused with a hint", "[effects]")
 {
-  check_contains(complaint("buoyancy", gravity + lift, true, false),
+  check_contains(complaint("buoyancy", gravity + lift, Made::of_fluid),
                  "no field named 'smoke'",
                  "Effects/scalar transport");
   check_contains(
-    complaint("buoyancy", smoke + lift, true, false), "needs gravity", "subsection 'gravity'");
-  check_contains(complaint("buoyancy", gravity + smoke + section("buoyancy", ""), true, false),
+    complaint("buoyancy", smoke + lift, Made::of_fluid), "needs gravity", "subsection 'gravity'");
+  check_contains(complaint("buoyancy", gravity + smoke + section("buoyancy", ""), Made::of_fluid),
                  "names no field",
                  "subsection");
-  CHECK(complaint("buoyancy", gravity + smoke + lift, true, false) == "no error");
-  check_contains(complaint("viscosity", viscosity(1), false, true), "none", "'Fluid'");
-  check_contains(complaint("convection", convection(), false, true), "none", "'Fluid'");
-  check_contains(complaint("scalar transport", smoke, false, true), "none", "'Fluid'");
-  check_contains(complaint("scalar transport", section("scalar transport", ""), true, false),
+  CHECK(complaint("buoyancy", gravity + smoke + lift, Made::of_fluid) == "no error");
+  check_contains(complaint("viscosity", viscosity(1), Made::of_bodies), "none", "'Fluid'");
+  check_contains(complaint("convection", convection(), Made::of_bodies), "none", "'Fluid'");
+  check_contains(complaint("scalar transport", smoke, Made::of_bodies), "none", "'Fluid'");
+  check_contains(complaint("scalar transport", section("scalar transport", ""), Made::of_fluid),
                  "no field to carry",
                  "subsection");
   check_contains(
     complaint("scalar transport",
               section("scalar transport", section("heat", "set Dirichlet boundaries = lid")),
-              true,
-              false),
+              Made::of_fluid),
     "no boundary named 'lid'",
     "'other sides'");
+  check_contains(complaint("scalar transport",
+                           section("scalar transport", section("pressure", "")),
+                           Made::of_fluid),
+                 "another field",
+                 "'smoke'");
   check_contains(
-    complaint(
-      "scalar transport", section("scalar transport", section("pressure", "")), true, false),
-    "another field",
-    "'smoke'");
-  check_contains(complaint("damping", section("damping", "set Mass coefficient = 1"), true, false),
-                 "bodies",
-                 "Remove");
-  check_contains(complaint("damping", section("damping", ""), true, true), "both zero", "> 0");
-  CHECK(complaint("damping", section("damping", "set Mass coefficient = 1"), true, true) ==
+    complaint("damping", section("damping", "set Mass coefficient = 1"), Made::of_fluid),
+    "bodies",
+    "Remove");
+  check_contains(complaint("damping", section("damping", ""), Made::of_both), "both zero", "> 0");
+  CHECK(complaint("damping", section("damping", "set Mass coefficient = 1"), Made::of_both) ==
         "no error");
 }
 

@@ -144,9 +144,10 @@ TEST_CASE("blocks are balanced and fit every rank count", "[fields]")
 TEST_CASE("rows find the points around a place", "[fields]")
 {
   const std::vector<double> planes{0, 0.1, 0.3, 0.6, 1};
-  for (const bool periodic : {false, true})
-    for (const auto &row : {Row::of_planes(planes, periodic), Row::of_centres(planes, periodic)})
-      for (double place = periodic ? -2.7 : 0.; place < (periodic ? 3.7 : 1.); place += 0.013)
+  for (const auto ends : {Row::Ends::bounded, Row::Ends::periodic})
+    for (const auto &row : {Row::of_planes(planes, ends), Row::of_centres(planes, ends)})
+      for (double place = row.periodic() ? -2.7 : 0.; place < (row.periodic() ? 3.7 : 1.);
+           place += 0.013)
         {
           const auto   bracket = row.locate(place);
           const double below   = row.position(bracket.lower);
@@ -155,7 +156,7 @@ TEST_CASE("rows find the points around a place", "[fields]")
           REQUIRE(above >= place - 1e-14);
           REQUIRE(below + bracket.weight * (above - below) == Approx(place).margin(1e-14));
         }
-  const auto centres = Row::of_centres(planes, false);
+  const auto centres = Row::of_centres(planes, Row::Ends::bounded);
   CHECK(centres.position(-1) == 0);
   CHECK(centres.position(4) == 1);
   CHECK(centres.locate(7.).lower == 3);

@@ -32,9 +32,17 @@ namespace
   }
 
 
-  /// A run that writes some files, and ends if it is said so.
+  /// Does a run come to its end?
+  enum class End
+  {
+    missed,
+    reached
+  };
+
+
+  /// A run that writes some files.
   void
-  run(const std::filesystem::path &path, const bool ends)
+  run(const std::filesystem::path &path, const End end)
   {
     ResultFolder folder(MPI_COMM_WORLD, path);
     folder.begin();
@@ -43,7 +51,7 @@ namespace
         folder.claim(name);
         write(path / name, "result");
       }
-    if (ends)
+    if (end == End::reached)
       folder.finish();
   }
 } // namespace
@@ -53,7 +61,7 @@ TEST_CASE("a new run replaces what runs have written, and nothing else", "[folde
 {
   TemporaryFolder temporary;
   const auto      path = temporary.path / "results";
-  run(path, true);
+  run(path, End::reached);
   write(path / "solution" / "notes.txt", "mine");
   write(path / "pictures" / "one.png", "mine");
   write(path / "statistics.part", "left by a run that was killed");
@@ -103,10 +111,10 @@ TEST_CASE("the record tells runs that have ended from others", "[folder][mpi]")
 {
   TemporaryFolder temporary;
   const auto      path = temporary.path / "results";
-  for (const bool ends : {false, true})
+  for (const auto end : {End::missed, End::reached})
     {
-      run(path, ends);
-      CHECK(ResultFolder(MPI_COMM_WORLD, path).is_finished() == ends);
+      run(path, end);
+      CHECK(ResultFolder(MPI_COMM_WORLD, path).is_finished() == (end == End::reached));
     }
   {
     ResultFolder folder(MPI_COMM_WORLD, path);
@@ -120,7 +128,7 @@ TEST_CASE("a record that leads out of the folder, or is torn, is not acted upon"
 {
   TemporaryFolder temporary;
   const auto      path = temporary.path / "results";
-  run(path, true);
+  run(path, End::reached);
   write(temporary.path / "mine.txt", "mine");
   write(path / "mine", "mine");
   on_first_rank(MPI_COMM_WORLD, [&] {

@@ -54,7 +54,7 @@ namespace
         Values old{};
         old[column] = 1;
         Values now = old, next = old;
-        for (const auto &stage : integrator.stages(h, true))
+        for (const auto &stage : integrator.stages(h, RatesAtBegin::known))
           {
             const auto start =
               stage.is_first ? gone_on(now, stage.keeps_rates ? stage.rate() : 0, now) : next;

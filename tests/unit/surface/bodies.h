@@ -278,7 +278,8 @@ namespace undine_tests
                   }
                 if ((side == 1) != (dim == 3 || axis == 0))
                   std::swap(corners[1], corners[n_corners - 1 == 1 ? 0 : 3]);
-                add_side(result, corners, part, random != nullptr && random->below(2) == 1);
+                const bool diagonal = random != nullptr && random->below(2) == 1;
+                add_side(result, corners, part, diagonal);
               }
         }
     return result.orient();

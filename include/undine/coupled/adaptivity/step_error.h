@@ -3,6 +3,7 @@
 #define undine_coupled_adaptivity_step_error_h
 
 #include <undine/coupled/adaptivity/sample_norms.h>
+#include <undine/coupled/state/report.h>
 
 namespace undine
 {
@@ -52,10 +53,10 @@ namespace undine
     bool
     is_too_large(const State<dim> &old_state, const State<dim> &state, double dt) const;
 
-    /// Take an accepted step of `dt` [s] from `old_state` into the history of `state`, and choose
-    /// the next. `was_cut`: the step that had been tried first was longer. Collective.
+    /// Take an accepted step from `old_state` into the history of `state`, and choose the next; it
+    /// is no longer than this one if this one, as the `report` on it says, was cut. Collective.
     void
-    accept(State<dim> &state, const State<dim> &old_state, double dt, bool was_cut) const;
+    accept(State<dim> &state, const State<dim> &old_state, const Report &report) const;
 
     /// The sum of the errors of all steps so far over D [1].
     double

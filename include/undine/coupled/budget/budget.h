@@ -31,8 +31,18 @@ namespace undine
   };
 
 
+  /// The steps of which a budget is kept. Those of several stages keep rates (Stage): what earlier
+  /// stages do is a term of their budget.
+  enum class BudgetOf
+  {
+    nothing,
+    steps_of_one_stage,
+    steps_of_several_stages
+  };
+
+
   /// Where energy and momentum of a step come from and go to, each term from its own formula, and
-  /// what is missing in the sum. A budget that is not switched on does nothing and costs nothing.
+  /// what is missing in the sum. A budget of nothing does nothing and costs nothing.
   template <int dim>
   class Budget
   {
@@ -46,14 +56,14 @@ namespace undine
       boundary_values ///< velocities given on inflows and walls
     };
 
-    /// `models` must outlive it. `has_stages`: steps have stages that keep rates.
-    Budget(const Models<dim> &models, bool is_on, bool has_stages = false);
+    /// `models` must outlive it.
+    Budget(const Models<dim> &models, BudgetOf kept);
 
-    /// False: all functions do nothing and there are no columns.
+    /// False if the budget is kept of nothing: all functions do nothing and there are no columns.
     bool
     is_on() const
     {
-      return on;
+      return kept != BudgetOf::nothing;
     }
 
     /// From now on bodies that sleep count as obstacles; `surface`: that in which only the others
@@ -160,8 +170,7 @@ namespace undine
     add_effects(Columns &columns) const;
 
     const Models<dim>          &models;
-    const bool                  on;
-    const bool                  has_stages;
+    const BudgetOf              kept;
     const bool                  has_contact;
     const bool                  has_sleep;
     const ImmersedSurface<dim> *surface; ///< nullptr: none

@@ -14,10 +14,10 @@ namespace undine
     body_to_fluid  ///< the bodies move as if there were no fluid
   };
 
-  /// Read the key. `couples`: the scene has a fluid and bodies. Throws InputError, also if the key
-  /// or others of the section contradict that or each other.
+  /// Read the key. Throws InputError, also if it chooses a single direction in a scene that has not
+  /// both a fluid and bodies, or against other keys of the section.
   Direction
-  read_direction(const Options &scene, bool couples);
+  read_direction(const Options &scene);
 } // namespace undine
 
 #endif

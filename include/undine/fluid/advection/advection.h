@@ -136,11 +136,11 @@ namespace undine
     else
       {
         const UniformRegions<dim> places(sources, reach, condition.neglected_variation(), divided);
-        places.for_each_run(true, [&](const GridIndex<dim> &first, const int n) {
+        places.for_each_uniform_run([&](const GridIndex<dim> &first, const int n) {
           for (std::size_t k = 0; k < sources.size(); ++k)
             std::copy_n(sources[k].data(first), n, &carried[k](first));
         });
-        places.for_each_run(false, [&](GridIndex<dim> index, const int n) {
+        places.for_each_other_run([&](GridIndex<dim> index, const int n) {
           for (int i = 0; i < n; ++i, ++index[0])
             carry_one(index);
         });

@@ -34,10 +34,27 @@ namespace undine
     }
 
     /// Call `action(index, n)` for every run along the first direction of owned points that are all
-    /// uniform, or with `quiet` = false none of them: the first point and their number.
+    /// in uniform regions, or of which none is: the first point and their number. @{
     template <class Action>
     void
-    for_each_run(const bool quiet, Action &&action) const
+    for_each_uniform_run(Action &&action) const
+    {
+      for_each_run(1, action);
+    }
+
+    template <class Action>
+    void
+    for_each_other_run(Action &&action) const
+    {
+      for_each_run(0, action);
+    }
+    /// @}
+
+  private:
+    /// Of points that all have this mark in `is_quiet`.
+    template <class Action>
+    void
+    for_each_run(const char mark, Action &&action) const
     {
       auto      row_starts = owned;
       const int points     = owned.upper[0] - owned.lower[0];
@@ -48,16 +65,15 @@ namespace undine
           {
             const char *stop = std::find(run, end, char(*run == 0));
             index[0]         = owned.lower[0] + int(run - begin);
-            if ((*run != 0) == quiet)
+            if (*run == mark)
               action(index, int(stop - run));
             run = stop;
           }
       });
     }
 
-  private:
     IndexBox<dim>     owned;
-    std::vector<char> is_quiet;
+    std::vector<char> is_quiet; ///< 1: in a uniform region, 0: not
   };
 } // namespace undine
 

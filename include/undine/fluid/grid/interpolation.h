@@ -34,11 +34,19 @@ namespace undine
   BoundedValue
   interpolate_with_bounds(const Field<dim> &field, const dealii::Point<dim> &place);
 
-  /// Interpolation by the cubic polynomials through four points in each direction; `limited`:
-  /// clipped to the bounds of the 2^dim samples around the place.
+  /// What becomes of values of a polynomial beyond those of the samples next to the place.
+  enum class Overshoot
+  {
+    kept,
+    clipped ///< to the bounds of the 2^dim samples around the place
+  };
+
+  /// Interpolation by the cubic polynomials through four points in each direction.
   template <int dim>
   double
-  interpolate_cubic(const Field<dim> &field, const dealii::Point<dim> &place, const bool limited);
+  interpolate_cubic(const Field<dim>         &field,
+                    const dealii::Point<dim> &place,
+                    const Overshoot           overshoot);
 } // namespace undine
 
 #endif

@@ -38,15 +38,22 @@ namespace undine
       std::array<double, 4> weights;
     };
 
+    /// What a row comes to at its two ends.
+    enum class Ends
+    {
+      bounded, ///< it stops there
+      periodic ///< it goes on at the other one
+    };
+
     Row() = default;
 
     /// The row of all planes [m]. If it is periodic, it has no point of its own at the last plane.
     static Row
-    of_planes(const std::vector<double> &planes, const bool periodic);
+    of_planes(const std::vector<double> &planes, const Ends ends);
 
     /// The row of the points midway between the planes [m].
     static Row
-    of_centres(const std::vector<double> &planes, const bool periodic);
+    of_centres(const std::vector<double> &planes, const Ends ends);
 
     /// Number of points, without boundary points and images.
     int

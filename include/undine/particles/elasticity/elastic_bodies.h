@@ -25,7 +25,7 @@ namespace undine::particles
     Real                     spacing; ///< [m]
     Real                     reach;   ///< [m]
     ElasticBodies<dim, Real> bodies;
-    bool                     is_damped; ///< else without viscous forces
+    bool                     is_damped = true; ///< else without viscous forces
 
     /// One neighbour j of a particle i in the reference.
     struct Bond

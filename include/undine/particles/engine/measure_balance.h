@@ -143,8 +143,8 @@ namespace undine::particles
       result.potential     = sums[2];
       for (int axis = 0; axis < dim; ++axis)
         result.momentum[axis] = sums[3 + axis];
-      const Elasticity<dim, Real> elasticity{
-        constants.grid, constants.spacing, constants.reach, bodies, false};
+      Elasticity<dim, Real> elasticity{constants.grid, constants.spacing, constants.reach, bodies};
+      elasticity.is_damped = false;
       executor.for_each(bodies.n, DeformBodies<dim, Real>{elasticity});
       for (std::size_t b = 0; b < body_sizes.size(); ++b)
         add_body(result, b, elasticity);

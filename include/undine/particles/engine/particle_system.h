@@ -285,7 +285,7 @@ namespace undine::particles
       executor.run_by_lanes(
         bodies.n,
         ElasticStep<dim, Real>{purpose,
-                               {constants.grid, constants.spacing, constants.reach, view, true},
+                               {constants.grid, constants.spacing, constants.reach, view},
                                {constants.spacing,
                                 view,
                                 neighbours(),

@@ -53,7 +53,7 @@ namespace undine::particles
       result.densities[i]   = 0;
       result.fillings[i]    = 0;
       const auto identity   = SymmetricMatrix<dim, Real>::diagonal(1);
-      result.corrections[i] = StoredCorrection<dim, Real>::of(identity, false);
+      result.corrections[i] = StoredCorrection<dim, Real>::of(identity, PressureIs::given);
       if (result.ways_in != nullptr)
         result.ways_in[i] = Vector<dim, Real>::zero();
       if (tag.kind() == Kind::dummy || control->done())
@@ -81,7 +81,8 @@ namespace undine::particles
       result.is_unknown[i] = unknown ? 1 : 0;
       const Real share     = tag.kind() == Kind::solid ? Real(1) : coverage;
       result.corrections[i] = StoredCorrection<dim, Real>::of(
-        share > 0 ? mixed(identity, correction(moment), share) : identity, unknown);
+        share > 0 ? mixed(identity, correction(moment), share) : identity,
+        unknown ? PressureIs::unknown : PressureIs::given);
     }
 
   private:

@@ -7,6 +7,14 @@
 
 namespace undine::particles
 {
+  /// The pressure of a particle as the pressure equation sees it.
+  enum class PressureIs
+  {
+    given,
+    unknown
+  };
+
+
   /// The correction M of a particle's gradients in memory, where its neighbours read it, with
   /// whether its pressure is unknown.
   template <int dim, class Real>
@@ -20,9 +28,9 @@ namespace undine::particles
 
     UNDINE_HOST_DEVICE
     static StoredCorrection
-    of(const SymmetricMatrix<dim, Real> &M, const bool is_unknown)
+    of(const SymmetricMatrix<dim, Real> &M, const PressureIs pressure)
     {
-      return {M, is_unknown};
+      return {M, pressure == PressureIs::unknown};
     }
 
     UNDINE_HOST_DEVICE
@@ -52,7 +60,7 @@ namespace undine::particles
 
     UNDINE_HOST_DEVICE
     static StoredCorrection
-    of(const SymmetricMatrix<dim, float> &M, const bool is_unknown)
+    of(const SymmetricMatrix<dim, float> &M, const PressureIs pressure)
     {
       StoredCorrection result = {};
       for (int k = 0; k < M.size; ++k)
@@ -67,7 +75,7 @@ namespace undine::particles
               result.words[2 * k - 7] |= (bits & 0x3ff) << 21;
             }
         }
-      result.words[1] |= (is_unknown ? 1u : 0u) << 31;
+      result.words[1] |= (pressure == PressureIs::unknown ? 1u : 0u) << 31;
       return result;
     }
 

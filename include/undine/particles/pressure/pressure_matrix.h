@@ -183,7 +183,8 @@ namespace undine::particles
       Entry         entry[groups][group] = {};
       UNDINE_UNROLL
       for (int g = 0; g < groups; ++g)
-        fetch(next + 32 * group * g, g * group < count, entry[g]);
+        if (g * group < count)
+          fetch(next + 32 * group * g, entry[g]);
       for (int first = 0; first < count; first += groups * group)
         {
           UNDINE_UNROLL
@@ -197,8 +198,8 @@ namespace undine::particles
                 UNDINE_UNROLL
                 for (int k = 0; k < group; ++k)
                   f(entry[g][k], value[k]);
-                fetch(
-                  next + 32 * group * (groups + g), first + (groups + g) * group < count, entry[g]);
+                if (first + (groups + g) * group < count)
+                  fetch(next + 32 * group * (groups + g), entry[g]);
               }
           next += 32 * group * groups;
         }
@@ -217,17 +218,14 @@ namespace undine::particles
   private:
     static constexpr int group = 4;
 
-    /// A group of entries, if the row has it.
+    /// A group of entries, which the row must have.
     UNDINE_HOST_DEVICE
     static void
-    fetch(const Entry *from, const bool exists, Entry (&to)[group])
+    fetch(const Entry *from, Entry (&to)[group])
     {
-      if (exists)
-        {
-          UNDINE_UNROLL
-          for (int k = 0; k < group; ++k)
-            to[k] = Entry::once(from + 32 * k);
-        }
+      UNDINE_UNROLL
+      for (int k = 0; k < group; ++k)
+        to[k] = Entry::once(from + 32 * k);
     }
   };
 } // namespace undine::particles

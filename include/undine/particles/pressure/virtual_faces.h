@@ -53,7 +53,8 @@ namespace undine::particles
     side(const int i) const
     {
       if (potentials == nullptr)
-        return {StoredCorrection<dim, Real>::of(SymmetricMatrix<dim, Real>::diagonal(1), false),
+        return {StoredCorrection<dim, Real>::of(SymmetricMatrix<dim, Real>::diagonal(1),
+                                                PressureIs::given),
                 {}};
       return {corrections[i], potentials[i]};
     }

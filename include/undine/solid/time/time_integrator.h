@@ -58,6 +58,14 @@ namespace undine
     double       constant; ///< C [1]
   };
 
+  /// Are the rates with which everything changes known where a step begins? In the first step of a
+  /// run they are not.
+  enum class RatesAtBegin
+  {
+    unknown,
+    known
+  };
+
   /// A method to advance the bodies in time. One integrator is one .cc file that registers itself.
   class TimeIntegrator
   {
@@ -68,10 +76,9 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
-    /// The stages of a step of `dt` [s]; `knows_rates`: rates at its begin are known. A single one
-    /// unless the integrator has more.
+    /// The stages of a step of `dt` [s]. A single one unless the integrator has more.
     virtual Stages
-    stages(double dt, bool knows_rates) const;
+    stages(double dt, RatesAtBegin rates) const;
 
     /// The coefficients of a stage of length `dt` [s].
     virtual StepCoefficients

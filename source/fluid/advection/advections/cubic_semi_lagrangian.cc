@@ -29,14 +29,15 @@ namespace undine
            std::vector<Field<dim>>          fields,
            const BoundaryCondition<dim>    &condition) const override
     {
-      const bool limited = condition.obeys_maximum_principle();
+      const auto overshoot =
+        condition.obeys_maximum_principle() ? Overshoot::clipped : Overshoot::kept;
       const auto sources = completed(tracer, std::move(fields), condition);
       return carry(tracer,
                    sources,
                    condition,
                    tracer.reach(1),
                    [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
-                     return interpolate_cubic(sources[k], trace.foot.point, limited);
+                     return interpolate_cubic(sources[k], trace.foot.point, overshoot);
                    });
     }
   };

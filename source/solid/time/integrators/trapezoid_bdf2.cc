@@ -34,10 +34,11 @@ namespace undine
     }
 
     Stages
-    stages(const double dt, const bool knows_rates) const override
+    stages(const double dt, const RatesAtBegin rates) const override
     {
-      const double g = (1 - std::sqrt(0.5)) * dt;
-      const double w = std::sqrt(2.) / 4 * dt;
+      const bool   knows_rates = rates == RatesAtBegin::known;
+      const double g           = (1 - std::sqrt(0.5)) * dt;
+      const double w           = std::sqrt(2.) / 4 * dt;
       Stage        first, second;
       first.length = second.length = g;
       first.end = second.begin = knows_rates ? 2 * g : g;
