@@ -2,6 +2,7 @@
 #include <undine/output/files/files.h>
 #include <undine/output/files/hdf5_file.h>
 #include <undine/output/files/hdf5_handle.h>
+#include <undine/output/files/shared_file.h>
 
 #include <cstring>
 #include <numeric>
