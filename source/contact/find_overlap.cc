@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/contact/body_contact.h>
+#include <undine/contact/find_overlap.h>
 #include <undine/surface/surface_distance.h>
 
 #include <fmt/format.h>
@@ -63,24 +63,19 @@ namespace undine
 
 
   template <int dim>
-  void
-  BodyContact<dim>::check_start(const Vector &displacement, const double time) const
+  std::string
+  find_overlap(const ContactSurfaces<dim>                  &surfaces,
+               const typename ContactSurfaces<dim>::Places &places)
   {
-    const auto  places    = surfaces.places(displacement, time);
     std::string complaint = wall_complaint(surfaces, places);
     for (unsigned int s = 0; s < surfaces.surface().body_names().size() && complaint.empty(); ++s)
       complaint = surface_complaint(surfaces, places, s);
-    if (!complaint.empty())
-      throw settings.options.error(
-        "",
-        complaint + " at the start",
-        "Try: leave a gap, or hold the body there by a support that reaches to the wall or into "
-        "the other surface: what is held so is not in contact.");
+    return complaint;
   }
 
 
-  template void
-  BodyContact<2>::check_start(const Vector &, const double) const;
-  template void
-  BodyContact<3>::check_start(const Vector &, const double) const;
+  template std::string
+  find_overlap(const ContactSurfaces<2> &, const ContactSurfaces<2>::Places &);
+  template std::string
+  find_overlap(const ContactSurfaces<3> &, const ContactSurfaces<3>::Places &);
 } // namespace undine

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/contact/body_contact.h>
 #include <undine/contact/contact_boxes.h>
+#include <undine/contact/free_part_of_paths.h>
+#include <undine/surface/nearest_in_simplex.h>
 #include <undine/surface/nearest_of_edges.h>
 
 #include <algorithm>
+#include <array>
 
 namespace undine
 {
@@ -131,12 +133,12 @@ namespace undine
 
   template <int dim>
   double
-  BodyContact<dim>::free_part(const Place &start, const Place &end) const
+  free_part_of_paths(const ContactSurfaces<dim>                  &surfaces,
+                     const typename ContactSurfaces<dim>::Places &from,
+                     const typename ContactSurfaces<dim>::Places &to,
+                     const double                                 closest)
   {
-    const auto   from    = surfaces.places(start.displacement, start.time);
-    const auto   to      = surfaces.places(end.displacement, end.time);
-    const double closest = settings.gap / 2;
-    double       part    = 1;
+    double part = 1;
     for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
       for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
         {
@@ -164,7 +166,13 @@ namespace undine
 
 
   template double
-  BodyContact<2>::free_part(const Place &, const Place &) const;
+  free_part_of_paths(const ContactSurfaces<2> &,
+                     const ContactSurfaces<2>::Places &,
+                     const ContactSurfaces<2>::Places &,
+                     double);
   template double
-  BodyContact<3>::free_part(const Place &, const Place &) const;
+  free_part_of_paths(const ContactSurfaces<3> &,
+                     const ContactSurfaces<3>::Places &,
+                     const ContactSurfaces<3>::Places &,
+                     double);
 } // namespace undine
