@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/base/parallel/throw_together.h>
+#include <undine/cutting/closure_defect.h>
 #include <undine/cutting/component_finder.h>
 #include <undine/cutting/cut_block.h>
 #include <undine/cutting/cut_flags.h>

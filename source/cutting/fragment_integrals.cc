@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/cutting/chord_splitter.h>
-#include <undine/cutting/component_finder.h>
+#include <undine/cutting/fragment_integrals.h>
 
 namespace undine
 {
@@ -57,37 +57,19 @@ namespace undine
   } // namespace
 
 
-  void
-  ComponentFinder<3>::add_fragments(CutCells<3>            &cut,
-                                    const CutWorkspace<3>  &work,
-                                    const PlacedSurface<3> &placed)
+  FragmentIntegrals
+  integrate_fragment(const SplitSurface<3>::Fragment &fragment,
+                     const SplitSurface<3>           &split,
+                     const PlacedSurface<3>          &placed,
+                     const dealii::Point<3>          &origin)
   {
-    const auto &lists = work.split.fragments_in;
-    fragments.clear();
-    for (int f = lists.first(cut.block.key(cut.cells.back().index)); f != KeyedLists::none;
-         f     = lists.next(f))
-      {
-            fragments.push_back(f);
-            add_fragment(cut, work, placed, work.split.fragments[f]);
-      }
-  }
-
-
-  void
-  ComponentFinder<3>::add_fragment(CutCells<3>                     &cut,
-                                   const CutWorkspace<3>           &work,
-                                   const PlacedSurface<3>          &placed,
-                                   const SplitSurface<3>::Fragment &fragment)
-  {
-    Element element;
-    element.parent    = elements.size();
-    const auto corner = [&](const int number) {
-      const auto &c      = work.split.corners[number];
-      const auto &vertex = work.split.vertices[c.vertex];
-      uses.emplace_back(c.edge, elements.size());
-      cut.corners.points.push_back(vertex.position);
-      Point point{local(c, work), barycentric(placed.surface, fragment.facet, vertex, c.vertex)};
-      element.sums.include(point.place);
+    FragmentIntegrals result;
+    const auto        corner = [&](const int i) {
+      const int   number = split.corners[i].vertex;
+      const auto &vertex = split.vertices[number];
+      Point       point{dealii::Point<3>(vertex.position - origin),
+                  barycentric(placed.surface, fragment.facet, vertex, number)};
+      result.sums.include(point.place);
       return point;
     };
 
@@ -110,8 +92,8 @@ namespace undine
         for (unsigned int d = 0; d < 3; ++d)
           {
             // The fluid's normal is the opposite one: integrals of x_d n_d / 3 and x_d^2 n_d / 2.
-            element.sums.volume -= triangle[d] * x[d] / 3;
-            element.sums.moment[d] -=
+            result.sums.volume -= triangle[d] * x[d] / 3;
+            result.sums.moment[d] -=
               triangle[d] * (x[d] * (x[d] + y[d] + z[d]) + y[d] * (y[d] + z[d]) + z[d] * z[d]) / 12;
             plain_mean[d] += next.coordinates[d];
           }
@@ -122,11 +104,9 @@ namespace undine
 
     for (double &coordinate : plain_mean)
       coordinate /= fragment.end - fragment.begin;
-    auto result        = means.fragment(plain_mean);
-    result.facet       = fragment.facet;
-    result.area_vector = -area;
-    cut.fragments.push_back(result);
-    cut.corners.first.push_back(cut.corners.points.size());
-    elements.push_back(element);
+    result.fragment             = means.fragment(plain_mean);
+    result.fragment.facet       = fragment.facet;
+    result.fragment.area_vector = -area;
+    return result;
   }
 } // namespace undine
