@@ -3,7 +3,7 @@
 #include <undine/operators/body_forces.h>
 
 #include <coupled/coupled_run.h>
-#include <coupled/viscous_flows.h>
+#include <coupled/friction/viscous_flows.h>
 
 using namespace undine_tests;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <coupled/chamber_volume.h>
+#include <coupled/bodies/chamber_volume.h>
 
 using namespace undine_tests;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <coupled/uniform_stream.h>
+#include <coupled/obstacles/uniform_stream.h>
 
 using namespace undine_tests;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <coupled/coupled_run.h>
-#include <coupled/uniform_stream.h>
+#include <coupled/obstacles/uniform_stream.h>
 
 using namespace undine_tests;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <coupled/contact_course.h>
+#include <coupled/contact/contact_course.h>
 
 #include <undine/contact/barrier.h>
 

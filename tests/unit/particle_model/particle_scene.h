@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_tests_coupled_particle_scene_h
-#define undine_tests_coupled_particle_scene_h
+#ifndef undine_tests_particle_model_particle_scene_h
+#define undine_tests_particle_model_particle_scene_h
 
 #include <undine/particle_model/particle_model.h>
 
