@@ -89,10 +89,7 @@ namespace undine
   ComponentFinder<3>::local(const SplitSurface<3>::Corner &corner,
                             const CutWorkspace<3>         &work) const
   {
-    dealii::Point<3> result = work.split.vertices[corner.vertex].position;
-    for (unsigned int d = 0; d < 3; ++d)
-      result[d] -= origin[d];
-    return result;
+    return dealii::Point<3>(work.split.vertices[corner.vertex].position - origin);
   }
 
 

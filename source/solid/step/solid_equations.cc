@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/errors.h>
 #include <undine/solid/assembly/internal_forces.h>
 #include <undine/solid/assembly/loads.h>
 #include <undine/solid/assembly/prescribed_motion.h>
@@ -34,6 +33,7 @@ namespace undine
     , nodal_forces(nodal_forces)
     , coefficients(model.numerics().integrator->coefficients(dt))
     , motion(model, old_state, coefficients, time, dt)
+    , rayleigh_damping(model, mass, environment, timing)
     , contact(environment.contact.get(), contact_start, model, old_state, time, dt, timing)
     , has_pressure(has_pressure_loads(model))
     , own_rounding(rounding_of_forces(
@@ -43,30 +43,8 @@ namespace undine
   {
     const auto timed = timing.section("assemble forces");
     timing.memory.hold("deformable bodies", mass.memory_consumption());
-    if (environment.stiffness_damping > 0 && coefficients.damping != 0)
-      find_damping_stiffness();
+    rayleigh_damping.assemble(motion);
     find_known_forces();
-  }
-
-
-  template <int dim>
-  void
-  SolidEquations<dim>::find_damping_stiffness()
-  {
-    const auto timed        = timing.section("damping");
-    Vector     displacement = old_state.displacement;
-    displacement.add(coefficients.damping_position * dt, old_state.velocity);
-    try
-      {
-        damping_stiffness.reinit(model.matrix());
-        add_matrix(damping_stiffness, 1, internal_stiffness(model, displacement));
-      }
-    catch (const SolveError &)
-      {
-        // The extrapolation may invert a cell where d^n does not.
-        add_matrix(damping_stiffness, 1, internal_stiffness(model, old_state.displacement));
-      }
-    timing.memory.hold_briefly("damping", damping_stiffness.memory_consumption());
   }
 
 
@@ -89,30 +67,6 @@ namespace undine
       change.add(coefficients.mass_old_acceleration, old_state.acceleration);
     mass.vmult(result, change);
     return result;
-  }
-
-
-  /// forces += factor C velocity.
-  template <int dim>
-  void
-  SolidEquations<dim>::add_damping(Vector       &forces,
-                                   const Vector &velocity,
-                                   const double  factor) const
-  {
-    if (environment.mass_damping == 0 && damping_stiffness.m() == 0)
-      return;
-    const auto timed   = timing.section("damping");
-    Vector     product = model.vector();
-    if (environment.mass_damping > 0)
-      {
-        mass.vmult(product, velocity);
-        forces.add(factor * environment.mass_damping, product);
-      }
-    if (damping_stiffness.m() > 0)
-      {
-        damping_stiffness.vmult(product, velocity);
-        forces.add(factor * environment.stiffness_damping, product);
-      }
   }
 
 
@@ -142,7 +96,7 @@ namespace undine
     if (coefficients.mass != 0)
       own_rounding += std::numeric_limits<double>::epsilon() * inertia(model.vector()).l2_norm();
     if (coefficients.damping_old_velocity != 0)
-      add_damping(known, old_state.velocity, coefficients.damping_old_velocity);
+      rayleigh_damping.add_forces(known, old_state.velocity, coefficients.damping_old_velocity);
     for (const auto &stage : coefficients.stages)
       {
         const Vector loads = dead_loads(model, environment, time + stage.position * dt, &timing);
@@ -190,7 +144,7 @@ namespace undine
         result.add(1., change);
       }
     if (coefficients.damping != 0)
-      add_damping(result, velocity, coefficients.damping);
+      rayleigh_damping.add_forces(result, velocity, coefficients.damping);
     const Vector end = displacement(velocity);
     for (const auto &stage : coefficients.stages)
       if (stage.position > 0)
@@ -259,8 +213,7 @@ namespace undine
     const double mass_factor = coefficients.mass + coefficients.damping * environment.mass_damping;
     if (mass_factor != 0)
       add_matrix(result, mass_factor, mass);
-    if (damping_stiffness.m() > 0)
-      add_matrix(result, coefficients.damping * environment.stiffness_damping, damping_stiffness);
+    rayleigh_damping.add_stiffness(result, coefficients.damping);
     contact.add_stiffness(result, coefficients.displacement, in_contact);
     timing.memory.hold_briefly("deformable bodies", result.memory_consumption());
     return result;
@@ -345,8 +298,8 @@ namespace undine
 
     SolidBalance<dim> result;
     Vector            damping = model.vector();
-    add_damping(damping, velocity, coefficients.damping);
-    add_damping(damping, old_state.velocity, coefficients.damping_old_velocity);
+    rayleigh_damping.add_forces(damping, velocity, coefficients.damping);
+    rayleigh_damping.add_forces(damping, old_state.velocity, coefficients.damping_old_velocity);
     for (const auto &stage : coefficients.stages)
       for (const auto &[effect, force] :
            effect_loads(model, environment, time + stage.position * dt))

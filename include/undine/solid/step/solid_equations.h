@@ -2,7 +2,7 @@
 #ifndef undine_solid_step_solid_equations_h
 #define undine_solid_step_solid_equations_h
 
-#include <undine/solid/assembly/solid_environment.h>
+#include <undine/solid/step/rayleigh_damping.h>
 #include <undine/solid/step/step_contact.h>
 
 #include <vector>
@@ -181,15 +181,11 @@ namespace undine
     Vector
     inertia(const Vector &velocity) const;
     void
-    add_damping(Vector &forces, const Vector &velocity, double factor) const;
-    void
     add_stage(Vector &forces, const StepCoefficients::Stage &stage, const Vector &displacement);
     Matrix
     full_jacobian(const Vector &end_displacement, const Vector &in_contact) const;
     void
     find_known_forces();
-    void
-    find_damping_stiffness();
     void
     note_size(const Vector &term, double factor);
 
@@ -203,9 +199,9 @@ namespace undine
     Vector                       nodal_forces;
     const StepCoefficients       coefficients;
     const StepMotion<dim>        motion;
+    RayleighDamping<dim>         rayleigh_damping;
     const StepContact<dim>       contact;
     const bool                   has_pressure;
-    Matrix                       damping_stiffness; ///< K'(d^n + r h u^n); empty without damping
     double                       largest_known = 0; ///< size of the terms without u [N]
     double                       largest_term  = 0; ///< of all terms [N]
     double                       own_rounding;      ///< [N]

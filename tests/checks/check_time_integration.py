@@ -12,7 +12,7 @@ import math
 import os
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.append(os.path.join(ROOT, "benchmarks"))
 import accuracy  # noqa: E402
 import time_integration as benchmark  # noqa: E402

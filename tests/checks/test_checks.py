@@ -8,10 +8,11 @@ import sys
 import tempfile
 import unittest
 
-import check_include_direction
-import check_style
-import scene_tools
-import unit_cases
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import check_include_direction  # noqa: E402
+import check_style  # noqa: E402
+import scene_tools  # noqa: E402
+import unit_cases  # noqa: E402  in the folder above
 
 LICENCE = "// SPDX-License-Identifier: LGPL-2.1-or-later\n"
 

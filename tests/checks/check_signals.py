@@ -17,7 +17,7 @@ import time
 
 import scene_tools
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "campaign"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "campaign"))
 import kill_faults  # noqa: E402
 
 ROWS_BEFORE, STEPS_AFTER = 4, 3

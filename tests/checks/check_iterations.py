@@ -10,7 +10,7 @@ usage: check_iterations.py PROGRAM RANKS [--record]
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "benchmarks"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "benchmarks"))
 from iterations import PRECONDITIONERS, Case, count, name  # noqa: E402
 
 SLACK = 3  # iterations; multigrid's aggregates depend on the number of ranks
