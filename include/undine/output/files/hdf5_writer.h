@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_output_files_hdf5_file_h
-#define undine_output_files_hdf5_file_h
+#ifndef undine_output_files_hdf5_writer_h
+#define undine_output_files_hdf5_writer_h
+
+#include <undine/output/files/selection.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <hdf5.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -14,14 +14,6 @@
 
 namespace undine
 {
-  /// This rank's box of an array, the last direction running fastest.
-  struct Selection
-  {
-    std::vector<hsize_t> size;   ///< of the whole array
-    std::vector<hsize_t> offset; ///< first entry of this rank
-    std::vector<hsize_t> count;  ///< entries of this rank; 0: none
-  };
-
   /// Writes an HDF5 file of all ranks' data. The first rank lays out the file; then all ranks write
   /// their boxes at the places that HDF5 tells. (Parallel HDF5 waits for ever when the disk is full
   /// for one rank, and deal.II's classes check return values in debug mode only.) All functions are
@@ -84,44 +76,6 @@ namespace undine
     std::map<std::string, double>        real_attributes;
     std::map<std::string, std::uint64_t> whole_attributes;
     std::vector<Array>                   arrays;
-  };
-
-
-  /// Reads an HDF5 file on all ranks. All functions are collective and throw FileError on all ranks
-  /// if they fail on any; HDF5 itself prints nothing.
-  class HDF5Reader
-  {
-  public:
-    /// Opens the file.
-    HDF5Reader(const std::filesystem::path &path, MPI_Comm communicator);
-    HDF5Reader(const HDF5Reader &) = delete;
-    HDF5Reader &
-    operator=(const HDF5Reader &) = delete;
-    ~HDF5Reader();
-
-    /// The number of this name that belongs to the file. Value: double, std::uint64_t.
-    template <class Value>
-    Value
-    attribute(const std::string &name) const;
-
-    /// Is there an array of this name?
-    bool
-    contains(const std::string &name) const;
-
-    /// The size of a whole array in each direction.
-    std::vector<hsize_t>
-    size(const std::string &name) const;
-
-    /// This rank's box of an array. Throws also if the array has another size. Value: double,
-    /// unsigned int.
-    template <class Value>
-    std::vector<Value>
-    read(const std::string &name, const Selection &selection) const;
-
-  private:
-    hid_t                 file;
-    std::filesystem::path path;
-    MPI_Comm              communicator;
   };
 } // namespace undine
 
