@@ -28,7 +28,7 @@ import statistics
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(ROOT, "tests"))
+sys.path.insert(0, os.path.join(ROOT, "tests", "checks"))
 import scene_tools  # noqa: E402
 
 FRONT = "dam_break_particles.prm"

@@ -22,7 +22,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(ROOT, "tests"))
+sys.path.insert(0, os.path.join(ROOT, "tests", "checks"))
 import scene_tools  # noqa: E402
 
 JET = os.path.join(ROOT, "prm", "jet_two_sheets.prm")

@@ -14,7 +14,7 @@ import os
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(ROOT, "tests"))
+sys.path.insert(0, os.path.join(ROOT, "tests", "checks"))
 import scene_tools  # noqa: E402
 
 CASES = [(ratio, modulus, 0.49) for ratio in (0.5, 1.2, 2.0) for modulus in (1e4, 1e5, 1e6)] + \

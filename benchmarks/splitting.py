@@ -19,7 +19,7 @@ import textwrap
 from dataclasses import dataclass
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(ROOT, "tests"))
+sys.path.insert(0, os.path.join(ROOT, "tests", "checks"))
 import scene_tools  # noqa: E402
 
 SCENE = os.path.join(ROOT, "prm", "jet_two_sheets_split_2d.prm")

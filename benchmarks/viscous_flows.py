@@ -17,7 +17,7 @@ import tempfile
 from dataclasses import dataclass
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path[:0] = [os.path.join(ROOT, "tests")]
+sys.path[:0] = [os.path.join(ROOT, "tests", "checks")]
 import scene_tools  # noqa: E402
 
 REFERENCE = os.path.join(ROOT, "tests", "reference")

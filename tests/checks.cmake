@@ -2,63 +2,63 @@
 # What programs can check without running Undine: the sources' rules and the answers to bad scenes.
 
 add_test(NAME sources/checks_find_faults
-         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/test_checks.py)
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_checks.py)
 add_test(NAME sources/include_direction
-         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_include_direction.py
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_include_direction.py
                  ${PROJECT_SOURCE_DIR})
 add_test(NAME sources/style
-         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_style.py
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_style.py
                  ${PROJECT_SOURCE_DIR})
 add_test(NAME sources/documents
-         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_documents.py
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_documents.py
                  ${PROJECT_SOURCE_DIR})
 add_test(NAME sources/layout COMMAND ${PROJECT_SOURCE_DIR}/contrib/indent --check)
 
 add_test(NAME malformed/scenes
-         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_malformed.py
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_malformed.py
                  $<TARGET_FILE:undine> ${CMAKE_CURRENT_SOURCE_DIR}/malformed)
 set_tests_properties(malformed/scenes PROPERTIES TIMEOUT 600)
 
 add_test(NAME runs/splitting
-         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_splitting.py $<TARGET_FILE:undine>
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_splitting.py $<TARGET_FILE:undine>
                  ${PROJECT_SOURCE_DIR}/prm/jet_two_sheets_split_2d.prm)
 set_tests_properties(runs/splitting PROPERTIES TIMEOUT 300)
 
 add_test(NAME runs/time_integration
-         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_time_integration.py $<TARGET_FILE:undine>)
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_time_integration.py $<TARGET_FILE:undine>)
 set_tests_properties(runs/time_integration PROPERTIES TIMEOUT 300)
 
 # Scenes and runs that need more memory than there is, and frames that take long.
 add_test(NAME runs/memory_limit
-         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_memory_limit.py $<TARGET_FILE:undine>
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_memory_limit.py $<TARGET_FILE:undine>
                  ${PROJECT_SOURCE_DIR}/prm)
 set_tests_properties(runs/memory_limit PROPERTIES PROCESSORS 2 TIMEOUT 600)
 add_test(NAME long/memory_limits
-         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_memory_limit.py $<TARGET_FILE:undine>
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_memory_limit.py $<TARGET_FILE:undine>
                  ${PROJECT_SOURCE_DIR}/prm --long)
 set_tests_properties(long/memory_limits PROPERTIES PROCESSORS 2 LABELS long TIMEOUT 1800)
 add_test(NAME runs/long_frame
-         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_long_frame.py $<TARGET_FILE:undine>
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_long_frame.py $<TARGET_FILE:undine>
                  ${PROJECT_SOURCE_DIR}/prm/dam_break_particles.prm)
 set_tests_properties(runs/long_frame PROPERTIES TIMEOUT 300)
 
 # Pictures need packages that the program does not: without them the test is skipped.
 add_test(NAME contrib/render
-         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_render.py ${PROJECT_SOURCE_DIR}/contrib/render
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_render.py ${PROJECT_SOURCE_DIR}/contrib/render
                  $<TARGET_FILE:undine> ${PROJECT_SOURCE_DIR}/prm)
 set_tests_properties(contrib/render PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 
 # Iterations of the simultaneous scheme's linear solver, as recorded.
 foreach(ranks 1 2)
   add_test(NAME runs/iterations.mpirun=${ranks}
-           COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_iterations.py
+           COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_iterations.py
                    $<TARGET_FILE:undine> ${ranks})
   set_tests_properties(runs/iterations.mpirun=${ranks} PROPERTIES PROCESSORS ${ranks} TIMEOUT 300)
 endforeach()
 
 # Stopped by signals, and what a user is told then.
 add_test(NAME runs/signals
-         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_signals.py $<TARGET_FILE:undine>
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_signals.py $<TARGET_FILE:undine>
                  ${CMAKE_CURRENT_SOURCE_DIR}/resume/friction.prm)
 set_tests_properties(runs/signals PROPERTIES PROCESSORS 2 TIMEOUT 300)
 
@@ -77,16 +77,16 @@ add_test(NAME fuzz/sample
                  $<TARGET_FILE:undine> --cases 30 --run 3 --jobs 2 --limit 120)
 set_tests_properties(fuzz/sample PROPERTIES PROCESSORS 2 TIMEOUT 1200)
 add_test(NAME long/memory_coupled
-         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_memory.py
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_memory.py
                  $<TARGET_FILE:undine> ${CMAKE_CURRENT_SOURCE_DIR}/resume/friction.prm
                  "Domain/Cells=24, 3" "Bodies/bar/Cells=8, 1" "Time/Step=1/40" "Output/Interval=1"
                  "Fluid/Boundaries/open/Pressure=2000*sin(5*t)")
 add_test(NAME long/memory_obstacle
-         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_memory.py
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_memory.py
                  $<TARGET_FILE:undine> ${CMAKE_CURRENT_SOURCE_DIR}/resume/paddle.prm
                  "Output/Interval=1")
 add_test(NAME long/memory_particles
-         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/check_memory.py
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_memory.py
                  $<TARGET_FILE:undine> ${PROJECT_SOURCE_DIR}/prm/jet_over_weir_particles.prm
                  "Particles/Spacing=0.03" "Output/Interval=1")
 set_tests_properties(long/memory_coupled long/memory_obstacle long/memory_particles PROPERTIES

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/contact/body_contact.h>
+#include <undine/contact/find_overlap.h>
+#include <undine/contact/free_part_of_paths.h>
 #include <undine/contact/make_contact.h>
 
 #include <fmt/format.h>
@@ -217,6 +219,30 @@ namespace undine
   BodyContact<dim>::begin_stage() const
   {
     pattern.clear();
+  }
+
+
+  template <int dim>
+  double
+  BodyContact<dim>::free_part(const Place &from, const Place &to) const
+  {
+    const auto places_from = surfaces.places(from.displacement, from.time);
+    const auto places_to   = surfaces.places(to.displacement, to.time);
+    return free_part_of_paths(surfaces, places_from, places_to, settings.gap / 2);
+  }
+
+
+  template <int dim>
+  void
+  BodyContact<dim>::check_start(const Vector &displacement, const double time) const
+  {
+    const std::string overlap = find_overlap(surfaces, surfaces.places(displacement, time));
+    if (!overlap.empty())
+      throw settings.options.error(
+        "",
+        overlap + " at the start",
+        "Try: leave a gap, or hold the body there by a support that reaches to the wall or into "
+        "the other surface: what is held so is not in contact.");
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/base/parallel/throw_together.h>
+#include <undine/cutting/closure_defect.h>
 #include <undine/cutting/component_finder.h>
 #include <undine/cutting/cut_block.h>
 #include <undine/cutting/cut_flags.h>
@@ -135,23 +136,6 @@ namespace undine
 
 
   template <int dim>
-  void
-  CutCells<dim>::clear()
-  {
-    cells.clear();
-    components.clear();
-    faces.clear();
-    pieces.clear();
-    fragments.clear();
-    corners.first.assign(1, 0);
-    corners.points.clear();
-    counts = {};
-    cell_slots.clear();
-    face_slots.clear();
-  }
-
-
-  template <int dim>
   GridBlock<dim>
   block_of_rank(const MacGrid<dim> &grid)
   {
@@ -197,7 +181,6 @@ namespace undine
 
   // clang-format off
 #define INSTANTIATE(dim)                                                                           \
-  template struct CutCells<dim>;                                                                   \
   template GridBlock<dim> block_of_rank(const MacGrid<dim> &);                                     \
   template void cut_block(CutCells<dim> &, CutWorkspace<dim> &, const PlacedSurface<dim> &);       \
   template void cut_block(CutCells<dim> &, CutWorkspace<dim> &, const PlacedSurface<dim> &,        \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/driver/adviser.h>
+#include <undine/driver/advice.h>
 #include <undine/solid/material/material.h>
 
 #include <fmt/format.h>
@@ -231,18 +231,14 @@ namespace undine
 
   template <int dim>
   Advice
-  Adviser<dim>::advice() const
+  make_advice(const Models<dim> &models, const Extremes &largest)
   {
-    if (models.particles)
-      return {};
-    auto result = Rules<dim>(models, largest).advice();
-    result.missing.assign(missing.begin(), missing.end());
-    return result;
+    return Rules<dim>(models, largest).advice();
   }
 
 
   template Advice
-  Adviser<2>::advice() const;
+  make_advice(const Models<2> &, const Extremes &);
   template Advice
-  Adviser<3>::advice() const;
+  make_advice(const Models<3> &, const Extremes &);
 } // namespace undine

@@ -145,6 +145,18 @@ namespace undine
   }
 
 
+  template <int dim>
+  Advice
+  Adviser<dim>::advice() const
+  {
+    if (models.particles)
+      return {};
+    auto result = make_advice(models, largest);
+    result.missing.assign(missing.begin(), missing.end());
+    return result;
+  }
+
+
   template class Adviser<2>;
   template class Adviser<3>;
 } // namespace undine

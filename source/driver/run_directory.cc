@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/version.h>
+#include <undine/base/options/options_output.h>
 #include <undine/driver/run_directory.h>
 #include <undine/output/files/files.h>
 #include <undine/solid/mesh/locking.h>
@@ -67,8 +68,8 @@ namespace undine
     if (from && !goes_on)
       write_whole_file(folder, "statistics", statistics, communicator);
     std::ostringstream prm, json;
-    options.write_prm(prm);
-    options.write_json(json);
+    write_prm(prm, options);
+    write_json(json, options);
     write_whole_file(folder, "parameters.prm", prm.str(), communicator);
     write_whole_file(folder, "parameters.json", json.str(), communicator);
     folder.claim("log.txt");

@@ -130,7 +130,7 @@ namespace undine
     thick_facets.reserve(moved.surface->facets().size());
     for (unsigned int facet = 0; facet < moved.surface->facets().size(); ++facet)
       {
-        const auto after = nodes(facet), before = old_nodes(facet);
+        const auto after = moved.nodes(facet), before = moved.old_nodes(facet);
         thick_facets.emplace_back(after, thickness);
         leaves.emplace_back(box_around(after, thickness), facet);
         if (after == before)
@@ -139,7 +139,7 @@ namespace undine
         swept_boxes.back().first.merge_with(box_around(before, thickness));
       }
     trees = std::make_unique<const Trees>(leaves, swept_boxes);
-    find_neighbours();
+    walls = std::make_unique<const SurfaceWalls<dim>>(moved, thickness);
   }
 
 
@@ -148,24 +148,20 @@ namespace undine
 
 
   template <int dim>
-  std::array<dealii::Point<dim>, dim>
-  SurfaceQueries<dim>::nodes(const unsigned int facet) const
+  typename Obstruction<dim>::Patch
+  SurfaceQueries<dim>::patch(const std::vector<FacetImage> &images) const
   {
-    FacetNodes<dim> result;
-    for (unsigned int k = 0; k < dim; ++k)
-      result[k] = moved.positions[moved.surface->facets()[facet][k]];
-    return result;
+    return walls->patch(images);
   }
 
 
   template <int dim>
-  std::array<dealii::Point<dim>, dim>
-  SurfaceQueries<dim>::old_nodes(const unsigned int facet) const
+  bool
+  SurfaceQueries<dim>::is_wall(const std::vector<FacetImage>  &images,
+                               const Slab                     &slab,
+                               const dealii::BoundingBox<dim> &box) const
   {
-    FacetNodes<dim> result;
-    for (unsigned int k = 0; k < dim; ++k)
-      result[k] = moved.old_positions[moved.surface->facets()[facet][k]];
-    return result;
+    return walls->is_wall(images, slab, box);
   }
 
 
@@ -230,7 +226,8 @@ namespace undine
     std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
       return numbers[a] < numbers[b];
     });
-    return undine::passes_over<dim>(old_nodes(facet), nodes(facet), order, place, thickness);
+    return undine::passes_over<dim>(
+      moved.old_nodes(facet), moved.nodes(facet), order, place, thickness);
   }
 
 
@@ -293,7 +290,7 @@ namespace undine
       return velocity;
     double     least    = std::numeric_limits<double>::infinity(); // square of the distance
     const auto consider = [&](const unsigned int facet, const dealii::Point<dim> &image) {
-      const auto         corners     = nodes(facet);
+      const auto         corners     = moved.nodes(facet);
       const auto         coordinates = nearest_point(corners, image);
       dealii::Point<dim> nearest;
       for (unsigned int k = 0; k < dim; ++k)

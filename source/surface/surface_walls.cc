@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/surface/boxes.h>
 #include <undine/surface/simplex.h>
-#include <undine/surface/surface_queries.h>
+#include <undine/surface/surface_walls.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +10,14 @@
 namespace undine
 {
   template <int dim>
-  void
-  SurfaceQueries<dim>::find_neighbours()
+  SurfaceWalls<dim>::SurfaceWalls(const MovedSurface<dim> &moved, const double thickness)
+    : moved(moved)
+    , thickness(thickness)
   {
     facets_of_ridge.assign(moved.surface->ridges().size(), {{no_facet, no_facet}});
     for (unsigned int facet = 0; facet < moved.surface->facets().size(); ++facet)
       {
-        const auto   area = area_vector(nodes(facet));
+        const auto   area = area_vector(moved.nodes(facet));
         const double size = area.norm();
         normals.push_back(size > 0 ? area / size : area);
         for (const unsigned int ridge : moved.surface->ridges(facet))
@@ -29,8 +30,8 @@ namespace undine
 
 
   template <int dim>
-  typename Obstruction<dim>::Patch
-  SurfaceQueries<dim>::patch(const std::vector<FacetImage> &images) const
+  typename SurfaceWalls<dim>::Patch
+  SurfaceWalls<dim>::patch(const std::vector<FacetImage> &images) const
   {
     const auto for_each_place = [&](const auto &action) {
       for (const auto &image : images)
@@ -38,11 +39,11 @@ namespace undine
           action(dealii::Point<dim>(moved.positions[node] - image.to_facet));
     };
 
-    typename Obstruction<dim>::Patch patch;
-    auto                            &slab    = patch.slab;
-    double                           largest = 0; // area of a facet
+    Patch  patch;
+    auto  &slab    = patch.slab;
+    double largest = 0; // area of a facet
     for (const auto &image : images)
-      if (const double area = area_vector(nodes(image.facet)).norm(); area > largest)
+      if (const double area = area_vector(moved.nodes(image.facet)).norm(); area > largest)
         {
           largest     = area;
           slab.normal = normals[image.facet];
@@ -76,9 +77,9 @@ namespace undine
 
   template <int dim>
   bool
-  SurfaceQueries<dim>::has_rim(const FacetImage               &image,
-                               const dealii::Tensor<1, dim>   &normal,
-                               const dealii::BoundingBox<dim> &box) const
+  SurfaceWalls<dim>::has_rim(const FacetImage               &image,
+                             const dealii::Tensor<1, dim>   &normal,
+                             const dealii::BoundingBox<dim> &box) const
   {
     const auto &numbers = moved.surface->ridges(image.facet);
     for (unsigned int k = 0; k < dim; ++k)
@@ -99,9 +100,9 @@ namespace undine
 
   template <int dim>
   bool
-  SurfaceQueries<dim>::is_wall(const std::vector<FacetImage>  &images,
-                               const Slab                     &slab,
-                               const dealii::BoundingBox<dim> &box) const
+  SurfaceWalls<dim>::is_wall(const std::vector<FacetImage>  &images,
+                             const Slab                     &slab,
+                             const dealii::BoundingBox<dim> &box) const
   {
     const double steep = std::sqrt(.5);
     for (const auto &image : images)
@@ -115,20 +116,6 @@ namespace undine
   }
 
 
-  template void
-  SurfaceQueries<2>::find_neighbours();
-  template void
-  SurfaceQueries<3>::find_neighbours();
-  template typename Obstruction<2>::Patch
-  SurfaceQueries<2>::patch(const std::vector<FacetImage> &) const;
-  template typename Obstruction<3>::Patch
-  SurfaceQueries<3>::patch(const std::vector<FacetImage> &) const;
-  template bool
-  SurfaceQueries<2>::is_wall(const std::vector<FacetImage> &,
-                             const Slab &,
-                             const dealii::BoundingBox<2> &) const;
-  template bool
-  SurfaceQueries<3>::is_wall(const std::vector<FacetImage> &,
-                             const Slab &,
-                             const dealii::BoundingBox<3> &) const;
+  template class SurfaceWalls<2>;
+  template class SurfaceWalls<3>;
 } // namespace undine

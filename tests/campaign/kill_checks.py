@@ -4,7 +4,7 @@ import os
 import sys
 import xml.etree.ElementTree
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "checks"))
 import scene_tools  # noqa: E402
 
 TOLERANCE = 1e-8  # of the largest number of a unit, on other numbers of ranks

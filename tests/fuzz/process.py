@@ -12,8 +12,8 @@ import tempfile
 import threading
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-import scene_tools  # noqa: E402  beside the folder of this file
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "checks"))
+import scene_tools  # noqa: E402  in tests/checks
 
 GIGABYTE = 1e9
 WATCH = 0.25  # seconds between looks at the memory

@@ -3,35 +3,14 @@
 #define undine_cutting_component_finder_h
 
 #include <undine/cutting/cut_workspace.h>
+#include <undine/cutting/part_sums.h>
 
+#include <array>
 #include <utility>
 #include <vector>
 
 namespace undine
 {
-  /// Volume, first moments and extent of a part of a cell, relative to the cell's lower corner.
-  template <int dim>
-  struct PartSums
-  {
-    double                 volume = 0; ///< [m^dim]
-    dealii::Tensor<1, dim> moment;     ///< integral of the coordinates [m^(dim+1)]
-    dealii::Point<dim>     lower, upper;
-    bool                   empty = true; ///< nothing has been included
-
-    /// Enlarge the extent by a place [m].
-    void
-    include(const dealii::Point<dim> &place);
-
-    /// Add the sums and the extent of another part.
-    void
-    add(const PartSums &other);
-
-    /// [m], within the extent.
-    dealii::Point<dim>
-    centroid() const;
-  };
-
-
   /// Finds the components of the fluid in the last of cut.cells. Its faces are known.
   ///
   /// find() appends components, fragments and their corners, sets the component on this side of the
@@ -138,13 +117,6 @@ namespace undine
 
     std::vector<int> islands, targets, numbers;
   };
-
-
-  /// Largest |sum a n + sum N| of the components of the last cell, each direction relative to the
-  /// area of a face normal to it.
-  template <int dim>
-  double
-  closure_defect(CutWorkspace<dim> &work, const CutCells<dim> &cut);
 } // namespace undine
 
 #endif

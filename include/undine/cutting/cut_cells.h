@@ -2,7 +2,7 @@
 #ifndef undine_cutting_cut_cells_h
 #define undine_cutting_cut_cells_h
 
-#include <undine/cutting/grid_planes.h>
+#include <undine/cutting/grid_block.h>
 #include <undine/cutting/keyed_lists.h>
 #include <undine/cutting/node_windings.h>
 #include <undine/fluid/boundary/no_slip_surfaces.h>

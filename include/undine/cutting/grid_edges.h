@@ -2,7 +2,7 @@
 #ifndef undine_cutting_grid_edges_h
 #define undine_cutting_grid_edges_h
 
-#include <undine/cutting/grid_planes.h>
+#include <undine/cutting/grid_block.h>
 #include <undine/cutting/node_windings.h>
 #include <undine/cutting/split_surface.h>
 #include <undine/surface/surface.h>

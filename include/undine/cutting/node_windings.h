@@ -2,7 +2,7 @@
 #ifndef undine_cutting_node_windings_h
 #define undine_cutting_node_windings_h
 
-#include <undine/cutting/grid_planes.h>
+#include <undine/cutting/grid_block.h>
 #include <undine/fluid/grid/blocks.h>
 
 #include <cstdint>

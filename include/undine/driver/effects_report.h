@@ -3,7 +3,7 @@
 #define undine_driver_effects_report_h
 
 #include <undine/base/core/timing.h>
-#include <undine/driver/adviser.h>
+#include <undine/driver/advice.h>
 #include <undine/driver/log.h>
 #include <undine/scene/scene.h>
 

@@ -5,7 +5,8 @@
 #include <undine/fluid/grid/mac_grid.h>
 #include <undine/fluid/visibility/obstruction.h>
 #include <undine/surface/facet_geometry.h>
-#include <undine/surface/surface.h>
+#include <undine/surface/moved_surface.h>
+#include <undine/surface/surface_walls.h>
 
 #include <array>
 #include <memory>
@@ -14,16 +15,6 @@
 
 namespace undine
 {
-  /// A surface and its motion during the last step.
-  template <int dim>
-  struct MovedSurface
-  {
-    const Surface<dim>                 *surface;
-    std::vector<dealii::Point<dim>>     old_positions; ///< of the nodes, before the step [m]
-    std::vector<dealii::Point<dim>>     positions;     ///< after it [m]
-    std::vector<dealii::Tensor<1, dim>> velocities;    ///< [m/s]
-  };
-
   /// Geometric queries about a surface, in a time that grows with the logarithm of the number of
   /// its facets (R-tree of their boxes).
   ///
@@ -80,22 +71,6 @@ namespace undine
   private:
     struct Trees;
 
-    void
-    find_neighbours();
-
-    /// Has a facet whose normal is less than 90 degrees away from `normal` a ridge near `box`
-    /// beyond which there is none such?
-    bool
-    has_rim(const FacetImage               &image,
-            const dealii::Tensor<1, dim>   &normal,
-            const dealii::BoundingBox<dim> &box) const;
-
-    std::array<dealii::Point<dim>, dim>
-    nodes(const unsigned int facet) const;
-
-    std::array<dealii::Point<dim>, dim>
-    old_nodes(const unsigned int facet) const;
-
     /// Has a facet swept `place` in the last step?
     bool
     passes_over(const unsigned int facet, const dealii::Point<dim> &place) const;
@@ -104,14 +79,10 @@ namespace undine
     std::array<double, dim>      periods; ///< [m]; 0: not periodic
     double                       thickness;
     std::vector<ThickFacet<dim>> thick_facets;
-
-    static constexpr unsigned int no_facet = -1;
-
-    std::vector<dealii::Tensor<1, dim>>      normals;         ///< of facets, unit or zero
-    std::vector<std::array<unsigned int, 2>> facets_of_ridge; ///< or no_facet
     std::vector<std::pair<dealii::BoundingBox<dim>, unsigned int>>
                                  swept_boxes; ///< around what facets that moved have swept
     std::unique_ptr<const Trees> trees;
+    std::unique_ptr<const SurfaceWalls<dim>> walls;
   };
 } // namespace undine
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/options/options.h>
+#include <undine/base/options/options_output.h>
 #include <undine/base/options/utf8.h>
 
 #include <boost/property_tree/json_parser.hpp>
@@ -48,10 +48,10 @@ namespace undine
     /// What the scene does not assign stays a comment: parts may ask what was given, and the file
     /// must give the same run.
     void
-    write_prm_section(std::ostream      &out,
-                      const SectionTree &tree,
-                      ParameterFile     &scene,
-                      const std::string &indent)
+    write_prm_section(std::ostream        &out,
+                      const SectionTree   &tree,
+                      const ParameterFile &scene,
+                      const std::string   &indent)
     {
       for (const auto *entry : tree.entries)
         {
@@ -147,22 +147,22 @@ namespace undine
 
 
   void
-  Options::write_prm(std::ostream &out) const
+  write_prm(std::ostream &out, const Options &options)
   {
-    write_prm_section(out, sort_by_section(entries()), store->file, "");
+    write_prm_section(out, sort_by_section(options.entries()), options.file(), "");
   }
 
 
   void
-  Options::write_json(std::ostream &out) const
+  write_json(std::ostream &out, const Options &options)
   {
-    boost::property_tree::write_json(out, json_section(sort_by_section(entries())));
+    boost::property_tree::write_json(out, json_section(sort_by_section(options.entries())));
   }
 
 
   void
-  Options::write_reference(std::ostream &out) const
+  write_reference(std::ostream &out, const Options &options)
   {
-    write_reference_section(out, sort_by_section(entries()), "");
+    write_reference_section(out, sort_by_section(options.entries()), "");
   }
 } // namespace undine

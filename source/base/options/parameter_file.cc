@@ -296,6 +296,14 @@ namespace undine
   }
 
 
+  const ParameterFile::Assignment *
+  ParameterFile::find(const std::string &path) const
+  {
+    const auto found = assignments.find(path);
+    return found == assignments.end() ? nullptr : &found->second;
+  }
+
+
   std::vector<std::string>
   ParameterFile::subsections(const std::string &path) const
   {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/adaptivity/sleeping_bodies.h>
 #include <undine/coupled/scheme/stepping_scheme.h>
+#include <undine/coupled/step/fluid_alone.h>
 #include <undine/coupled/step/one_way.h>
-#include <undine/coupled/step/single_physics.h>
+#include <undine/coupled/step/solid_alone.h>
 
 #include <fmt/format.h>
 

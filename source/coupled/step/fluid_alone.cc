@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/step/single_physics.h>
+#include <undine/coupled/step/fluid_alone.h>
 
 namespace undine
 {

@@ -4,6 +4,8 @@
 #include <undine/output/checkpoint/particle_arrays.h>
 #include <undine/output/checkpoint/state_arrays.h>
 #include <undine/output/files/files.h>
+#include <undine/output/files/hdf5_reader.h>
+#include <undine/output/files/hdf5_writer.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/fields/patches.h>
-#include <undine/output/files/files.h>
+#include <undine/output/files/shared_file.h>
 
 #include <sstream>
 

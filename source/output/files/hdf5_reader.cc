@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/files/files.h>
-#include <undine/output/files/hdf5_file.h>
 #include <undine/output/files/hdf5_handle.h>
+#include <undine/output/files/hdf5_reader.h>
 
 #include <algorithm>
 

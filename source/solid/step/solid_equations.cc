@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/errors.h>
 #include <undine/solid/assembly/internal_forces.h>
 #include <undine/solid/assembly/loads.h>
 #include <undine/solid/assembly/prescribed_motion.h>
 #include <undine/solid/assembly/sparse.h>
 #include <undine/solid/assembly/sums_by_body.h>
 #include <undine/solid/solvers/mass_solve.h>
+#include <undine/solid/step/balance_terms.h>
 #include <undine/solid/step/solid_equations.h>
 
 #include <algorithm>
@@ -31,9 +31,10 @@ namespace undine
     , dt(dt)
     , timing(timing)
     , nodal_forces(nodal_forces)
-    , contact(environment.contact.get())
-    , contact_start(contact_start)
     , coefficients(model.numerics().integrator->coefficients(dt))
+    , motion(model, old_state, coefficients, time, dt)
+    , rayleigh_damping(model, mass, environment, timing)
+    , contact(environment.contact.get(), contact_start, model, old_state, time, dt, timing)
     , has_pressure(has_pressure_loads(model))
     , own_rounding(rounding_of_forces(
         model, old_state.displacement.linfty_norm() + dt * old_state.velocity.linfty_norm()))
@@ -42,32 +43,8 @@ namespace undine
   {
     const auto timed = timing.section("assemble forces");
     timing.memory.hold("deformable bodies", mass.memory_consumption());
-    if (contact)
-      contact->begin_stage();
-    if (environment.stiffness_damping > 0 && coefficients.damping != 0)
-      find_damping_stiffness();
+    rayleigh_damping.assemble(motion);
     find_known_forces();
-  }
-
-
-  template <int dim>
-  void
-  SolidEquations<dim>::find_damping_stiffness()
-  {
-    const auto timed        = timing.section("damping");
-    Vector     displacement = old_state.displacement;
-    displacement.add(coefficients.damping_position * dt, old_state.velocity);
-    try
-      {
-        damping_stiffness.reinit(model.matrix());
-        damping_stiffness.add(1., internal_stiffness(model, displacement));
-      }
-    catch (const SolveError &)
-      {
-        // The extrapolation may invert a cell where d^n does not.
-        damping_stiffness.add(1., internal_stiffness(model, old_state.displacement));
-      }
-    timing.memory.hold_briefly("damping", damping_stiffness.memory_consumption());
   }
 
 
@@ -90,30 +67,6 @@ namespace undine
       change.add(coefficients.mass_old_acceleration, old_state.acceleration);
     mass.vmult(result, change);
     return result;
-  }
-
-
-  /// forces += factor C velocity.
-  template <int dim>
-  void
-  SolidEquations<dim>::add_damping(Vector       &forces,
-                                   const Vector &velocity,
-                                   const double  factor) const
-  {
-    if (environment.mass_damping == 0 && damping_stiffness.m() == 0)
-      return;
-    const auto timed   = timing.section("damping");
-    Vector     product = model.vector();
-    if (environment.mass_damping > 0)
-      {
-        mass.vmult(product, velocity);
-        forces.add(factor * environment.mass_damping, product);
-      }
-    if (damping_stiffness.m() > 0)
-      {
-        damping_stiffness.vmult(product, velocity);
-        forces.add(factor * environment.stiffness_damping, product);
-      }
   }
 
 
@@ -143,7 +96,7 @@ namespace undine
     if (coefficients.mass != 0)
       own_rounding += std::numeric_limits<double>::epsilon() * inertia(model.vector()).l2_norm();
     if (coefficients.damping_old_velocity != 0)
-      add_damping(known, old_state.velocity, coefficients.damping_old_velocity);
+      rayleigh_damping.add_forces(known, old_state.velocity, coefficients.damping_old_velocity);
     for (const auto &stage : coefficients.stages)
       {
         const Vector loads = dead_loads(model, environment, time + stage.position * dt, &timing);
@@ -179,78 +132,6 @@ namespace undine
 
   template <int dim>
   typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::guess() const
-  {
-    Vector velocity = old_state.velocity;
-    prescribe_velocity(velocity, model, time + dt, dt);
-    return velocity;
-  }
-
-
-  template <int dim>
-  typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::guess_at_rest() const
-  {
-    Vector velocity = model.vector();
-    velocity.add(-coefficients.displacement_velocity / coefficients.displacement,
-                 old_state.velocity);
-    if (coefficients.displacement_acceleration != 0)
-      velocity.add(-coefficients.displacement_acceleration / coefficients.displacement,
-                   old_state.acceleration);
-    prescribe_velocity(velocity, model, time + dt, dt);
-    return velocity;
-  }
-
-
-  /// d^{n+1} - d^n at free degrees of freedom [m].
-  template <int dim>
-  typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::free_increment(const Vector &velocity) const
-  {
-    Vector result = velocity;
-    result *= coefficients.displacement;
-    result.add(coefficients.displacement_velocity, old_state.velocity);
-    if (coefficients.displacement_acceleration != 0)
-      result.add(coefficients.displacement_acceleration, old_state.acceleration);
-    return result;
-  }
-
-
-  template <int dim>
-  typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::increment(const Vector &velocity) const
-  {
-    Vector result = free_increment(velocity);
-    clear_fixed(result, model);
-    result.add(1., prescribed_increment());
-    return result;
-  }
-
-
-  template <int dim>
-  typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::displacement(const Vector &velocity) const
-  {
-    Vector result = free_increment(velocity);
-    result.add(1., old_state.displacement);
-    prescribe_displacement(result, model, time + dt);
-    return result;
-  }
-
-
-  template <int dim>
-  typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::stage_displacement(const Vector &end_displacement,
-                                          const double  position) const
-  {
-    Vector result = end_displacement;
-    result.sadd(position, 1 - position, old_state.displacement);
-    return result;
-  }
-
-
-  template <int dim>
-  typename SolidEquations<dim>::Vector
   SolidEquations<dim>::full_residual(const Vector &velocity)
   {
     const auto timed  = timing.section("assemble forces");
@@ -263,12 +144,12 @@ namespace undine
         result.add(1., change);
       }
     if (coefficients.damping != 0)
-      add_damping(result, velocity, coefficients.damping);
+      rayleigh_damping.add_forces(result, velocity, coefficients.damping);
     const Vector end = displacement(velocity);
     for (const auto &stage : coefficients.stages)
       if (stage.position > 0)
-        add_stage(result, stage, stage_displacement(end, stage.position));
-    const Vector pushes = contact_forces(end);
+        add_stage(result, stage, motion.stage_displacement(end, stage.position));
+    const Vector pushes = contact.forces(end);
     if (pushes.size() > 0)
       {
         note_size(pushes, 1);
@@ -299,27 +180,14 @@ namespace undine
   }
 
 
-  /// d^{n+1} - d^n at fixed degrees of freedom, zero elsewhere [m].
-  template <int dim>
-  typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::prescribed_increment() const
-  {
-    Vector result = model.vector();
-    prescribe_displacement(result, model, time + dt);
-    for (const auto &fixed : model.fixed())
-      result(fixed.dof) -= old_state.displacement(fixed.dof);
-    result.compress(dealii::VectorOperation::add);
-    return result;
-  }
-
-
   template <int dim>
   typename SolidEquations<dim>::LinearSystem
   SolidEquations<dim>::motion_predictor() const
   {
-    Vector jump = prescribed_increment();
+    Vector jump = motion.prescribed_increment();
     jump *= -1 / coefficients.displacement;
-    LinearSystem system{full_jacobian(old_state.displacement, last_place()), model.vector()};
+    LinearSystem system{full_jacobian(old_state.displacement, contact.last_place()),
+                        model.vector()};
     system.matrix.vmult(system.right_side, jump);
     clear_fixed(system.right_side, model);
     fix_rows_and_columns(system.matrix, model.all_fixed());
@@ -337,7 +205,7 @@ namespace undine
       if (stage.position > 0)
         {
           const double factor = stage.weight * stage.position * coefficients.displacement;
-          const Vector d      = stage_displacement(end, stage.position);
+          const Vector d      = motion.stage_displacement(end, stage.position);
           result.add(factor, internal_stiffness(model, d));
           if (has_pressure)
             result.add(-factor, pressure_stiffness(model, d, time + stage.position * dt));
@@ -345,40 +213,10 @@ namespace undine
     const double mass_factor = coefficients.mass + coefficients.damping * environment.mass_damping;
     if (mass_factor != 0)
       result.add(mass_factor, mass);
-    if (damping_stiffness.m() > 0)
-      result.add(coefficients.damping * environment.stiffness_damping, damping_stiffness);
-    if (contact)
-      {
-        const auto timed = timing.section("contact");
-        contact->add_stiffness(
-          result, contact_start.weight * coefficients.displacement, in_contact, time + dt);
-      }
+    rayleigh_damping.add_stiffness(result, coefficients.damping);
+    contact.add_stiffness(result, coefficients.displacement, in_contact);
     timing.memory.hold_briefly("deformable bodies", result.memory_consumption());
     return result;
-  }
-
-
-  template <int dim>
-  bool
-  SolidEquations<dim>::is_static() const
-  {
-    return coefficients.mass == 0;
-  }
-
-
-  template <int dim>
-  double
-  SolidEquations<dim>::scale() const
-  {
-    return largest_term;
-  }
-
-
-  template <int dim>
-  double
-  SolidEquations<dim>::rounding() const
-  {
-    return own_rounding;
   }
 
 
@@ -436,9 +274,9 @@ namespace undine
       for (const auto &stage : coefficients.stages)
         defect.add(-stage.weight,
                    pressure_loads(model,
-                                  stage_displacement(displacement(velocity), stage.position),
+                                  motion.stage_displacement(displacement(velocity), stage.position),
                                   time + stage.position * dt));
-    const Vector pushes = contact_forces(displacement(velocity));
+    const Vector pushes = contact.forces(displacement(velocity));
     if (pushes.size() > 0)
       defect.add(-1., pushes);
     // Where nothing acts, rounding is no lack of balance.
@@ -447,6 +285,74 @@ namespace undine
     std::vector<double> result;
     for (const auto &force : sums_by_body(model, defect))
       result.push_back(size > 0 ? force.norm() / size : 0);
+    return result;
+  }
+
+
+  template <int dim>
+  SolidBalance<dim>
+  SolidEquations<dim>::balance(const Vector &velocity, const Vector &reactions) const
+  {
+    const Vector end                    = displacement(velocity);
+    const Vector displacement_increment = increment(velocity);
+
+    SolidBalance<dim> result;
+    Vector            damping = model.vector();
+    rayleigh_damping.add_forces(damping, velocity, coefficients.damping);
+    rayleigh_damping.add_forces(damping, old_state.velocity, coefficients.damping_old_velocity);
+    for (const auto &stage : coefficients.stages)
+      for (const auto &[effect, force] :
+           effect_loads(model, environment, time + stage.position * dt))
+        result.loads_by_effect[effect] +=
+          stage.weight / coefficients.sum_of_weights() * (force * displacement_increment);
+    Vector loads = dead;
+    if (nodal_forces.size() > 0)
+      {
+        result.nodal = nodal_forces * displacement_increment;
+        loads.add(-1., nodal_forces);
+      }
+    if (has_pressure)
+      for (const auto &stage : coefficients.stages)
+        loads.add(stage.weight,
+                  pressure_loads(model,
+                                 motion.stage_displacement(end, stage.position),
+                                 time + stage.position * dt));
+    // Those against given forces act un-averaged, as these do.
+    const double weight   = coefficients.sum_of_weights();
+    const Vector averaged = weighted(reactions);
+    result.supports       = reactions * displacement_increment;
+    result.supports_force = resultant(model, reactions);
+    if (coefficients.mass != 0)
+      balance_inertia(result, motion, mass, inertia(velocity), velocity, displacement_increment);
+    balance_elasticity(result, motion, end, displacement_increment, own_rounding);
+    contact.balance(result, end, displacement_increment);
+
+    result.damping       = damping * displacement_increment / weight;
+    result.loads         = loads * displacement_increment / weight;
+    result.damping_force = -resultant(model, damping) / weight;
+    result.loads_force   = resultant(model, loads) / weight;
+    Vector rest          = reactions;
+    rest.add(-1., averaged);
+    rest.add(1 / weight - 1, loads);
+    rest.add(1 - 1 / weight, damping);
+    result.inertia_loss += rest * displacement_increment;
+    result.inertia_gap += dt * resultant(model, rest);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::contact_velocity(const Vector &velocity) const
+  {
+    if (!contact.is_told_apart())
+      return {};
+    Vector result = contact.forces(displacement(velocity));
+    if (result.size() > 0)
+      {
+        result = solve_mass(model, mass, result, model.vector());
+        result *= dt;
+      }
     return result;
   }
 

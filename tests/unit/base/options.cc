@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/options/options.h>
+#include <undine/base/options/options_output.h>
 #include <undine/base/options/utf8.h>
 
 #include <catch2/catch.hpp>
@@ -49,7 +49,7 @@ TEST_CASE("values are read, checked and written back", "[options]")
   options.assert_all_used();
 
   std::ostringstream prm;
-  options.write_prm(prm);
+  write_prm(prm, options);
   const auto again = read(prm.str());
   double     same  = 0;
   again.section("Time").add("Step", same, "s", Allowed::positive(), "The step.");
@@ -236,7 +236,7 @@ TEST_CASE("any text comes back from parameters.prm as it was", "[options]")
       options.add("Title", title, "m", Allowed::anything(), "A title.");
       CHECK(title == text);
       std::ostringstream prm;
-      options.write_prm(prm);
+      write_prm(prm, options);
       std::string again;
       read(prm.str() + "set Other = 1\n").add("Title", again, "", Allowed::anything(), "A title.");
       CHECK(again == text);
@@ -333,7 +333,7 @@ TEST_CASE("texts that are no UTF-8 are shown and written to JSON as what can be 
   options.add("Title", title, "", Allowed::anything(), "What it is called.");
   CHECK(title == "a\xff");
   std::ostringstream json;
-  options.write_json(json);
+  write_json(json, options);
   CHECK(is_utf8(json.str()));
 }
 

@@ -2,7 +2,7 @@
 #ifndef undine_tests_obstacle_run_h
 #define undine_tests_obstacle_run_h
 
-#include <undine/coupled/step/single_physics.h>
+#include <undine/coupled/step/fluid_alone.h>
 
 #include <catch2/catch.hpp>
 #include <effects/flow_run.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/fields/solution_parts.h>
-#include <undine/output/files/hdf5_file.h>
+#include <undine/output/files/hdf5_reader.h>
 #include <undine/output/output.h>
 #include <undine/output/probes/probe.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/files/schedule.h>
+#include <undine/output/files/shared_file.h>
 #include <undine/output/files/time_records.h>
 #include <undine/output/statistics_file.h>
 

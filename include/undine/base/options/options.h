@@ -7,7 +7,6 @@
 #include <undine/base/options/parameter_file.h>
 #include <undine/base/options/values.h>
 
-#include <iosfwd>
 #include <memory>
 #include <set>
 #include <string>
@@ -196,18 +195,6 @@ namespace undine
 
     const ParameterFile &
     file() const;
-
-    /// Everything used, as a parameter file that gives the same run.
-    void
-    write_prm(std::ostream &out) const;
-
-    /// The same as JSON.
-    void
-    write_json(std::ostream &out) const;
-
-    /// All entries with unit, range, default and help, as Markdown.
-    void
-    write_reference(std::ostream &out) const;
 
   private:
     struct Store

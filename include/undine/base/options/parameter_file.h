@@ -51,8 +51,12 @@ namespace undine
     escaped(const std::string &value);
 
     /// The assignment of `path` ("Section/Key"), or nullptr if the scene has none.
+    /// @{
     Assignment *
     find(const std::string &path);
+    const Assignment *
+    find(const std::string &path) const;
+    /// @}
 
     /// The names of the subsections of `path` that the scene mentions, in order of appearance.
     std::vector<std::string>

@@ -3,7 +3,7 @@
 #define undine_output_checkpoint_particle_arrays_h
 
 #include <undine/output/checkpoint/state_arrays.h>
-#include <undine/output/files/hdf5_file.h>
+#include <undine/output/files/hdf5_reader.h>
 #include <undine/particles/model/particle_state.h>
 
 #include <vector>

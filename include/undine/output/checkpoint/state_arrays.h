@@ -4,7 +4,7 @@
 
 #include <undine/coupled/model/models.h>
 #include <undine/coupled/state/state.h>
-#include <undine/output/files/hdf5_file.h>
+#include <undine/output/files/selection.h>
 
 #include <string>
 #include <vector>

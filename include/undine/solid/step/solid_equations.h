@@ -2,12 +2,8 @@
 #ifndef undine_solid_step_solid_equations_h
 #define undine_solid_step_solid_equations_h
 
-#include <undine/base/core/timing.h>
-#include <undine/solid/assembly/contact.h>
-#include <undine/solid/assembly/solid_environment.h>
-#include <undine/solid/mesh/solid_model.h>
-#include <undine/solid/mesh/solid_state.h>
-#include <undine/solid/step/solid_balance.h>
+#include <undine/solid/step/rayleigh_damping.h>
+#include <undine/solid/step/step_contact.h>
 
 #include <vector>
 
@@ -42,24 +38,36 @@ namespace undine
 
     /// A first u [m/s]: u^n with prescribed velocities in place.
     Vector
-    guess() const;
+    guess() const
+    {
+      return motion.guess();
+    }
 
     /// A first u [m/s] that keeps d^{n+1} = d^n, the point at which one Newton correction is a
     /// linearisation at d^n. Fixed degrees of freedom have moved, so that this is admissible only
     /// with the change of u that motion_predictor() gives.
     Vector
-    guess_at_rest() const;
+    guess_at_rest() const
+    {
+      return motion.guess_at_rest();
+    }
 
     /// The u nearest to `guess`, on the segment that begins at the velocity which leads to the last
     /// position of the bodies (ContactStart), up to which no gap closes (Contact). `guess` itself
     /// without contact. Throws SolveError if supports or obstacles alone close a gap. Collective.
     Vector
-    kept_apart(const Vector &guess) const;
+    kept_apart(const Vector &guess) const
+    {
+      return contact.kept_apart(guess, motion);
+    }
 
     /// The part of `correction` that can be added to `velocity` without closing a gap [1].
     /// Collective.
     double
-    free_part(const Vector &velocity, const Vector &correction) const;
+    free_part(const Vector &velocity, const Vector &correction) const
+    {
+      return contact.free_part(velocity, correction, motion);
+    }
 
     /// matrix times the unknown = right_side.
     struct LinearSystem
@@ -72,7 +80,7 @@ namespace undine
     bool
     has_motion() const
     {
-      return prescribed_increment().linfty_norm() > 0;
+      return motion.prescribed_increment().linfty_norm() > 0;
     }
 
     /// Linearised at d^n: the change of u at free degrees of freedom by which the bodies follow the
@@ -115,11 +123,17 @@ namespace undine
 
     /// d^{n+1} [m].
     Vector
-    displacement(const Vector &velocity) const;
+    displacement(const Vector &velocity) const
+    {
+      return motion.displacement(velocity);
+    }
 
     /// d^{n+1} - d^n [m], without what rounding leaves of the difference of both.
     Vector
-    increment(const Vector &velocity) const;
+    increment(const Vector &velocity) const
+    {
+      return motion.increment(velocity);
+    }
 
     /// d d^{n+1} / du at free degrees of freedom [s].
     double
@@ -140,14 +154,23 @@ namespace undine
 
     /// Does the step leave out inertia?
     bool
-    is_static() const;
+    is_static() const
+    {
+      return coefficients.mass == 0;
+    }
 
     /// Size of the terms of the residual evaluated last [N], and the norm that rounding gives their
     /// sum [N]. @{
     double
-    scale() const;
+    scale() const
+    {
+      return largest_term;
+    }
     double
-    rounding() const;
+    rounding() const
+    {
+      return own_rounding;
+    }
     /// @}
 
   private:
@@ -156,41 +179,13 @@ namespace undine
     Vector
     weighted(const Vector &reactions) const;
     Vector
-    free_increment(const Vector &velocity) const;
-    Vector
-    stage_displacement(const Vector &end_displacement, double position) const;
-    Vector
     inertia(const Vector &velocity) const;
     void
-    add_damping(Vector &forces, const Vector &velocity, double factor) const;
-    void
     add_stage(Vector &forces, const StepCoefficients::Stage &stage, const Vector &displacement);
-    void
-    balance_inertia(SolidBalance<dim> &result,
-                    const Vector      &velocity,
-                    const Vector      &displacement_increment) const;
-    void
-    balance_elasticity(SolidBalance<dim> &result,
-                       const Vector      &end,
-                       const Vector      &displacement_increment) const;
-    void
-    balance_contact(SolidBalance<dim> &result,
-                    const Vector      &end,
-                    const Vector      &displacement_increment) const;
     Matrix
     full_jacobian(const Vector &end_displacement, const Vector &in_contact) const;
-    Vector
-    contact_forces(const Vector &end_displacement) const;
-    const Vector &
-    last_place() const;
-    double
-    last_time() const;
-    Vector
-    prescribed_increment() const;
     void
     find_known_forces();
-    void
-    find_damping_stiffness();
     void
     note_size(const Vector &term, double factor);
 
@@ -202,11 +197,11 @@ namespace undine
     const double                 dt;
     TimingTree                  &timing;
     Vector                       nodal_forces;
-    const Contact<dim> *const    contact; ///< nullptr: none
-    const ContactStart           contact_start;
     const StepCoefficients       coefficients;
+    const StepMotion<dim>        motion;
+    RayleighDamping<dim>         rayleigh_damping;
+    const StepContact<dim>       contact;
     const bool                   has_pressure;
-    Matrix                       damping_stiffness; ///< K'(d^n + r h u^n); empty without damping
     double                       largest_known = 0; ///< size of the terms without u [N]
     double                       largest_term  = 0; ///< of all terms [N]
     double                       own_rounding;      ///< [N]

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_solid_step_step_contact_h
+#define undine_solid_step_step_contact_h
+
+#include <undine/base/core/timing.h>
+#include <undine/solid/assembly/contact.h>
+#include <undine/solid/step/solid_balance.h>
+#include <undine/solid/step/step_motion.h>
+
+namespace undine
+{
+  /// Contact of the bodies in one step, where forces of contact act at its end alone: nothing
+  /// without contact. All functions that take or return vectors are collective.
+  template <int dim>
+  class StepContact
+  {
+  public:
+    using Vector = typename SolidModel<dim>::Vector;
+    using Matrix = typename SolidModel<dim>::Matrix;
+
+    /// For the step from `old_state` at `time` [s] over `dt` [s]; begins its stage. `contact`:
+    /// nullptr if there is none. The references must outlive it.
+    StepContact(const Contact<dim>    *contact,
+                const ContactStart    &start,
+                const SolidModel<dim> &model,
+                const SolidState      &old_state,
+                double                 time,
+                double                 dt,
+                TimingTree            &timing);
+
+    /// The last displacement at which no gap was closed [m].
+    const Vector &
+    last_place() const;
+
+    /// weight (-dE/dd) at the end of the step [N]; empty if nothing touches.
+    Vector
+    forces(const Vector &end_displacement) const;
+
+    /// A += factor weight d^2E/dd^2 at the end of the step.
+    void
+    add_stiffness(Matrix &A, double factor, const Vector &end_displacement) const;
+
+    /// SolidEquations::kept_apart().
+    Vector
+    kept_apart(const Vector &guess, const StepMotion<dim> &motion) const;
+
+    /// SolidEquations::free_part().
+    double
+    free_part(const Vector          &velocity,
+              const Vector          &correction,
+              const StepMotion<dim> &motion) const;
+
+    /// Do the integrator or later stages need to know which part of the velocity is by contact?
+    bool
+    is_told_apart() const;
+
+    /// Set the terms of contact in a balance.
+    void
+    balance(SolidBalance<dim> &result,
+            const Vector      &end_displacement,
+            const Vector      &displacement_increment) const;
+
+  private:
+    double
+    last_time() const;
+
+    const Contact<dim> *const contact; ///< nullptr: none
+    const ContactStart        start;
+    const SolidModel<dim>    &model;
+    const SolidState         &old_state;
+    const double              time;
+    const double              dt;
+    TimingTree               &timing;
+  };
+} // namespace undine
+
+#endif

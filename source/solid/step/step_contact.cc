@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/solid/assembly/sums_by_body.h>
+#include <undine/solid/step/step_contact.h>
+
+namespace undine
+{
+  template <int dim>
+  StepContact<dim>::StepContact(const Contact<dim>    *contact,
+                                const ContactStart    &start,
+                                const SolidModel<dim> &model,
+                                const SolidState      &old_state,
+                                const double           time,
+                                const double           dt,
+                                TimingTree            &timing)
+    : contact(contact)
+    , start(start)
+    , model(model)
+    , old_state(old_state)
+    , time(time)
+    , dt(dt)
+    , timing(timing)
+  {
+    if (contact)
+      contact->begin_stage();
+  }
+
+
+  template <int dim>
+  const typename StepContact<dim>::Vector &
+  StepContact<dim>::last_place() const
+  {
+    return start.place.size() > 0 ? start.place : old_state.displacement;
+  }
+
+
+  template <int dim>
+  double
+  StepContact<dim>::last_time() const
+  {
+    return start.place.size() > 0 ? start.time : time;
+  }
+
+
+  template <int dim>
+  typename StepContact<dim>::Vector
+  StepContact<dim>::forces(const Vector &end) const
+  {
+    if (!contact)
+      return {};
+    const auto timed  = timing.section("contact");
+    Vector     result = contact->forces(end, time + dt);
+    if (result.size() > 0)
+      result *= start.weight;
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  StepContact<dim>::add_stiffness(Matrix &A, const double factor, const Vector &end) const
+  {
+    if (!contact)
+      return;
+    const auto timed = timing.section("contact");
+    contact->add_stiffness(A, start.weight * factor, end, time + dt);
+  }
+
+
+  template <int dim>
+  typename StepContact<dim>::Vector
+  StepContact<dim>::kept_apart(const Vector &guess, const StepMotion<dim> &motion) const
+  {
+    if (!contact)
+      return guess;
+    const auto timed = timing.section("contact");
+    // The velocity that leads to the last position, except at supports, which are where they are
+    // prescribed to be.
+    Vector still = motion.guess_at_rest();
+    still.add(1 / motion.coefficients().displacement, last_place());
+    still.add(-1 / motion.coefficients().displacement, old_state.displacement);
+    const Vector place = motion.displacement(still);
+    if (contact->free_part({last_place(), last_time()}, {place, time + dt}) < 1)
+      throw SolveError("supports or obstacles that move as prescribed run into a body within the "
+                       "step. Try: a smaller step, or another motion.");
+    Vector       displacement_increment = guess;
+    const double part =
+      contact->free_part({place, time + dt}, {motion.displacement(guess), time + dt});
+    if (part == 1)
+      return guess;
+    displacement_increment.add(-1., still);
+    still.add(part, displacement_increment);
+    return still;
+  }
+
+
+  template <int dim>
+  double
+  StepContact<dim>::free_part(const Vector          &velocity,
+                              const Vector          &correction,
+                              const StepMotion<dim> &motion) const
+  {
+    if (!contact)
+      return 1;
+    const auto timed = timing.section("contact");
+    Vector     end   = velocity;
+    end.add(1., correction);
+    return contact->free_part({motion.displacement(velocity), time + dt},
+                              {motion.displacement(end), time + dt});
+  }
+
+
+  template <int dim>
+  bool
+  StepContact<dim>::is_told_apart() const
+  {
+    return start.keeps_rates || model.numerics().integrator->uses_acceleration();
+  }
+
+
+  template <int dim>
+  void
+  StepContact<dim>::balance(SolidBalance<dim> &result,
+                            const Vector      &end,
+                            const Vector      &displacement_increment) const
+  {
+    if (!contact)
+      return;
+    const auto   timed = timing.section("contact");
+    const double before =
+      start.old_energy ? *start.old_energy : contact->energy(last_place(), last_time());
+    result.contact_energy = contact->energy(end, time + dt) - before;
+    const Vector pushes   = forces(end);
+    if (pushes.size() == 0)
+      return;
+    result.contact = pushes * displacement_increment;
+    for (const auto &of_body : sums_by_body(model, pushes))
+      result.contact_force += of_body;
+  }
+
+
+  template class StepContact<2>;
+  template class StepContact<3>;
+} // namespace undine
