@@ -26,7 +26,7 @@ TEST_CASE("20,000 triangles in a million cells: cut cells, open parts, forces")
       const double cutting   = seconds([&] {
         cut_block(cut, work, {surface, bodies.nodes}, grid.cells()->blocks());
       });
-      const double opening   = seconds([&] { make_fluid_topology(grid, cut); });
+      const double opening   = seconds([&] { make_cut_topology(grid, cut); });
       std::size_t  n_entries = 0;
       const double entries =
         seconds([&] { n_entries = BoundaryFlux<3>(cut, surface).entries().size(); });

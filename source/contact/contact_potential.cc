@@ -62,8 +62,8 @@ namespace undine
       second(const unsigned int i, const unsigned int j) const
       {
         const double factor = 2 * sign(i) * sign(j);
-        const auto   along  = [&](const auto &path) {
-          return factor * (path.norm_square() * unit<dim>() - outer_product(path, path));
+        const auto   along  = [&](const auto &edge) {
+          return factor * (edge.norm_square() * unit<dim>() - outer_product(edge, edge));
         };
         const auto across = [&](const auto &a, const auto &b) {
           return factor * (2. * outer_product(a, b) - outer_product(b, a) - (u * v) * unit<dim>());
@@ -94,30 +94,30 @@ namespace undine
       const double      turning = term.wall == term.no_wall ? slope / term.distance : 0;
 
       // The nearest points move along their simplices.
-      std::array<dealii::Point<dim>, dim> ways; // after the origin: difference vectors
+      std::array<dealii::Point<dim>, dim> vectors; // after the origin: difference vectors
       std::array<std::array<dealii::Tensor<1, dim>, dim + 1>, dim>
         mixed; // [difference vector][node]
-      for (unsigned int a = 0; a < term.n_ways; ++a)
+      for (unsigned int a = 0; a < term.n_edge_vectors; ++a)
         {
-          const auto &path = term.ways[a];
-          ways[a + 1]      = dealii::Point<dim>(
-            path.sign * (places[term.nodes[path.to]] - places[term.nodes[path.from]]));
+          const auto &edge = term.edge_vectors[a];
+          vectors[a + 1]   = dealii::Point<dim>(
+            edge.sign * (places[term.nodes[edge.to]] - places[term.nodes[edge.from]]));
           for (unsigned int i = 0; i < term.n; ++i)
             {
-              const int change = i == path.to ? path.sign : i == path.from ? -path.sign : 0;
+              const int change = i == edge.to ? edge.sign : i == edge.from ? -edge.sign : 0;
               mixed[a][i]      = (change * term.distance) * term.direction +
-                            term.shares[i] * dealii::Tensor<1, dim>(ways[a + 1]);
+                            term.shares[i] * dealii::Tensor<1, dim>(vectors[a + 1]);
             }
         }
-      const auto inverse = inverse_of_products<dim>(term.n_ways + 1, ways);
+      const auto inverse = inverse_of_products<dim>(term.n_edge_vectors + 1, vectors);
       for (unsigned int i = 0; i < term.n; ++i)
         for (unsigned int j = 0; j < term.n; ++j)
           {
             const double shares = term.shares[i] * term.shares[j];
             result[i][j]        = (shares * turning) * unit<dim>();
             result[i][j] += (shares * (curvature - turning)) * normal;
-            for (unsigned int a = 0; a < term.n_ways; ++a)
-              for (unsigned int b = 0; b < term.n_ways; ++b)
+            for (unsigned int a = 0; a < term.n_edge_vectors; ++a)
+              for (unsigned int b = 0; b < term.n_edge_vectors; ++b)
                 result[i][j] -= (turning * inverse[a][b]) * outer_product(mixed[a][i], mixed[b][j]);
           }
       return result;

@@ -113,7 +113,7 @@ namespace undine
               term.nodes[k + 1]  = nearest.inside.nodes[k];
               term.shares[k + 1] = -nearest.weights[k];
               if (k > 0)
-                term.ways[term.n_ways++] = {1, k + 1, -1};
+                term.edge_vectors[term.n_edge_vectors++] = {1, k + 1, -1};
             }
           term.distance = nearest.distance;
           if (nearest.distance > 0)
@@ -155,7 +155,7 @@ namespace undine
           term.shares.at(first)     = sign * (1 - nearest.parts[edge]);
           term.shares.at(first + 1) = sign * nearest.parts[edge];
           if (nearest.inside[edge])
-            term.ways[term.n_ways++] = {first, first + 1, sign};
+            term.edge_vectors[term.n_edge_vectors++] = {first, first + 1, sign};
         }
       term.distance = nearest.distance;
       if (nearest.distance > 0)

@@ -20,7 +20,7 @@ namespace undine
       dealii::Tensor<1, dim>              path;      ///< of the node against the facet's middle
       double                              speed = 0; ///< bound for the change of the distance
 
-      std::array<dealii::Tensor<1, dim>, dim> ways;
+      std::array<dealii::Tensor<1, dim>, dim> increments;
 
       double
       distance(const double part) const
@@ -31,7 +31,7 @@ namespace undine
         for (unsigned int k = 0; k < dim; ++k)
           {
             simplex.nodes[k] = k;
-            corners[k]       = facet[k] + part * ways[k];
+            corners[k]       = facet[k] + part * increments[k];
           }
         return nearest_in_simplex<dim>(simplex, corners, node + part * path).distance;
       }
@@ -52,9 +52,9 @@ namespace undine
       double spread = 0;
       for (unsigned int k = 0; k < dim; ++k)
         {
-          result.facet[k] = from[facet[k]];
-          result.ways[k]  = to[facet[k]] - from[facet[k]] - mean;
-          spread          = std::max(spread, result.ways[k].norm());
+          result.facet[k]      = from[facet[k]];
+          result.increments[k] = to[facet[k]] - from[facet[k]] - mean;
+          spread               = std::max(spread, result.increments[k].norm());
         }
       result.node  = from[node];
       result.path  = to[node] - from[node] - mean;
@@ -69,15 +69,15 @@ namespace undine
     {
       std::array<dealii::Point<dim>, 4> begin;
       std::array<dealii::Tensor<1, dim>, 4>
-             ways;      ///< displacement increments of the nodes, less their mean
-      double speed = 0; ///< bound for the change of the distance
+             increments; ///< displacement increments of the nodes, less their mean
+      double speed = 0;  ///< bound for the change of the distance
 
       double
       distance(const double part) const
       {
         auto x = begin;
         for (unsigned int i = 0; i < 4; ++i)
-          x[i] += part * ways[i];
+          x[i] += part * increments[i];
         return nearest_of_edges<dim>(x).distance;
       }
     };
@@ -98,12 +98,12 @@ namespace undine
         mean += (to[node] - from[node]) / 4;
       for (unsigned int i = 0; i < 4; ++i)
         {
-          result.begin[i] = from[nodes[i]];
-          result.ways[i]  = to[nodes[i]] - from[nodes[i]] - mean;
+          result.begin[i]      = from[nodes[i]];
+          result.increments[i] = to[nodes[i]] - from[nodes[i]] - mean;
         }
-      const auto &ways = result.ways;
-      result.speed =
-        std::max(ways[0].norm(), ways[1].norm()) + std::max(ways[2].norm(), ways[3].norm());
+      const auto &increments = result.increments;
+      result.speed           = std::max(increments[0].norm(), increments[1].norm()) +
+                     std::max(increments[2].norm(), increments[3].norm());
       return result;
     }
 

@@ -76,7 +76,7 @@ namespace undine
     void
     add_kept_cell(CutCells<dim> &cut, CutWorkspace<dim> &work, const std::int64_t key)
     {
-      const double defect = work.kept.add_cell(cut, key);
+      const double defect = work.cache.add_cell(cut, key);
       work.closure_defects.push_back(defect);
       cut.counts.closure = std::max(cut.counts.closure, defect);
     }
@@ -115,19 +115,19 @@ namespace undine
     {
       auto keys = keys_of_cut_cells(work.split);
       std::sort(keys.begin(), keys.end());
-      work.kept.compare(cut, work.split, placed);
+      work.cache.compare(cut, work.split, placed);
       for (const std::int64_t key : keys)
-        if (work.kept.hold(key))
-          work.kept.find_faces(cut, work, placed, key);
+        if (work.cache.hold(key))
+          work.cache.find_faces(cut, work, placed, key);
         else
           find_faces(cut, work, placed, cut.block.node(key));
       ComponentFinder<dim> finder;
       for (const std::int64_t key : keys)
-        if (work.kept.hold(key))
+        if (work.cache.hold(key))
           add_kept_cell(cut, work, key);
         else
           add_cell(cut, work, finder, placed, key);
-      work.kept.remember(cut, work, placed);
+      work.cache.remember(cut, work, placed);
       cut.counts.reordered_edges = work.grid_edges.n_reordered();
       drop_debris(cut);
       close_sampled_cells(cut);

@@ -82,7 +82,7 @@ namespace undine
                              const SplitSurface<dim>  &split,
                              const PlacedSurface<dim> &placed)
   {
-    n_cells_kept = 0;
+    n_cached_cells = 0;
     if (!knows(cut, placed))
       {
         slots.clear();
@@ -103,10 +103,10 @@ namespace undine
         bool       left = false; // has a facet moved that was in it?
         for (auto f = cell.fragments[0]; f < cell.fragments[1]; ++f)
           left = left || moves(fragments[f].fragment.facet);
-        cell.is_kept = split.failures == 0 && !left && has_facets(split, key) &&
-                       !any_facet(split, key, moves) &&
-                       cell.windings == windings_around(cut, cut.block.node(key));
-        n_cells_kept += cell.is_kept;
+        cell.is_cached = split.failures == 0 && !left && has_facets(split, key) &&
+                         !any_facet(split, key, moves) &&
+                         cell.windings == windings_around(cut, cut.block.node(key));
+        n_cached_cells += cell.is_cached;
       }
   }
 

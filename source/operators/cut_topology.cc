@@ -376,7 +376,7 @@ namespace undine
 
   template <int dim>
   CutTopology<dim>
-  make_fluid_topology(const MacGrid<dim> &grid, const CutCells<dim> &cut, const VoidMask &voids)
+  make_cut_topology(const MacGrid<dim> &grid, const CutCells<dim> &cut, const VoidMask &voids)
   {
     return PartsOfCut<dim>(grid, cut, voids).make();
   }
@@ -385,7 +385,7 @@ namespace undine
   template struct CutTopology<2>;
   template struct CutTopology<3>;
   template CutTopology<2>
-  make_fluid_topology(const MacGrid<2> &, const CutCells<2> &, const VoidMask &);
+  make_cut_topology(const MacGrid<2> &, const CutCells<2> &, const VoidMask &);
   template CutTopology<3>
-  make_fluid_topology(const MacGrid<3> &, const CutCells<3> &, const VoidMask &);
+  make_cut_topology(const MacGrid<3> &, const CutCells<3> &, const VoidMask &);
 } // namespace undine

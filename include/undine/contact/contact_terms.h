@@ -17,7 +17,7 @@ namespace undine
     static constexpr unsigned int no_wall = -1;
 
     /// A difference vector between two nodes along which a nearest point slides when nodes move.
-    struct Way
+    struct EdgeVector
     {
       unsigned int from, to; ///< positions in `nodes`
       int          sign;     ///< 1 on the side of the first nearest point, -1 on that of the second
@@ -28,13 +28,13 @@ namespace undine
     std::array<unsigned int, dim + 1> nodes{};  ///< n of them are used
     std::array<double, dim + 1>       shares{}; ///< of nodes in the nearest points, the second's
                                                 ///< negative: the sum of all is 0
-    unsigned int             n_ways = 0;
-    std::array<Way, dim - 1> ways;         ///< n_ways of them are used
-    dealii::Tensor<1, dim>   direction;    ///< from the second nearest point to the first
-    double                   distance = 0; ///< [m]
-    double                   area     = 0; ///< on which it acts, negative if it is taken
-                                           ///< off what others count twice [m^(dim-1)]
-    double       crossing = 0;             ///< of edges: e in (S17) [m^4]; 0: no edges
+    unsigned int                    n_edge_vectors = 0;
+    std::array<EdgeVector, dim - 1> edge_vectors; ///< n_edge_vectors of them are used
+    dealii::Tensor<1, dim>          direction;    ///< from the second nearest point to the first
+    double                          distance = 0; ///< [m]
+    double                          area     = 0; ///< on which it acts, negative if it is taken
+                                                  ///< off what others count twice [m^(dim-1)]
+    double       crossing = 0;                    ///< of edges: e in (S17) [m^4]; 0: no edges
     unsigned int wall     = no_wall;
   };
 

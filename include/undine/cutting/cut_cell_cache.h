@@ -37,14 +37,14 @@ namespace undine
     hold(const std::int64_t key) const
     {
       const int slot = slots.find(key);
-      return slot != IndexMap::none && cells[slot].is_kept;
+      return slot != IndexMap::none && cells[slot].is_cached;
     }
 
     /// Number of cached cells.
     int
-    n_kept() const
+    n_cached() const
     {
-      return n_cells_kept;
+      return n_cached_cells;
     }
 
     /// Find the faces of a cached cell: by find_face() if a cell that is not cached shares them,
@@ -77,7 +77,7 @@ namespace undine
 
     struct Cell
     {
-      bool                                 is_kept = false;
+      bool                                 is_cached = false;
       Windings                             windings;
       double                               closure_defect;
       std::array<std::size_t, 2>           components; ///< the first; one past the last
@@ -120,7 +120,7 @@ namespace undine
     std::vector<std::array<unsigned int, dim>>     facets;
     std::vector<dealii::Point<dim>>                positions; ///< last time [m]
     std::vector<char>                              has_moved; ///< since then, of each facet
-    int                                            n_cells_kept = 0;
+    int                                            n_cached_cells = 0;
     IndexMap                                       slots;
     std::vector<Cell>                              cells; ///< by slot
     std::vector<typename CutCells<dim>::Component> components;

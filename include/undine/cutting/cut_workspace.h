@@ -42,7 +42,7 @@ namespace undine
     std::vector<char>                   debris_piece;    ///< of each piece: PlanarRegion::debris
     std::vector<dealii::Tensor<1, dim>> closure;         ///< of each component of one cell
     std::vector<double>                 closure_defects; ///< of each cell
-    CutCellCache<dim>                   kept;
+    CutCellCache<dim>                   cache;
   };
 
 

@@ -75,9 +75,9 @@ namespace undine
   /// Collective.
   template <int dim>
   CutTopology<dim>
-  make_fluid_topology(const MacGrid<dim>  &grid,
-                      const CutCells<dim> &cut,
-                      const VoidMask      &voids = VoidMask());
+  make_cut_topology(const MacGrid<dim>  &grid,
+                    const CutCells<dim> &cut,
+                    const VoidMask      &voids = VoidMask());
 } // namespace undine
 
 #endif

@@ -9,7 +9,7 @@ namespace undine
   /// Mark as VoidMask::pocket, among the fluid that `voids` leaves, the connected regions that lie
   /// in sampled cells alone: what overlapping bodies seem to enclose between them is no larger than
   /// the resolution of the samples, and fluid that moving bodies displace there could not leave.
-  /// `parts` comes from make_fluid_topology(grid, cut, voids) and must be made anew afterwards.
+  /// `parts` comes from make_cut_topology(grid, cut, voids) and must be made anew afterwards.
   /// Collective.
   template <int dim>
   void

@@ -20,9 +20,9 @@ namespace undine
   ///
   /// They are found anew for every position of the bodies:
   ///
-  ///     const auto all   = make_fluid_topology(grid, cut);
+  ///     const auto all   = make_cut_topology(grid, cut);
   ///     const auto voids = void_regions.find(cut, all, obstruction, last_voids);
-  ///     const auto parts = make_fluid_topology(grid, cut, voids);
+  ///     const auto parts = make_cut_topology(grid, cut, voids);
   template <int dim>
   class VoidRegions
   {

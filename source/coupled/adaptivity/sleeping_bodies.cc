@@ -38,7 +38,7 @@ namespace undine
     {
       if (models.surface)
         return std::make_unique<const BodySurface<dim>>(*models.surface->bodies());
-      if (models.wishes_of_effects().contact_settings)
+      if (models.requests_of_effects().contact_settings)
         return std::make_unique<const BodySurface<dim>>(*models.solid);
       return nullptr;
     }
@@ -75,7 +75,7 @@ namespace undine
     , budget(budget)
     , timing(timing)
     , make(std::move(make))
-    , environment(models.wishes_of_effects())
+    , environment(models.requests_of_effects())
     , settings(*environment.sleep_settings)
     , contact(models.contact_of_bodies())
     , surface(surface_of(models))
@@ -178,7 +178,7 @@ namespace undine
     if (!sleep.in_use())
       {
         sleep.asleep.assign(masses.size(), false);
-        sleep.quiet.assign(masses.size(), 0.);
+        sleep.slow_time.assign(masses.size(), 0.);
         sleep.loads.assign(surface ? surface->n_nodes() : 0, {});
       }
     // A scene may have been changed before it was resumed.
@@ -326,9 +326,9 @@ namespace undine
     for (unsigned int body = 0; body < speeds.size(); ++body)
       if (!sleep.asleep[body])
         {
-          const bool is_quiet = may_sleep[body] && speeds[body] <= settings.speed;
-          sleep.quiet[body]   = is_quiet ? sleep.quiet[body] + dt : 0;
-          any |= sleep.quiet[body] >= almost * settings.time;
+          const bool is_slow    = may_sleep[body] && speeds[body] <= settings.speed;
+          sleep.slow_time[body] = is_slow ? sleep.slow_time[body] + dt : 0;
+          any |= sleep.slow_time[body] >= almost * settings.time;
         }
     return any;
   }
@@ -348,7 +348,7 @@ namespace undine
       changes[body_of_node[node]] += (loads[node] - sleep.loads[node]).norm();
     const auto was_asleep = sleep.asleep;
     for (unsigned int body = 0; body < masses.size(); ++body)
-      if (!was_asleep[body] && sleep.quiet[body] >= almost * settings.time)
+      if (!was_asleep[body] && sleep.slow_time[body] >= almost * settings.time)
         {
           sleep.asleep[body] = true;
           sleep.settled      = false;

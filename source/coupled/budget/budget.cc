@@ -34,8 +34,8 @@ namespace undine
   Budget<dim>::Budget(const Models<dim> &models, const BudgetOf kept)
     : models(models)
     , kept(kept)
-    , has_contact(models.wishes_of_effects().contact_settings.has_value())
-    , has_sleep(models.wishes_of_effects().sleep_settings.has_value())
+    , has_contact(models.requests_of_effects().contact_settings.has_value())
+    , has_sleep(models.requests_of_effects().sleep_settings.has_value())
     , surface(models.surface.get())
     , by_effect(models.effects.size())
   {
@@ -158,7 +158,7 @@ namespace undine
     for (std::size_t node = 0; node < n_nodes; ++node)
       {
         const auto  &force = surfaces.by_fluid[node];
-        const double power = surfaces.pushed[node] * surfaces.velocities[node];
+        const double power = surfaces.by_surface_flux[node] * surfaces.velocities[node];
         auto        &term  = terms[surface->moves(node) ? by_interface : by_obstacles];
         term.energy -= dt * power;
         term.momentum -= dt * force;

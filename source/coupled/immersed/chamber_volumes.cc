@@ -77,13 +77,13 @@ namespace undine
     auto        rest   = increment;
     for (std::size_t node = 0; node < rest.size(); ++node)
       rest[node] -= cut_at[node] - before[node];
-    const auto          then   = swept(cut_at, rest);
-    const auto          pushed = chambers.sums_on_components(fluxes);
+    const auto          then  = swept(cut_at, rest);
+    const auto          swept = chambers.sums_on_components(fluxes);
     std::vector<double> speeds(chambers.size(), 0.);
     for (std::size_t region = 0; region < speeds.size(); ++region)
       if (region_areas[region] > 0)
         speeds[region] =
-          ((gained[region] + then[region] + earlier[region]) / length - pushed[region]) /
+          ((gained[region] + then[region] + earlier[region]) / length - swept[region]) /
           region_areas[region];
     auto       result  = fluxes;
     const auto regions = chambers.of_components();

@@ -52,9 +52,9 @@ namespace undine
     Velocities back(cut_at.size());
     for (std::size_t node = 0; node < back.size(); ++node)
       back[node] = positions[node] - cut_at[node];
-    const auto pushed = swept_volumes(cells, surface.surface(), cut_at, cut_at, back);
-    for (std::size_t c = 0; c < pushed.size(); ++c)
-      cells.components[c].volume -= pushed[c];
+    const auto swept = swept_volumes(cells, surface.surface(), cut_at, cut_at, back);
+    for (std::size_t c = 0; c < swept.size(); ++c)
+      cells.components[c].volume -= swept[c];
   }
 
 
@@ -65,18 +65,18 @@ namespace undine
     const auto &grid = model.grid();
     cut_beyond_planes();
     last_report   = report(cells, surface.surface(), grid.communicator());
-    parts         = make_fluid_topology(grid, cells);
+    parts         = make_cut_topology(grid, cells);
     flux_operator = std::make_unique<const BoundaryFlux<dim>>(cells, surface.surface());
     voids         = {};
     if (void_regions != nullptr)
       {
         voids = void_regions->find(cells, parts, *queries, last_voids);
-        parts = make_fluid_topology(grid, cells, voids);
+        parts = make_cut_topology(grid, cells, voids);
       }
     if (last_report.sampled_cells > 0)
       {
         close_sampled_pockets(voids, grid, cells, parts);
-        parts = make_fluid_topology(grid, cells, voids);
+        parts = make_cut_topology(grid, cells, voids);
       }
     fluid_is_left = undine::has_fluid(grid, parts.open->cells);
   }
@@ -259,7 +259,7 @@ namespace undine
                             positions,
                             was_at,
                             velocities) +
-                      work.kept.memory_consumption();
+                      work.cache.memory_consumption();
     if (parts.open)
       for (unsigned int axis = 0; axis < dim; ++axis)
         sum += bytes(parts.open->pieces[axis], parts.open->faces[axis].all());

@@ -11,7 +11,7 @@ namespace undine
   {
     template <int dim>
     bool
-    has_sticky_surfaces(const Models<dim> &models)
+    has_no_slip_surfaces(const Models<dim> &models)
     {
       return models.fluid && models.surface && models.has_friction();
     }
@@ -21,8 +21,8 @@ namespace undine
   template <int dim>
   SurfaceFriction<dim>::SurfaceFriction(const Models<dim> &models)
     : models(models)
-    , masses(has_sticky_surfaces(models) ? node_masses(models) : Vectors())
-    , last_forces(has_sticky_surfaces(models) ? models.surface->surface().n_nodes() : 0)
+    , masses(has_no_slip_surfaces(models) ? node_masses(models) : Vectors())
+    , last_forces(has_no_slip_surfaces(models) ? models.surface->surface().n_nodes() : 0)
   {
   }
 
@@ -31,17 +31,17 @@ namespace undine
   std::shared_ptr<const NoSlipSurfaces<dim>>
   SurfaceFriction<dim>::walls(const FluidGeometry<dim> &geometry)
   {
-    if (known_walls && cut_by == geometry.bodies().topology)
-      return known_walls;
-    auto found   = make_no_slip_surfaces(models.fluid->grid(),
+    if (known_surfaces && cut_by == geometry.bodies().topology)
+      return known_surfaces;
+    auto found     = make_no_slip_surfaces(models.fluid->grid(),
                                        geometry.cut_cells(),
                                        geometry.cut_topology(),
                                        geometry.boundary_flux(),
                                        {models.surface->surface(), geometry.surface_positions()});
-    found.masses = masses;
-    cut_by       = geometry.bodies().topology;
-    known_walls  = std::make_shared<const NoSlipSurfaces<dim>>(std::move(found));
-    return known_walls;
+    found.masses   = masses;
+    cut_by         = geometry.bodies().topology;
+    known_surfaces = std::make_shared<const NoSlipSurfaces<dim>>(std::move(found));
+    return known_surfaces;
   }
 
 

@@ -67,7 +67,7 @@ namespace undine
                                            !keeps_budget  ? BudgetOf::nothing
                                            : has_stages() ? BudgetOf::steps_of_several_stages
                                                           : BudgetOf::steps_of_one_stage);
-    if (models.solid && models.wishes_of_effects().sleep_settings)
+    if (models.solid && models.requests_of_effects().sleep_settings)
       physics = std::make_unique<SleepingBodies<dim>>(
         models, *budget, timing, [this, &timing](const Models<dim> &awake) {
           return make_physics(awake, timing);

@@ -71,9 +71,9 @@ namespace undine
       const auto projected = project(state, *fluid, exchange.velocities);
       if (budget.is_on() && stage.is_last)
         {
-          const auto phase  = timing.section("measure");
-          exchange.by_fluid = geometry.pressure_forces(state.fluid.pressure);
-          exchange.pushed   = exchange.by_fluid;
+          const auto phase         = timing.section("measure");
+          exchange.by_fluid        = geometry.pressure_forces(state.fluid.pressure);
+          exchange.by_surface_flux = exchange.by_fluid;
           budget.add(projected.balance(*models.fluid, state.fluid), fluid->dt);
           budget.add(exchange, fluid->dt);
           budget.add(*solid.balance, fluid->dt);

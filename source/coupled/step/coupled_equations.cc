@@ -48,17 +48,17 @@ namespace undine
     residual.block(0) = solid.residual(x.block(0));
     residual.block(0).add(-1., pushing);
 
-    const auto pushed = fluid.from_components(surface.fluxes());
+    const auto swept = fluid.from_components(surface.fluxes());
     fluid.matrix().vmult(residual.block(1), x.block(1));
     const double by_pressure = residual.block(1).l2_norm();
-    residual.block(1).add(1., pushed, 1., fluid.predicted_flux());
+    residual.block(1).add(1., swept, 1., fluid.predicted_flux());
     fluid.closed_regions().balance(residual.block(1));
 
     // What rounding leaves counts as converged.
     const double tolerance = model.numerics().newton.relative_tolerance;
     measure({std::max({solid.scale(), pushing.l2_norm(), solid.rounding() / tolerance}),
              std::max({by_pressure,
-                       pushed.l2_norm(),
+                       swept.l2_norm(),
                        fluid.predicted_flux().l2_norm(),
                        flux_rounding / tolerance})});
     last_norm = std::hypot(relative(residual.block(0).l2_norm(), here.force),

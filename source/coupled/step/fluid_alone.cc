@@ -67,9 +67,9 @@ namespace undine
     if (const auto *geometry = fluid_side.geometry())
       {
         SurfaceExchange<dim> exchange;
-        exchange.by_fluid   = geometry->pressure_forces(state.fluid.pressure);
-        exchange.pushed     = exchange.by_fluid;
-        exchange.velocities = geometry->surface_velocities();
+        exchange.by_fluid        = geometry->pressure_forces(state.fluid.pressure);
+        exchange.by_surface_flux = exchange.by_fluid;
+        exchange.velocities      = geometry->surface_velocities();
         budget.add(exchange, dt);
       }
   }

@@ -110,8 +110,9 @@ namespace undine
   {
     place_surfaces(state, single_stage(dt));
     if (cut && !cut->has_fluid())
-      throw InputError("section 'Domain': bodies and obstacles fill the domain: there is no fluid "
-                       "left in it. Try: a larger domain, smaller ones, or a scene without a fluid.");
+      throw InputError(
+        "section 'Domain': bodies and obstacles fill the domain: there is no fluid "
+        "left in it. Try: a larger domain, smaller ones, or a scene without a fluid.");
     const double time = state.clock.time;
     state.fluid       = model.initial_state(bodies().topology);
     for (const auto &effect : models.effects)

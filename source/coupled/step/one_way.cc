@@ -148,9 +148,9 @@ namespace undine
   void
   OneWay<dim>::book(Half &half, const State<dim> &state)
   {
-    const auto phase       = timing.section("measure");
-    half.exchange.by_fluid = fluid_side.geometry()->pressure_forces(state.fluid.pressure);
-    half.exchange.pushed   = half.exchange.by_fluid;
+    const auto phase              = timing.section("measure");
+    half.exchange.by_fluid        = fluid_side.geometry()->pressure_forces(state.fluid.pressure);
+    half.exchange.by_surface_flux = half.exchange.by_fluid;
     budget.add(half.projected.balance(*models.fluid, state.fluid), half.fluid->dt);
     budget.add(half.exchange, half.fluid->dt);
     budget.add(*half.solid.balance, half.fluid->dt);

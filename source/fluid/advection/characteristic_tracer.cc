@@ -59,10 +59,10 @@ namespace undine
     /// boundary point, such as a lid.
     template <int dim>
     dealii::Tensor<1, dim>
-    longest_way(const FluidModel<dim> &model,
-                const Velocity<dim>   &velocity,
-                const double           time,
-                const double           dt)
+    longest_path(const FluidModel<dim> &model,
+                 const Velocity<dim>   &velocity,
+                 const double           time,
+                 const double           dt)
     {
       auto result            = largest_components(model, velocity); // asserts that they are finite
       auto complete_velocity = velocity;
@@ -91,7 +91,7 @@ namespace undine
     , frozen_velocity(velocity)
     , start_time(time)
     , step(dt)
-    , ghost_width(layers_within(model, longest_way(model, velocity, time, dt), dt))
+    , ghost_width(layers_within(model, longest_path(model, velocity, time, dt), dt))
     , body_vicinity(
         model.grid(), velocity[0].topology(), bodies.topology, bodies.obstruction, ghost_width)
   {

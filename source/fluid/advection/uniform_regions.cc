@@ -144,28 +144,28 @@ namespace undine
                                       const double                   share,
                                       const SubLattice<dim>         *now)
     : owned(sources.front().owned())
-    , is_quiet(owned.size(), 0)
+    , is_uniform(owned.size(), 0)
   {
-    int longest_way = 0; // from neighbour to neighbour, across all that is within reach
+    int longest_path = 0; // from neighbour to neighbour, across all that is within reach
     for (unsigned int d = 0; d < dim; ++d)
-      longest_way += 2 * reach[d];
+      longest_path += 2 * reach[d];
     const auto &like = sources.front();
-    Marks<dim>  unquiet(like.stored());
+    Marks<dim>  varying(like.stored());
     for (const auto &source : sources)
-      unquiet.mark_differences(source, share * range(source) / longest_way);
+      varying.mark_differences(source, share * range(source) / longest_path);
     for (const auto *divided : {like.divided(), now})
       if (divided)
         for_each(like.stored(), [&](const GridIndex<dim> &index) {
           if (divided->kind(index) != SubLattice<dim>::Kind::whole)
-            *unquiet.at(index) = 1;
+            *varying.at(index) = 1;
         });
-    unquiet.spread(reach);
+    varying.spread(reach);
     const int points = owned.upper[0] - owned.lower[0];
     for_each_row(owned, [&](const GridIndex<dim> &row) {
-      const char *marks = unquiet.at(row);
-      char       *quiet = is_quiet.data() + owned.position(row);
+      const char *marks   = varying.at(row);
+      char       *uniform = is_uniform.data() + owned.position(row);
       for (int i = 0; i < points; ++i)
-        quiet[i] = !marks[i];
+        uniform[i] = !marks[i];
     });
   }
 

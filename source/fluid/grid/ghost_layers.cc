@@ -34,7 +34,7 @@ namespace undine
         images.emplace_back(box.position(point), position);
       else
         {
-          const auto number       = lattice.number(point);
+          const auto number        = lattice.number(point);
           const auto [first, new_] = first_of.try_emplace(number, position);
           if (new_)
             ghosts[position] = number;
@@ -50,8 +50,9 @@ namespace undine
   void
   GhostLayers<dim>::update(std::vector<double> &values) const
   {
-    partitioner.export_to_ghosted_array(dealii::ArrayView<const double>(values.data(), values.size()),
-                                        dealii::make_array_view(values));
+    partitioner.export_to_ghosted_array(
+      dealii::ArrayView<const double>(values.data(), values.size()),
+      dealii::make_array_view(values));
     for (const auto &[from, to] : images)
       values[to] = values[from];
   }

@@ -106,9 +106,9 @@ namespace undine
   {
     const Widths widths{stored, width};
     const auto   known = ghost_layers_of_widths.find(widths);
-    return known != ghost_layers_of_widths.end() ?
-             known->second :
-             ghost_layers_of_widths.try_emplace(widths, *this, stored, width).first->second;
+    return known != ghost_layers_of_widths.end()
+             ? known->second
+             : ghost_layers_of_widths.try_emplace(widths, *this, stored, width).first->second;
   }
 
 

@@ -169,7 +169,7 @@ namespace undine
   template <int dim>
   std::string
   ClosedRegions<dim>::describe(const int              region,
-                               const SweptVolumeFlux &pushed,
+                               const SweptVolumeFlux &swept,
                                const double           through_boundaries) const
   {
     const auto             which = regions_of_pressures();
@@ -182,9 +182,9 @@ namespace undine
     });
     const auto          communicator = model.grid().communicator();
     const auto          middle       = dealii::Utilities::MPI::sum(moment, communicator);
-    std::vector<double> fluxes(pushed.bodies.size(), 0.);
-    std::vector<int>    touches(pushed.bodies.size(), 0);
-    for (const auto &part : pushed.parts)
+    std::vector<double> fluxes(swept.bodies.size(), 0.);
+    std::vector<int>    touches(swept.bodies.size(), 0);
+    for (const auto &part : swept.parts)
       if (which.parts()[part.component] == region)
         {
           fluxes[part.body] += part.flux;
@@ -195,7 +195,7 @@ namespace undine
     std::string list;
     for (std::size_t body = 0; body < touches.size(); ++body)
       if (touches[body])
-        list += fmt::format("through '{}' {:.6g}, ", pushed.bodies[body], fluxes[body]);
+        list += fmt::format("through '{}' {:.6g}, ", swept.bodies[body], fluxes[body]);
     return fmt::format("a part of the fluid of {:.6g} m^{} around ({:.4g}) that has no outlet "
                        "(outwards {}through boundaries {:.6g})",
                        region_volumes[region],
@@ -285,11 +285,11 @@ namespace undine
   template <int dim>
   std::vector<double>
   ClosedRegions<dim>::balanced_fluxes(const Velocity<dim>   &velocity,
-                                      const SweptVolumeFlux &pushed,
+                                      const SweptVolumeFlux &swept,
                                       const double           time) const
   {
     if (region_volumes.empty())
-      return pushed.fluxes;
+      return swept.fluxes;
     if (!numbers.topology())
       {
         const auto complaint = net_flux_complaint(model.boundaries(), velocity);
@@ -298,15 +298,15 @@ namespace undine
                                        "kind 'pressure', or balance the inflows.",
                                        time,
                                        complaint));
-        return pushed.fluxes;
+        return swept.fluxes;
       }
     const auto fluxes      = held_fluxes(time);
     const auto boundaries  = sums_of(fluxes, [](const double flux) { return flux; });
     const auto sizes       = sums_of(fluxes, [](const double flux) { return std::abs(flux); });
-    const auto bodies      = sums_on_components(pushed.fluxes);
-    const auto uncertainty = sums_on_components(pushed.uncertainties);
-    auto       areas       = pushed.yielding_areas;
-    areas.resize(pushed.fluxes.size(), 0.);
+    const auto bodies      = sums_on_components(swept.fluxes);
+    const auto uncertainty = sums_on_components(swept.uncertainties);
+    auto       areas       = swept.yielding_areas;
+    areas.resize(swept.fluxes.size(), 0.);
     const auto          yielding = sums_on_components(areas);
     std::vector<double> shares(boundaries.size(), 0.); // of the uncertainties
     std::vector<double> speeds(boundaries.size(), 0.); // at which surfaces yield
@@ -324,20 +324,20 @@ namespace undine
             "shrinks, leaves the domain or enters it, moves into another one, or seals a place "
             "off. Try: another 'Displacement', an 'outflow' or a boundary of the kind 'pressure' "
             "that this part reaches, or balance the inflows.",
-            pushed.scene,
+            swept.scene,
             time,
             sum,
             dim,
-            describe(region, pushed, boundaries[region])));
+            describe(region, swept, boundaries[region])));
         if (uncertainty[region] > 0)
           shares[region] = std::clamp(sum / uncertainty[region], -1., 1.);
       }
     const auto which  = regions_of_pressures();
-    auto       result = pushed.fluxes;
+    auto       result = swept.fluxes;
     for (std::size_t c = 0; c < result.size(); ++c)
       if (const int region = static_cast<int>(which.parts()[c]); region != open_region)
         {
-          result[c] -= shares[region] * pushed.uncertainties[c];
+          result[c] -= shares[region] * swept.uncertainties[c];
           result[c] -= speeds[region] * areas[c];
         }
     return result;

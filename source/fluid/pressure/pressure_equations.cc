@@ -33,10 +33,10 @@ namespace undine
   PressureEquations<dim>::start(Velocity<dim>         &velocity,
                                 const Velocity<dim>   &carrying,
                                 const double           time,
-                                const SweptVolumeFlux &pushed)
+                                const SweptVolumeFlux &swept)
   {
     set_boundary_velocity(velocity, model.boundaries(), time);
-    regions.balanced_fluxes(velocity, pushed, time);
+    regions.balanced_fluxes(velocity, swept, time);
     openings = undine::open_faces(model, carrying, all_numbers.topology().get(), time);
   }
 
@@ -46,9 +46,9 @@ namespace undine
   PressureEquations<dim>::open(Velocity<dim> &velocity)
   {
     stabilise_backflow(velocity, openings, model, dt);
-    const BackflowMatrix held_back(L, model, all_numbers, openings);
+    const BackflowMatrix stabilised(L, model, all_numbers, openings);
     hL.copy_from(L);
-    for (const auto &[row, value] : held_back.subtracted())
+    for (const auto &[row, value] : stabilised.subtracted())
       {
         const auto number = all_numbers.owned().nth_index_in_set(row);
         hL.add(number, number, -value);
@@ -115,13 +115,13 @@ namespace undine
   PressureEquations<dim>::divergence(const Velocity<dim>       &velocity,
                                      const std::vector<double> &body_fluxes) const
   {
-    Field<dim> pushed(model.grid().cells(), all_numbers.topology());
-    std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
+    Field<dim> swept(model.grid().cells(), all_numbers.topology());
+    std::copy(body_fluxes.begin(), body_fluxes.end(), swept.parts().begin());
     auto fluxes = undine::divergence(model, velocity);
-    add(fluxes, 1., pushed);
+    add(fluxes, 1., swept);
     const double largest = largest_divergence(model, fluxes);
     const double speed =
-      largest_components(model, velocity).norm() + largest_divergence(model, pushed);
+      largest_components(model, velocity).norm() + largest_divergence(model, swept);
     return relative(largest, speed);
   }
 

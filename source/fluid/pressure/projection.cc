@@ -82,14 +82,14 @@ namespace undine
   unsigned int
   Projection<dim>::solve(Vector               &impulse,
                          const Vector         &right_side,
-                         const BackflowMatrix &held_back,
+                         const BackflowMatrix &stabilised,
                          const double          tolerance) const
   {
     dealii::SolverControl    control(model.pressure_solver().maximum_iterations, tolerance);
     dealii::SolverCG<Vector> solver(control);
     try
       {
-        solver.solve(held_back, impulse, right_side, *multigrid);
+        solver.solve(stabilised, impulse, right_side, *multigrid);
       }
     catch (const dealii::SolverControl::NoConvergence &failure)
       {
@@ -113,14 +113,14 @@ namespace undine
                                      std::vector<OpenFace<dim>> &openings,
                                      const std::vector<double>  &body_fluxes)
   {
-    Field<dim> pushed(model.grid().cells(), velocity[0].topology());
-    std::copy(body_fluxes.begin(), body_fluxes.end(), pushed.parts().begin());
+    Field<dim> swept(model.grid().cells(), velocity[0].topology());
+    std::copy(body_fluxes.begin(), body_fluxes.end(), swept.parts().begin());
     const double         tolerance   = model.pressure_solver().divergence_tolerance;
-    const double         body_speed  = largest_divergence(model, pushed);
+    const double         body_speed  = largest_divergence(model, swept);
     const double         first_speed = largest_components(model, velocity).norm() + body_speed;
     Field<dim>           increment   = impulse;
     Report               report;
-    const BackflowMatrix held_back(*matrix, model, *numbers, openings);
+    const BackflowMatrix stabilised(*matrix, model, *numbers, openings);
 
     for (unsigned int round = 0; round < 8; ++round)
       {
@@ -131,7 +131,7 @@ namespace undine
         exchange(velocity);
 
         auto fluxes = divergence(model, velocity);
-        add(fluxes, 1., pushed);
+        add(fluxes, 1., swept);
         const double divergence = largest_divergence(model, fluxes);
         const double speed      = largest_components(model, velocity).norm() + body_speed;
         report.divergence       = relative(divergence, speed);
@@ -147,7 +147,7 @@ namespace undine
         // In the mean over cells a quarter of what is allowed, then less: some have more.
         const double in_the_mean = std::sqrt(double(right_side.size())) * smallest_area * allowed;
         report.iterations +=
-          solve(correction, right_side, held_back, in_the_mean * std::pow(0.25, round + 1));
+          solve(correction, right_side, stabilised, in_the_mean * std::pow(0.25, round + 1));
         copy_from_vector(increment, correction);
         add(impulse, 1., increment);
       }
@@ -203,12 +203,12 @@ namespace undine
                            const Velocity<dim>   &carrying,
                            const double           time,
                            const double           dt,
-                           const SweptVolumeFlux &pushed)
+                           const SweptVolumeFlux &swept)
   {
     const auto &topology = state.pressure.topology();
     prepare(topology);
     set_boundary_velocity(state.velocity, model.boundaries(), time);
-    const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
+    const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, swept, time);
     Field<dim> impulse(model.grid().cells(), topology);
     add(impulse, dt, state.pressure);
     const auto report = remove_divergence_with_openings(
@@ -225,12 +225,12 @@ namespace undine
   typename Projection<dim>::Report
   Projection<dim>::make_divergence_free(FluidState<dim>       &state,
                                         const double           time,
-                                        const SweptVolumeFlux &pushed)
+                                        const SweptVolumeFlux &swept)
   {
     const auto topology = state.velocity[0].topology();
     prepare(topology);
     set_boundary_velocity(state.velocity, model.boundaries(), time);
-    const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, pushed, time);
+    const auto body_fluxes = closed_regions->balanced_fluxes(state.velocity, swept, time);
     auto       openings    = open_faces(model, state.velocity, topology.get(), time);
     for (auto &open : openings)
       open.pressure = 0;

@@ -166,9 +166,9 @@ namespace undine
     if (counts(from.cell) || counts(to.cell))
       return true;
     // The margin bridges the cells between samples.
-    const int n_ways = 1 + longest / margin;
-    for (int s = 1; s < n_ways; ++s)
-      if (counts(cell_or_image_at(from.point + double(s) / n_ways * (to.point - from.point))))
+    const int n_steps = 1 + longest / margin;
+    for (int s = 1; s < n_steps; ++s)
+      if (counts(cell_or_image_at(from.point + double(s) / n_steps * (to.point - from.point))))
         return true;
     return false;
   }
@@ -220,12 +220,12 @@ namespace undine
   double
   BodyVicinity<dim>::first_hit(const Place &from, const Place &to) const
   {
-    constexpr std::size_t short_way = 27; // cells; through more of them a tree is faster
+    constexpr std::size_t few_cells = 27; // cells; through more of them a tree is faster
     double                result    = std::numeric_limits<double>::infinity();
     if (surfaces == nullptr || is_clear(from.cell, to.cell))
       return result;
     const auto cells = cells_between(from.cell, to.cell);
-    if (cells.size() > short_way || !facets.know(cells))
+    if (cells.size() > few_cells || !facets.know(cells))
       return surfaces->first_hit(from.point, to.point);
     facets.until_facet(cells, from.point, to.point, [&](const auto &facet) {
       result = std::min(result, surfaces->first_hit(facet, from.point, to.point));

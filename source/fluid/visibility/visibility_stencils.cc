@@ -113,7 +113,7 @@ namespace undine
     if (const auto slab = facets.wall(cells))
       add_wall(cube, *slab);
     if (!cube.is_wall)
-      add_screens(cube, cells);
+      add_occluders(cube, cells);
     cube.occluders_end = occluders.size();
     return true;
   }
@@ -182,7 +182,7 @@ namespace undine
 
   template <int dim>
   void
-  VisibilityStencils<dim>::add_screens(Cube &cube, const IndexBox<dim> &cells)
+  VisibilityStencils<dim>::add_occluders(Cube &cube, const IndexBox<dim> &cells)
   {
     double height = cube.upper[0] - cube.lower[0];
     for (unsigned int d = 1; d < dim; ++d)
@@ -196,7 +196,7 @@ namespace undine
         occluder.slab    = leader->patch.slab;
         occluder.lower   = leader->patch.lower;
         occluder.upper   = leader->patch.upper;
-        occluder.facets  = facets_of_screens.size();
+        occluder.facets  = facets_of_occluders.size();
         const auto taken = [&](const Facet *facet) {
           const auto slab = facet->patch.widened(occluder.slab);
           if (facet != leader && slab.upper - slab.lower > height)
@@ -207,11 +207,11 @@ namespace undine
               occluder.lower[d] = std::min(occluder.lower[d], facet->patch.lower[d]);
               occluder.upper[d] = std::max(occluder.upper[d], facet->patch.upper[d]);
             }
-          facets_of_screens.push_back(facet);
+          facets_of_occluders.push_back(facet);
           return true;
         };
         in_cells.erase(std::remove_if(in_cells.begin(), in_cells.end(), taken), in_cells.end());
-        occluder.facets_end = facets_of_screens.size();
+        occluder.facets_end = facets_of_occluders.size();
         part(cube, occluder);
         occluders.push_back(occluder);
       }
@@ -265,7 +265,7 @@ namespace undine
       return false;
     for (auto k = occluder.facets; k < occluder.facets_end; ++k)
       {
-        const auto &facet = *facets_of_screens[k];
+        const auto &facet = *facets_of_occluders[k];
         if (meet(lower, upper, facet.patch.lower, facet.patch.upper) &&
             obstruction.first_hit(facet.image, query, place) <= 1)
           return true;

@@ -20,11 +20,11 @@ namespace undine
 
   template <int dim>
   VisibleSamples<dim>::VisibleSamples(const Field<dim>                               &field_,
-                                      const std::shared_ptr<VisibilityStencils<dim>> &views_,
+                                      const std::shared_ptr<VisibilityStencils<dim>> &stencils_,
                                       const BodyVicinity<dim>                        &vicinity_)
     : field(field_)
     , vicinity(vicinity_)
-    , stencils(views_)
+    , stencils(stencils_)
     , points(stencils->points())
     , values(points.values(field))
   {

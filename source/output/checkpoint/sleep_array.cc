@@ -12,7 +12,7 @@ namespace undine
     std::vector<double> numbers{sleep.settled ? 1. : 0.};
     for (const bool asleep : sleep.asleep)
       numbers.push_back(asleep ? 1 : 0);
-    numbers.insert(numbers.end(), sleep.quiet.begin(), sleep.quiet.end());
+    numbers.insert(numbers.end(), sleep.slow_time.begin(), sleep.slow_time.end());
     for (const auto &load : sleep.loads)
       numbers.insert(numbers.end(), load.begin_raw(), load.end_raw());
     const hsize_t size = numbers.size();
@@ -31,8 +31,8 @@ namespace undine
     sleep.settled     = *value++ != 0;
     for (std::size_t body = 0; body < sleep.asleep.size(); ++body)
       sleep.asleep[body] = *value++ != 0;
-    for (double &quiet : sleep.quiet)
-      quiet = *value++;
+    for (double &slow_time : sleep.slow_time)
+      slow_time = *value++;
     for (auto &load : sleep.loads)
       for (unsigned int axis = 0; axis < dim; ++axis)
         load[axis] = *value++;

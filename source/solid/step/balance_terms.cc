@@ -85,20 +85,20 @@ namespace undine
         // Finer only where the increment is so large that the rule does not resolve the integral.
         const double resolved =
           std::max(1e-12 * elastic_energy(model, end), rounding * displacement_increment.l2_norm());
-        double along_way = 0;
+        double along_path = 0;
         for (unsigned int parts = 1; parts <= 16; parts *= 4)
           {
             const dealii::QIterated<1> rule(dealii::QGauss<1>(6), parts);
-            along_way = 0;
+            along_path = 0;
             for (unsigned int q = 0; q < rule.size(); ++q)
-              along_way +=
+              along_path +=
                 rule.weight(q) * internal_work(model,
                                                motion.stage_displacement(end, rule.point(q)[0]),
                                                displacement_increment);
-            if (std::abs(along_way - result.elastic) <= resolved)
+            if (std::abs(along_path - result.elastic) <= resolved)
               break;
           }
-        result.elastic_loss -= along_way;
+        result.elastic_loss -= along_path;
       }
     catch (const SolveError &)
       {

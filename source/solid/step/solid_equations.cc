@@ -149,11 +149,11 @@ namespace undine
     for (const auto &stage : coefficients.stages)
       if (stage.position > 0)
         add_stage(result, stage, motion.stage_displacement(end, stage.position));
-    const Vector pushes = contact.forces(end);
-    if (pushes.size() > 0)
+    const Vector repulsion = contact.forces(end);
+    if (repulsion.size() > 0)
       {
-        note_size(pushes, 1);
-        result.add(-1., pushes);
+        note_size(repulsion, 1);
+        result.add(-1., repulsion);
       }
     return result;
   }
@@ -276,9 +276,9 @@ namespace undine
                    pressure_loads(model,
                                   motion.stage_displacement(displacement(velocity), stage.position),
                                   time + stage.position * dt));
-    const Vector pushes = contact.forces(displacement(velocity));
-    if (pushes.size() > 0)
-      defect.add(-1., pushes);
+    const Vector repulsion = contact.forces(displacement(velocity));
+    if (repulsion.size() > 0)
+      defect.add(-1., repulsion);
     // Where nothing acts, rounding is no lack of balance.
     const double        tolerance = model.numerics().newton.relative_tolerance;
     const double        size      = std::max(scale(), rounding() / tolerance);

@@ -129,12 +129,12 @@ namespace undine
     const auto   timed = timing.section("contact");
     const double before =
       start.old_energy ? *start.old_energy : contact->energy(last_place(), last_time());
-    result.contact_energy = contact->energy(end, time + dt) - before;
-    const Vector pushes   = forces(end);
-    if (pushes.size() == 0)
+    result.contact_energy  = contact->energy(end, time + dt) - before;
+    const Vector repulsion = forces(end);
+    if (repulsion.size() == 0)
       return;
-    result.contact = pushes * displacement_increment;
-    for (const auto &of_body : sums_by_body(model, pushes))
+    result.contact = repulsion * displacement_increment;
+    for (const auto &of_body : sums_by_body(model, repulsion))
       result.contact_force += of_body;
   }
 

@@ -133,7 +133,7 @@ TEMPLATE_TEST_CASE_SIG(
   2,
   3)
 {
-  int n_kept = 0, n_cut = 0;
+  int n_cached = 0, n_cut = 0;
   for (int trial = 0; trial < (dim == 2 ? 40 : 12); ++trial)
     {
       Random             random(trial);
@@ -159,17 +159,17 @@ TEMPLATE_TEST_CASE_SIG(
           CutCells<dim>     anew(block_of_rank(grid));
           CutWorkspace<dim> nothing;
           cut_block(anew, nothing, placed, grid.cells()->blocks());
-          INFO("trial " << trial << ", step " << step << ", kept " << work.kept.n_kept());
+          INFO("trial " << trial << ", step " << step << ", kept " << work.cache.n_cached());
           REQUIRE(same_cells(cut, anew));
           REQUIRE(same_faces(cut, anew));
           REQUIRE(same_counts(cut, anew));
-          REQUIRE(nothing.kept.n_kept() == 0);
-          n_kept += work.kept.n_kept();
+          REQUIRE(nothing.cache.n_cached() == 0);
+          n_cached += work.cache.n_cached();
           n_cut += cut.cells.size();
         }
     }
-  INFO("kept " << n_kept << " of " << n_cut);
-  CHECK(10 * n_kept > n_cut);
+  INFO("kept " << n_cached << " of " << n_cut);
+  CHECK(10 * n_cached > n_cut);
 }
 
 
@@ -185,7 +185,7 @@ TEST_CASE("Cells of another grid or of another surface are not kept", "[interfac
   const auto      surface   = company.all.surface();
   const auto      cut_again = [&](const Surface<2> &with) {
     cut_block(cut, work, {with, company.all.nodes});
-    return work.kept.n_kept();
+    return work.cache.n_cached();
   };
   CHECK(cut_again(surface) == 0);
   CHECK(cut_again(surface) == 0);

@@ -27,7 +27,7 @@ namespace undine_tests
     {
       CutWorkspace<dim> work;
       cut_block(cut, work, {surface, positions}, grid.cells()->blocks());
-      parts = make_fluid_topology(grid, cut);
+      parts = make_cut_topology(grid, cut);
     }
 
     const FluidTopology<dim> &

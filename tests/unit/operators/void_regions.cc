@@ -38,9 +38,9 @@ namespace
       const SurfaceQueries<2> queries(
         model.grid(), {&surface.surface(), positions, positions, surface.velocities({}, time, 1)});
       cut_block(cut, work, {surface.surface(), positions}, model.grid().cells()->blocks());
-      const auto all = make_fluid_topology(model.grid(), cut);
+      const auto all = make_cut_topology(model.grid(), cut);
       voids          = void_regions.find(cut, all, queries, voids);
-      parts          = make_fluid_topology(model.grid(), cut, voids);
+      parts          = make_cut_topology(model.grid(), cut, voids);
     }
 
     double

@@ -53,8 +53,8 @@ namespace undine
     const Models<dim>                         &models;
     const Vectors                              masses;
     std::shared_ptr<const FluidTopology<dim>>  cut_by;
-    std::shared_ptr<const NoSlipSurfaces<dim>> known_walls; ///< of the grid that is cut so
-    Vectors                                    started;     ///< u^0 [m/s]
+    std::shared_ptr<const NoSlipSurfaces<dim>> known_surfaces; ///< of the grid that is cut so
+    Vectors                                    started;        ///< u^0 [m/s]
     Vectors                                    last_forces;
   };
 } // namespace undine

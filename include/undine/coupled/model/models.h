@@ -60,14 +60,14 @@ namespace undine
     {
       if (for_awake)
         return *for_awake;
-      auto result    = wishes_of_effects();
+      auto result    = requests_of_effects();
       result.contact = contact_of_bodies();
       return result;
     }
 
     /// The same without Contact, which has to be built.
     SolidEnvironment<dim>
-    wishes_of_effects() const
+    requests_of_effects() const
     {
       SolidEnvironment<dim> result;
       for (const auto &effect : effects)
@@ -79,7 +79,7 @@ namespace undine
     std::shared_ptr<const Contact<dim>>
     contact_of_bodies() const
     {
-      const auto settings = wishes_of_effects().contact_settings;
+      const auto settings = requests_of_effects().contact_settings;
       if (!solid || !settings)
         return nullptr;
       return make_contact<dim>(

@@ -31,8 +31,8 @@ namespace undine
     void
     wake(const unsigned int body)
     {
-      asleep[body] = false;
-      quiet[body]  = 0;
+      asleep[body]    = false;
+      slow_time[body] = 0;
     }
 
     /// wake() all bodies.
@@ -59,7 +59,7 @@ namespace undine
 
     bool                settled = true; ///< false: some that sleep still have a velocity
     std::vector<bool>   asleep;         ///< [body]
-    std::vector<double> quiet; ///< [body] for how long it has been slow without a break [s]
+    std::vector<double> slow_time; ///< [body] for how long it has been slow without a break [s]
 
     /// Loads of fluid and contact in the nodes of the bodies' surfaces, of those that sleep when
     /// they fell asleep [N]; empty where nothing acts on surfaces.

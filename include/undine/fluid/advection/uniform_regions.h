@@ -30,7 +30,7 @@ namespace undine
     bool
     contains(const GridIndex<dim> &index) const
     {
-      return is_quiet[owned.position(index)] != 0;
+      return is_uniform[owned.position(index)] != 0;
     }
 
     /// Call `action(index, n)` for every run along the first direction of owned points that are all
@@ -51,7 +51,7 @@ namespace undine
     /// @}
 
   private:
-    /// Of points that all have this mark in `is_quiet`.
+    /// Of points that all have this mark in `is_uniform`.
     template <class Action>
     void
     for_each_run(const char mark, Action &&action) const
@@ -60,7 +60,7 @@ namespace undine
       const int points     = owned.upper[0] - owned.lower[0];
       row_starts.upper[0]  = owned.lower[0] + (points > 0);
       for_each(row_starts, [&](GridIndex<dim> index) {
-        const char *begin = is_quiet.data() + owned.position(index), *end = begin + points;
+        const char *begin = is_uniform.data() + owned.position(index), *end = begin + points;
         for (const char *run = begin; run != end;)
           {
             const char *stop = std::find(run, end, char(*run == 0));
@@ -73,7 +73,7 @@ namespace undine
     }
 
     IndexBox<dim>     owned;
-    std::vector<char> is_quiet; ///< 1: in a uniform region, 0: not
+    std::vector<char> is_uniform; ///< 1: in a uniform region, 0: not
   };
 } // namespace undine
 

@@ -52,7 +52,7 @@ namespace undine
     /// through surfaces. Collective.
     std::vector<double>
     balanced_fluxes(const Velocity<dim>   &velocity,
-                    const SweptVolumeFlux &pushed,
+                    const SweptVolumeFlux &swept,
                     const double           time) const;
 
     /// Shift the pressures of each closed region so that its pinned one is zero. Corrections of
@@ -125,9 +125,7 @@ namespace undine
     /// A message: where a region lies, and the fluxes out of it through the surface of each body
     /// and through boundaries. Collective.
     std::string
-    describe(const int              region,
-             const SweptVolumeFlux &pushed,
-             const double           through_boundaries) const;
+    describe(const int region, const SweptVolumeFlux &swept, const double through_boundaries) const;
 
     const FluidModel<dim>      &model;
     const PressureNumbers<dim> &numbers;

@@ -33,14 +33,14 @@ namespace undine
 
     /// Begin with v* in `velocity`, which gets the velocity on walls and inflows at `time` [s], the
     /// end of the step. `carrying` = v^n is a first guess of the backflow through outflows.
-    /// `pushed`: the swept-volume flux of all surfaces, of which those that do not yield must
+    /// `swept`: the swept-volume flux of all surfaces, of which those that do not yield must
     /// conserve the volume of closed regions. Collective. Throws InputError if a closed region has
     /// a net inflow.
     void
     start(Velocity<dim>         &velocity,
           const Velocity<dim>   &carrying,
           const double           time,
-          const SweptVolumeFlux &pushed);
+          const SweptVolumeFlux &swept);
 
     /// Add to `velocity` = v*, as start() left it, the impulse of the pressures on openings, given
     /// the speed of the backflow there, and compute predicted_flux() and matrix(). Collective.

@@ -56,14 +56,14 @@ namespace undine
     /// SolveError if the solver does not converge. Collective.
     ///
     /// `carrying` = v^n is a first guess of the backflow through outflows; v* is none: friction
-    /// adds h grad p^n / rho to it, which may point inwards in a steady outflow. `pushed`: the
+    /// adds h grad p^n / rho to it, which may point inwards in a steady outflow. `swept`: the
     /// swept-volume flux of surfaces.
     Report
     project(FluidState<dim>       &state,
             const Velocity<dim>   &carrying,
             const double           time,
             const double           dt,
-            const SweptVolumeFlux &pushed = {});
+            const SweptVolumeFlux &swept = {});
 
     /// The same with v* in the place of v^n and without surfaces. Collective.
     Report
@@ -74,7 +74,7 @@ namespace undine
     Report
     make_divergence_free(FluidState<dim>       &state,
                          const double           time,
-                         const SweptVolumeFlux &pushed = {});
+                         const SweptVolumeFlux &swept = {});
 
   private:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
@@ -83,12 +83,12 @@ namespace undine
     void
     prepare(const std::shared_ptr<const FluidTopology<dim>> &topology);
 
-    /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm, `held_back` being L with
-    /// the backflow stabilisation.
+    /// impulse := L^-1 right_side up to `tolerance` in the Euclidean norm, `stabilised` being L
+    /// with the backflow stabilisation.
     unsigned int
     solve(Vector               &impulse,
           const Vector         &right_side,
-          const BackflowMatrix &held_back,
+          const BackflowMatrix &stabilised,
           const double          tolerance) const;
 
     /// Add impulses h p to the velocity until its divergence vanishes, beginning with those in

@@ -124,7 +124,7 @@ namespace undine
 
     /// Group the facets in these cells into occluders.
     void
-    add_screens(Cube &cube, const IndexBox<dim> &cells);
+    add_occluders(Cube &cube, const IndexBox<dim> &cells);
 
     /// Set on which side of the occluder the samples of the cube are.
     void
@@ -178,7 +178,7 @@ namespace undine
     std::vector<Cube>          cubes;      ///< the first is none
     std::vector<Sample>        samples;
     std::vector<Occluder>      occluders;
-    std::vector<const Facet *> facets_of_screens;
+    std::vector<const Facet *> facets_of_occluders;
   };
 } // namespace undine
 
