@@ -2,6 +2,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/base/core/interruption.h>
 #include <undine/base/options/utf8.h>
+#include <undine/base/parallel/single_process.h>
 #include <undine/driver/command_line.h>
 #include <undine/driver/out_of_memory.h>
 #include <undine/driver/run.h>
@@ -53,6 +54,7 @@ namespace
 int
 main(int argc, char **argv)
 {
+  undine::tell_mpi_if_process_is_alone();
   // The arguments are ours; one thread a rank, so that ranks times threads is what the user says.
   int                                      no_arguments = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);

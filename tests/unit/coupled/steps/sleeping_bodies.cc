@@ -182,8 +182,9 @@ TEST_CASE("where all sleep nothing is computed, and statistics go on", "[sleep][
 }
 
 
-TEMPLATE_TEST_CASE_SIG(
-  "a fluid that begins to flow wakes bodies", "[sleep][mpi]", ((int dim), dim), 2, 3)
+template <int dim>
+void
+check_waking_by_fluid()
 {
   const std::string coupling =
     GENERATE(as<std::string>(), "", "set Scheme = time_splitting\n", "fluid to body");
@@ -221,6 +222,18 @@ TEMPLATE_TEST_CASE_SIG(
 }
 
 
+TEST_CASE("a fluid that begins to flow wakes bodies", "[sleep][mpi]")
+{
+  check_waking_by_fluid<2>();
+}
+
+
+TEST_CASE("a fluid that begins to flow wakes bodies in space", "[sleep]")
+{
+  check_waking_by_fluid<3>();
+}
+
+
 TEST_CASE("fluid flows on where all bodies sleep", "[sleep][mpi]")
 {
   const std::string friction =
@@ -246,7 +259,9 @@ TEST_CASE("fluid flows on where all bodies sleep", "[sleep][mpi]")
 }
 
 
-TEMPLATE_TEST_CASE_SIG("contact wakes a body", "[sleep][mpi]", ((int dim), dim), 2, 3)
+template <int dim>
+void
+check_waking_by_contact()
 {
   const auto ball = [](const std::string &name, const double x, const double velocity) {
     const std::string zeros = plane_or_space<dim>(", 0", ", 0, 0");
@@ -282,6 +297,18 @@ TEMPLATE_TEST_CASE_SIG("contact wakes a body", "[sleep][mpi]", ((int dim), dim),
   CHECK(awake.column("max speed target") > .5);
   CHECK(run.column("centre of mass target x") ==
         Approx(awake.column("centre of mass target x")).epsilon(1e-3));
+}
+
+
+TEST_CASE("contact wakes a body", "[sleep][mpi]")
+{
+  check_waking_by_contact<2>();
+}
+
+
+TEST_CASE("contact wakes a body in space", "[sleep]")
+{
+  check_waking_by_contact<3>();
 }
 
 
