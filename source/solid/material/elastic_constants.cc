@@ -19,7 +19,7 @@ namespace undine
       "1",
       poisson_range,
       "Lateral contraction per stretch of a bar pulled along its axis, at rest. Above "
-      "0.45 use the nearly incompressible rubber: the other laws lock.");
+      "0.45 use a nearly incompressible 'Material': the others lock.");
   }
 
 

@@ -41,7 +41,7 @@ namespace undine
           poissons_ratio(*body.material) > most)
         result.push_back(
           fmt::format("body '{}' has a Poisson's ratio of {:.4g} and elements of degree 1: it may "
-                      "be far too stiff. Try: 'Material' nearly incompressible rubber, or 'Solid "
+                      "be far too stiff. Try: a nearly incompressible 'Material', or 'Solid "
                       "numerics/Element degree' 2.",
                       body.name,
                       poissons_ratio(*body.material)));

@@ -4,6 +4,7 @@
 #include <deal.II/physics/elasticity/kinematics.h>
 
 #include <catch2/catch.hpp>
+#include <solid/material_samples.h>
 
 #include <cmath>
 
@@ -182,9 +183,8 @@ TEST_CASE("patch test: a uniform strain is exact on cells of any shape", "[solid
         const std::string uniform = "0.1*x+0.2*y; -0.1*x+0.05*y";
         Solid<2>          solid(
           one_body("set Cells = 3, 3\n set Map = x+0.1*sin(6*x)*sin(5*y); y-0.1*sin(5*x)*sin(6*y)\n"
-                            "set Density = 1\n set Young's modulus = 10\n set Poisson's ratio = 0.3\n"
-                            "set Material = " +
-                     material,
+                            "set Density = 1\n" +
+                     samples::elastic_lines({10., 0.3}) + "set Material = " + material,
                    boundary("all", "set Kind = prescribed motion\n set Displacement = " + uniform),
                    fmt::format("set Element degree = {}", degree),
                    "set Integrator = static"));

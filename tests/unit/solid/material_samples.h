@@ -15,16 +15,37 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace undine::samples
 {
+  /// What every registered law must be given, as "Key=value".
+  inline std::vector<std::string>
+  elastic_keys(const ElasticConstants &constants)
+  {
+    return {fmt::format("Young's modulus={}", constants.youngs_modulus),
+            fmt::format("Poisson's ratio={}", constants.poissons_ratio)};
+  }
+
+
+  /// The same as lines of a scene.
+  inline std::string
+  elastic_lines(const ElasticConstants &constants)
+  {
+    std::string lines;
+    for (const auto &key : elastic_keys(constants))
+      lines += "set " + key + "\n";
+    return lines;
+  }
+
+
   inline Options
   elastic_options(const ElasticConstants &constants,
                   const std::string      &plane_state = "plane strain")
   {
     ParameterFile file;
-    file.set(fmt::format("Young's modulus={}", constants.youngs_modulus));
-    file.set(fmt::format("Poisson's ratio={}", constants.poissons_ratio));
+    for (const auto &key : elastic_keys(constants))
+      file.set(key);
     file.set("Plane state=" + plane_state);
     return Options(file);
   }

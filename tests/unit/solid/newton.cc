@@ -4,6 +4,7 @@
 #include <undine/base/core/newton.h>
 
 #include <catch2/catch.hpp>
+#include <solid/material_samples.h>
 
 #include <cmath>
 #include <functional>
@@ -112,10 +113,8 @@ TEST_CASE("Newton's method converges quadratically on bodies", "[solid]")
       INFO(material);
       SolidEnvironment<2> gravity;
       gravity.gravity[1] = -0.1;
-      Solid<2>   solid(one_body("set Upper corner = 2, 1\n set Cells = 4, 2\n set Density = 1\n"
-                                "set Young's modulus = 10\n set Poisson's ratio = 0.3\n"
-                                "set Material = " +
-                                material,
+      Solid<2>   solid(one_body("set Upper corner = 2, 1\n set Cells = 4, 2\n set Density = 1\n" +
+                                samples::elastic_lines({10., 0.3}) + "set Material = " + material,
                               boundary("root", "set Sides = left"),
                               "",
                               "set Integrator = static"),

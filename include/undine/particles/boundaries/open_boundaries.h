@@ -39,7 +39,7 @@ namespace undine::particles
     OpenBoundary<dim, Real> boundaries[most];
   };
 
-  /// Moves the layers of inflows, makes fluid of what crosses into the domain, and parks what
+  /// Moves the layers of inflows, makes fluid of what crosses into the domain (P2b), and parks what
   /// leaves it. `crossed` is 1 for each particle that leaves a gap at the end of its column.
   template <int dim, class Real>
   struct CrossBoundaries
