@@ -49,8 +49,8 @@ namespace undine
     }
 
 
-    /// The particle that has crossed one inflow is put back behind it, which near the plane of
-    /// another inflow would not know which.
+    /// Where a particle has crossed an inflow and become fluid, a parked one is put behind the
+    /// nearest inflow: near the plane of another one that could be the wrong one.
     template <int dim>
     void
     check_edges(const ParticleOpening<dim>   &opening,

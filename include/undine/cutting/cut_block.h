@@ -8,8 +8,8 @@
 namespace undine
 {
   /// Components and pieces smaller than this, in units of a cell or face, are excluded from the
-  /// flow; so are those below twice the rounding level, which is higher on grids of more than 50
-  /// cells.
+  /// flow; so are those below twice the rounding level (GridBlock::rounding), which exceeds it
+  /// where a coordinate of the grid is larger than 28 widths of the cell.
   constexpr double negligible_size = 1e-13;
 
   /// The cells of this rank and a halo of one layer, which both sides of all owned faces need. It

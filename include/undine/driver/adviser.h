@@ -21,7 +21,7 @@ namespace undine
     /// `start` is the state at the beginning. The models must outlive it. Collective.
     Adviser(const Models<dim> &models, const State<dim> &start);
 
-    /// A step of `dt` [s] has led to `state`. Collective.
+    /// The step of `report` has led to `state`. Collective.
     void
     observe(const State<dim> &state, const Report &report);
 

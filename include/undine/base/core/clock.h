@@ -26,7 +26,8 @@ namespace undine
     void
     advance(double dt);
 
-    /// The largest step not above `dt` [s] that reaches the next landing time in equal parts.
+    /// The length of the next step [s]: `dt` [s] if it fits more than twice into the time to the
+    /// next landing; else that time or, if it is longer than `dt`, half of it.
     double
     land(double dt) const;
 

@@ -45,7 +45,8 @@ namespace undine
   /// as the residual falls; it may rise for a few corrections, as it does when thin bodies bend,
   /// and if it has not fallen below its best by then, the best point is taken up again and its
   /// correction halved until the residual falls [Chamberlain, Powell, Lemarechal, Pedersen 1982;
-  /// Nocedal, Wright, Numerical Optimization, section 15.6].
+  /// Nocedal, Wright, Numerical Optimization, section 15.6]. After that the residual may not rise
+  /// any more: every correction that does not bring it below its best is halved.
   template <class Problem>
   class Newton
   {
@@ -62,8 +63,9 @@ namespace undine
     /// Norms are all in one unit.
     Newton(Problem &problem, const NewtonOptions &options);
 
-    /// Improve x until |r| <= max(relative tolerance * scale, rounding) (T6). Throws SolveError
-    /// with the history of |r| if that fails.
+    /// Improve x until |r| <= max(relative tolerance * scale, rounding) (T6). Where the descent
+    /// ends before, |r| <= 100 rounding is accepted; else throws SolveError with the history of
+    /// |r|. A given number of corrections is done whatever |r| is.
     NewtonReport
     solve(typename Problem::Unknown &x);
 

@@ -23,7 +23,8 @@ namespace undine
   public:
     using Factory = std::function<std::unique_ptr<Part>()>;
 
-    /// The registry of this kind of part. The only global objects of the program.
+    /// The registry of this kind of part. The only global objects of the program, apart from what
+    /// signals and the end of memory set.
     static Registry &
     instance()
     {

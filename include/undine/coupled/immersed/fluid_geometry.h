@@ -20,8 +20,9 @@
 
 namespace undine
 {
-  /// The grid as cut by the surfaces of all bodies and obstacles at the beginning of a stage. As
-  /// long as nothing moves, nothing is computed anew.
+  /// The grid as cut by the surfaces of all bodies and obstacles where place() puts them: in a
+  /// stage that keeps rates where they will be at its end, else where they are at its beginning
+  /// (Stage::ahead). As long as nothing moves, nothing is computed anew.
   template <int dim>
   class FluidGeometry
   {

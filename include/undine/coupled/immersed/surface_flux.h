@@ -15,7 +15,8 @@ namespace undine
 {
   /// The surface flux: what the surfaces displace of the fluid in a stage, given the bodies'
   /// velocity u = u^{n+1} at its end, and by the transpose the forces of the pressure on the
-  /// bodies. B belongs to the positions at which the grid was cut.
+  /// bodies. B belongs to the positions at which the grid was cut, or is its mean over the
+  /// displacement increment from there (`swept`).
   template <int dim>
   class SurfaceFlux
   {

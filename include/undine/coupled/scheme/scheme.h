@@ -13,7 +13,8 @@
 
 namespace undine
 {
-  /// A way to take fluid and bodies from one time to the next. The only writer of State.
+  /// A way to take fluid and bodies from one time to the next. During a run the only writer of
+  /// State, but for the clock, which the loop over steps advances.
   template <int dim>
   class Scheme
   {

@@ -16,8 +16,9 @@
 
 namespace undine
 {
-  /// Everything that changes during a run, as plain data: a saved copy is a complete restart. Only
-  /// a Scheme writes to it. Members that a scene does not need stay empty.
+  /// Everything that changes during a run, as plain data: a saved copy is a complete restart.
+  /// During a run only a Scheme writes to it, but for the clock, which the loop over steps
+  /// advances. Members that a scene does not need stay empty.
   template <int dim>
   struct State
   {

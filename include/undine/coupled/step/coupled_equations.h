@@ -15,10 +15,10 @@ namespace undine
   ///     R(u) - B^T p = 0             [N]         R: SolidEquations
   ///     D v* + B u + h L p = 0       [m^dim/s]   B: SurfaceFlux
   ///
-  /// Norms are sums of both, each relative to the size of its terms: the largest where corrections
-  /// were computed. Points on trial may raise that size tenfold at most, and only for themselves:
-  /// otherwise a bad point would seem to have a small residual, and later tolerances would be too
-  /// loose.
+  /// A norm is the root of the sum of the squares of both, each relative to the size of its terms:
+  /// the largest where corrections were computed. Points on trial may raise that size tenfold at
+  /// most, and only for themselves: otherwise a bad point would seem to have a small residual, and
+  /// later tolerances would be too loose.
   template <int dim>
   class CoupledEquations
   {

@@ -17,7 +17,8 @@ namespace undine
   ///
   /// V: volumes around the points; K: areas over distances between neighbours; held boundaries at
   /// half a cell. Faces whose velocity is held keep the value they have. Symmetric and positive
-  /// definite; conjugate gradients with symmetric Gauss-Seidel. The matrix is kept until h changes.
+  /// definite; conjugate gradients with symmetric Gauss-Seidel or, for h nu >= 30 dx^2, algebraic
+  /// multigrid (DiffusionSolver). The matrix is kept until h changes.
   template <int dim>
   class ImplicitDiffusion
   {

@@ -11,10 +11,10 @@
 
 namespace undine::particles
 {
-  /// Corotated linear elasticity of particles, derived from one energy, so that momentum and
+  /// Fixed corotated elasticity of particles, derived from one energy (P9), so that momentum and
   /// angular momentum are exact:
-  ///     W = sum_i V (mu |F_i - R_i|^2 + lambda/2 tr(R_i^T F_i - I)^2)
-  ///       + sum_ij alpha mu V w_ij |x_ij - F_i X_ij|^2 / a_i,
+  ///     W = sum_i V (mu |F_i - R_i|^2 + U(det F_i))
+  ///       + sum_ij alpha mu V w_ij |x_ij - F_i X_ij|^2 / a_i,     U: VolumeLaw
   ///     F_i = (sum_j w x_ij X_ij^T) A_i^{-1},  R_i = rotation of F_i,  a_i = tr(A_i) / dim.
   /// In the inside of a lattice alpha = 1 is the particle method's usual sum over rotated bonds
   /// (the source's equation 6 without its local rotation).
@@ -355,9 +355,9 @@ namespace undine::particles
       return sqrt((properties.lambda + 2 * properties.mu) * properties.density);
     }
 
-    /// Of first Piola and Kirchhoff, P = 2 mu (F - R) + lambda tr(R^T F - I) R [Pa], with bulk
+    /// Of first Piola and Kirchhoff, P = 2 mu (F - R) + U'(det F) cof(F) [Pa] (P9), with bulk
     /// viscosity and what the carried pressure adds because it acts on the surface and not at
-    /// centres of particles.
+    /// centres of particles (P10).
     UNDINE_HOST_DEVICE
     Matrix<dim, Real>
     stress(const ElasticMaterial<Real> &properties,

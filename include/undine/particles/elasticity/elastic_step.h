@@ -14,13 +14,13 @@ namespace undine::particles
   /// What a run of ElasticStep is for.
   enum class ElasticRun
   {
-    alone,   ///< no fluid: all of elasticity, in explicit steps
+    alone,   ///< no fluid: all of elasticity
     attempt, ///< without the fluid's pressure; tells the pressure equation where bodies want to go
     final    ///< again from the same start, with the acceleration by pressures held constant
   };
 
-  /// Takes the elastic bodies over a sub-step in smaller explicit steps (symplectic Euler), all in
-  /// one launch.
+  /// Takes the elastic bodies over a sub-step, all in one launch: in smaller explicit steps
+  /// (symplectic Euler), or in one of backward Euler if those would be too many.
   template <int dim, class Real>
   struct ElasticStep
   {

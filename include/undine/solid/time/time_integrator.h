@@ -13,14 +13,15 @@ namespace undine
   /// A time step of h [s] from t^n (T1), written for the one unknown u = u^{n+1} [m/s]:
   ///
   ///     M (m u + m_u u^n + m_a a^n) + C (c u + c_u u^n)
-  ///       + sum_e w_e [ K(d_e) - f(d_e, t_e) ] - J p = 0                                       [N]
+  ///       + sum_e w_e [ K(d_e) - f(d_e, t_e) ] - kappa f_c - J p = 0                           [N]
   ///     d_e = (1 - s_e) d^n + s_e d^{n+1},   t_e = t^n + s_e h
   ///     d^{n+1} = d^n + e_u u^n + e_a a^n + e u
   ///     a^{n+1} = b u + b_u u^n + b_a a^n
   ///
-  /// where f are gravity, dead loads and follower pressures. Unless the step is static, m = 1/h and
-  /// m_u = -1/h: the impulse h J p of a fluid's pressure enters the momentum once and un-averaged,
-  /// whatever the integrator. C = alpha M + eta K'(d^n + r h u^n).
+  /// where f are gravity, dead loads and follower pressures, and kappa f_c forces of contact, kappa
+  /// being ContactStart::weight. Unless the step is static, m = 1/h and m_u = -1/h: the impulse
+  /// h J p of a fluid's pressure enters the momentum once and un-averaged, whatever the integrator.
+  /// C = alpha M + eta K'(d^n + r h u^n).
   struct StepCoefficients
   {
     /// Internal forces and loads between t^n (position 0) and t^{n+1} (position 1).
@@ -44,8 +45,8 @@ namespace undine
     double             acceleration_velocity     = 0; ///< b_u [1/s]
     double             acceleration_acceleration = 0; ///< b_a [1]
 
-    /// Sum of the stages' weights [1]: reactions and the pressure's share of the acceleration are
-    /// divided by it.
+    /// Sum of the stages' weights [1]: reactions are divided by it and, where energy and momentum
+    /// are accounted for, loads and damping.
     double
     sum_of_weights() const;
   };
