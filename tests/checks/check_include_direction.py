@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Includes follow the order of the modules and their rooms (doc/architecture.md); neither rooms nor headers
+"""Includes follow the order of the modules and their folders (doc/architecture.md); neither folders nor headers
 have cycles, and no folder is crowded.
 
 usage: check_include_direction.py ROOT      prints FILE:LINE: REASON for every violation
@@ -13,8 +13,8 @@ BASE = {"base/core", "base/options", "base/parallel"}
 GEOMETRY = {"surface", "cutting", "operators", "contact"}
 PHYSICS = BASE | GEOMETRY | {"solid", "fluid", "particles"}
 
-# Room: what it may include besides itself. A room is a module or, as "module/room", a folder of one; the
-# name of a module stands for all of its rooms. Files directly in a module that has rooms are a room, too.
+# Folder: what it may include besides itself. A folder is a module or, as "module/folder", a folder of one; the
+# name of a module stands for all of its folders. Files directly in a module that has folders are a folder, too.
 SEES = {
     "base/core": set(),
     "base/options": {"base/core"},
@@ -87,21 +87,21 @@ SUFFIXES = {".h", ".cc", ".cu", ".cuh"}
 MOST_FILES = 25
 
 
-def room_of(path):
-    """The room that owns a path like base/core/clock.h or solid/material/materials/neo_hookean.cc, as it is
-    called in SEES; None if it is in no room."""
+def folder_of(path):
+    """The folder that owns a path like base/core/clock.h or solid/material/materials/neo_hookean.cc, as it is
+    called in SEES; None if it is in no folder."""
     parts = pathlib.PurePosixPath(path).parts
     if len(parts) > 2 and "/".join(parts[:2]) in SEES:
         return "/".join(parts[:2])
-    has_rooms = any(room.startswith(parts[0] + "/") for room in SEES)
-    if len(parts) == 1 or parts[0] not in SEES or (has_rooms and len(parts) > 2):
+    has_folders = any(folder.startswith(parts[0] + "/") for folder in SEES)
+    if len(parts) == 1 or parts[0] not in SEES or (has_folders and len(parts) > 2):
         return None
     return parts[0]
 
 
-def may_see(room, other):
-    """Whether what is in `room` may include what is in the room `other`."""
-    return other == room or other in SEES[room] or other.split("/")[0] in SEES[room]
+def may_see(folder, other):
+    """Whether what is in `folder` may include what is in the folder `other`."""
+    return other == folder or other in SEES[folder] or other.split("/")[0] in SEES[folder]
 
 
 def sources(root):
@@ -122,43 +122,43 @@ def includes(file):
             yield number, match[1]
 
 
-def reason(room, included):
-    """Why `room` may not include `included`; empty if it may."""
+def reason(folder, included):
+    """Why `folder` may not include `included`; empty if it may."""
     if included.startswith("undine/"):
-        other = room_of(included[len("undine/"):])
+        other = folder_of(included[len("undine/"):])
         if other is None:
-            return f"<{included}> belongs to no room"
-        return "" if may_see(room, other) else f"'{room}' must not see '{other}': <{included}>"
-    if included.startswith("deal.II/") and room.startswith(WITHOUT_DEAL_II):
-        return f"'{room}' must not see deal.II: <{included}>"
-    if room == "base/core" and not re.fullmatch(r"[a-z_]+", included):
-        return f"'{room}' uses the standard library only: <{included}>"
+            return f"<{included}> belongs to no folder"
+        return "" if may_see(folder, other) else f"'{folder}' must not see '{other}': <{included}>"
+    if included.startswith("deal.II/") and folder.startswith(WITHOUT_DEAL_II):
+        return f"'{folder}' must not see deal.II: <{included}>"
+    if folder == "base/core" and not re.fullmatch(r"[a-z_]+", included):
+        return f"'{folder}' uses the standard library only: <{included}>"
     return ""
 
 
 def wrong_directions(root):
     for file, inside in sources(root):
-        room = room_of(inside)
-        if room is None:
-            yield f"{file.relative_to(root)}:1: belongs to no room of doc/architecture.md"
+        folder = folder_of(inside)
+        if folder is None:
+            yield f"{file.relative_to(root)}:1: belongs to no folder of doc/architecture.md"
             continue
         for number, included in includes(file):
-            why = reason(room, included)
+            why = reason(folder, included)
             if why:
                 yield f"{file.relative_to(root)}:{number}: {why}"
 
 
-def cycles_of_rooms(root):
-    """Rooms that see each other, directly or through others: by what they include."""
+def cycles_of_folders(root):
+    """Folders that see each other, directly or through others: by what they include."""
     graph = {}
     for file, inside in sources(root):
-        room = room_of(inside)
-        graph.setdefault(room, set())
+        folder = folder_of(inside)
+        graph.setdefault(folder, set())
         for _, included in includes(file):
             if included.startswith("undine/"):
-                graph[room].add(room_of(included[len("undine/"):]))
-    yield from cycles_in({room: sorted(other for other in others if other and other != room)
-                          for room, others in graph.items() if room})
+                graph[folder].add(folder_of(included[len("undine/"):]))
+    yield from cycles_in({folder: sorted(other for other in others if other and other != folder)
+                          for folder, others in graph.items() if folder})
 
 
 def cycles_of_headers(root):
@@ -185,16 +185,16 @@ def cycles_in(graph):
 
 def crowded_folders(root):
     """Folders with more files than one can take in."""
-    for tree in ("include/undine", "source", "cuda"):
+    for tree in ("include/undine", "source", "cuda", "tests/unit"):
         for folder in [root / tree, *sorted((root / tree).rglob("*"))]:
             count = sum(file.suffix in SUFFIXES for file in folder.iterdir()) if folder.is_dir() else 0
             if count > MOST_FILES:
-                yield f"{folder.relative_to(root)}:1: {count} files; more than {MOST_FILES}: which rooms are in it?"
+                yield f"{folder.relative_to(root)}:1: {count} files; more than {MOST_FILES}: which folders are in it?"
 
 
 def problems(root):
     yield from wrong_directions(root)
-    yield from cycles_of_rooms(root)
+    yield from cycles_of_folders(root)
     yield from cycles_of_headers(root)
     yield from crowded_folders(root)
 

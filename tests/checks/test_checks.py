@@ -63,11 +63,11 @@ class IncludeDirection(Tree):
         self.write("source/fluid/grid/lattice.cc", LICENCE + "#include <undine/effects/effect.h>\n")
         self.expect(self.includes(), "source/fluid/grid/lattice.cc:2:", "'effects'")
 
-    def test_room_sees_one_above_it(self):
+    def test_folder_sees_one_above_it(self):
         self.write("source/solid/material/rubber.cc", LICENCE + "#include <undine/solid/mesh/beam.h>\n")
         self.expect(self.includes(), "source/solid/material/rubber.cc:2:", "'solid/mesh'")
 
-    def test_room_sees_the_face_of_its_module(self):
+    def test_folder_sees_the_top_of_its_module(self):
         self.write("source/fluid/grid/lattice.cc", LICENCE + "#include <undine/fluid/fluid_step.h>\n")
         self.expect(self.includes(), "source/fluid/grid/lattice.cc:2:", "'fluid'")
 
@@ -75,12 +75,12 @@ class IncludeDirection(Tree):
         self.write("source/contact/barrier.cc", LICENCE + "#include <undine/cutting/cut_block.h>\n")
         self.expect(self.includes(), "source/contact/barrier.cc:2:", "'contact'", "'cutting'")
 
-    def test_folders_of_parts_belong_to_their_room(self):
+    def test_folders_of_parts_belong_to_theirs(self):
         self.write("source/solid/material/materials/rubber.cc",
                    LICENCE + "#include <undine/solid/mesh/beam.h>\n")
         self.expect(self.includes(), "'solid/material'")
 
-    def test_unknown_room(self):
+    def test_unknown_folder(self):
         self.write("source/fluid/cellar/wine.cc", LICENCE)
         self.expect(self.includes(), "source/fluid/cellar/wine.cc:1:")
 
