@@ -9,8 +9,6 @@ import subprocess
 import tempfile
 
 ROOM = 64  # for arguments
-# On one rank Open MPI needs neither a daemon nor a network, which it would spend most of its start to look for.
-ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
 
 
 class ForkServers:
@@ -35,7 +33,7 @@ class ForkServers:
 class Server:
     def __init__(self, executable, library, environment):
         ours, theirs = socket.socketpair()
-        environment = dict(environment, **ALONE, LD_PRELOAD=library, UNDINE_FORK_SERVER=str(theirs.fileno()))
+        environment = dict(environment, LD_PRELOAD=library, UNDINE_FORK_SERVER=str(theirs.fileno()))
         self.process = subprocess.Popen([executable] + ["x"] * ROOM, env=environment, stdin=subprocess.DEVNULL,
                                         pass_fds=[theirs.fileno()], start_new_session=True)
         theirs.close()

@@ -96,9 +96,9 @@ class Verdicts(unittest.TestCase):
 
     def test_keys_with_odd_bytes(self):
         one = case("good")
-        one.files["scene.prm"] = b"set a\tb = 1\nset c\xff = 1\n"
+        one.files["scene.prm"] = b"set a\tb = 1\nset c\xff = 1\nset e\\\nf = 1\n"
         message = "scene.prm:{}: top level, key '{}': there is no such key"
-        for line, key, wrong in ((1, "a?b", 0), (2, "c\\xff", 0), (1, "c\\xff", 1), (2, "a b", 1)):
+        for line, key, wrong in ((1, "a?b", 0), (2, "c\\xff", 0), (1, "c\\xff", 1), (4, "e f", 0), (2, "a d", 1)):
             with self.subTest(key):
                 self.assertEqual(len(verdicts.wrong_places(one, message.format(line, key))), wrong)
 

@@ -84,8 +84,8 @@ def names_a_place(case, message):
 
 def legible(text):
     """What is left of a scene's text where it and a message can be compared: without blanks, line breaks and
-    their backslashes, and whatever messages show as '?'."""
-    return re.sub(r"[^!->@-\[\]-~]", "", text)
+    their backslashes, and whatever messages show as '?' or, as a byte that is no text, by its number."""
+    return re.sub(r"\\x[0-9a-f]{2}|[^!->@-\[\]-~]", "", text)
 
 
 def wrong_places(case, message):

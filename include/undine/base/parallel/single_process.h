@@ -20,6 +20,8 @@ namespace undine
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
     setenv("OMPI_MCA_pml", "ob1", keep);
     setenv("OMPI_MCA_btl", "self", keep);
+    // All such processes of a host would use, and remove, one folder.
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
   }
 } // namespace undine
 
