@@ -22,18 +22,19 @@ namespace undine::particles
       {
         const double size = upper[axis] - lower[axis];
         if (!(size > 0))
-          throw InputError("the box of the particles is empty along axis " + std::to_string(axis) +
-                           ".");
+          throw InputError("section 'Domain': the box of the particles is empty along axis " +
+                           std::to_string(axis) + ".");
         const double cells = std::max(1., std::floor(size / reach * (1 - 1e-6)));
         if (periodic[axis] && cells < 3)
-          throw InputError("the domain is periodic along axis " + std::to_string(axis) +
+          throw InputError("section 'Domain': the domain is periodic along axis " +
+                           std::to_string(axis) +
                            " but shorter than three reaches of a particle. Make it longer or the "
                            "particles smaller.");
         all *= cells;
         if (!(all < std::numeric_limits<int>::max() / 2))
           throw InputError(
-            "the box of the particles has too many cells. Make the domain smaller or "
-            "the particles larger.");
+            "section 'Domain': the box of the particles has too many cells. Make it or "
+            "'Room beyond open sides' smaller, or the particles larger.");
         grid.lower[axis]        = static_cast<Real>(lower[axis]);
         grid.size[axis]         = static_cast<Real>(size);
         grid.cells[axis]        = static_cast<int>(cells);
