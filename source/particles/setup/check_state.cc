@@ -83,7 +83,8 @@ namespace undine::particles
     }
 
 
-    /// Particles in cells of the size of the distance that is asked for.
+    /// Particles in cells that are as long as the distance that is asked for, or longer where a
+    /// large domain would have more of them than can be numbered.
     template <int dim>
     class CloseParticles
     {
@@ -92,7 +93,8 @@ namespace undine::particles
                      const ParticleState<dim> &state,
                      const double              distance)
         : state(state)
-        , grid(make_cell_grid<dim, double>(setup.lower, setup.upper, open, distance))
+        , grid(make_cell_grid<dim, double>(
+            setup.lower, setup.upper, open, length_of_cells(setup, distance)))
         , distance(distance)
       {
         std::copy(setup.periodic, setup.periodic + dim, grid.periodic);
@@ -147,6 +149,22 @@ namespace undine::particles
       may_overlap(const Tag moving, const Tag wall)
       {
         return moving.material() == moving_material && !wall.is_free();
+      }
+
+      static double
+      length_of_cells(const Setup<dim> &setup, const double distance)
+      {
+        constexpr double most   = 1e8;
+        double           length = distance / 2, cells = 0;
+        do
+          {
+            length *= 2;
+            cells = 1;
+            for (int axis = 0; axis < dim; ++axis)
+              cells *= std::max(1., (setup.upper[axis] - setup.lower[axis]) / length);
+          }
+        while (cells > most && std::isfinite(cells));
+        return length;
       }
 
       static constexpr bool open[dim] = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/particles/model/cell_grid.h>
+#include <undine/particles/setup/check_state.h>
 
 #include <catch2/catch.hpp>
 
@@ -244,4 +245,19 @@ TEMPLATE_TEST_CASE_SIG(
           CHECK(grid.coordinate(place, axis) == 0);
         }
     }
+}
+
+
+TEST_CASE("A wide space with few particles is accepted, and particles too close are found in it",
+          "[particles]")
+{
+  // Half a spacing is 1/50,000 of its width.
+  ParticleScene<2> scene(0.04);
+  scene.setup.lower = {0, 0};
+  scene.setup.upper = {1000, 1000};
+  scene.add({1, 1}, Kind::fluid, 0, {0, 0});
+  scene.add({999, 999}, Kind::fluid, 0, {0, 0});
+  CHECK_NOTHROW(check_state(scene.setup, scene.state));
+  scene.add({999.015, 999}, Kind::fluid, 0, {0, 0});
+  CHECK_THROWS_AS(check_state(scene.setup, scene.state), InputError);
 }
