@@ -34,9 +34,9 @@ namespace undine
         images.emplace_back(box.position(point), position);
       else
         {
-          const auto number        = lattice.number(point);
-          const auto [first, new_] = first_of.try_emplace(number, position);
-          if (new_)
+          const auto number            = lattice.number(point);
+          const auto [first, is_first] = first_of.try_emplace(number, position);
+          if (is_first)
             ghosts[position] = number;
           else
             images.emplace_back(first->second, position);
