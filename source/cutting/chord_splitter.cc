@@ -96,7 +96,7 @@ namespace undine
   template <int dim>
   template <class Complete>
   void
-  ChordSplitter<dim>::split_segment(std::vector<Part> &parts,
+  ChordSplitter<dim>::split_segment(std::vector<SplitPoint> &parts,
                                     const int          from,
                                     const int          to,
                                     const unsigned int axis,
@@ -125,7 +125,7 @@ namespace undine
 
   template <int dim>
   void
-  ChordSplitter<dim>::split_ridge(std::vector<Part> &parts,
+  ChordSplitter<dim>::split_ridge(std::vector<SplitPoint> &parts,
                                   const int          from,
                                   const int          to,
                                   const unsigned int axis,
@@ -150,7 +150,7 @@ namespace undine
 
   template <int dim>
   void
-  ChordSplitter<dim>::split_in_facet(std::vector<Part> &parts,
+  ChordSplitter<dim>::split_in_facet(std::vector<SplitPoint> &parts,
                                      const int          from,
                                      const int          to,
                                      const unsigned int axis,

@@ -63,7 +63,7 @@ namespace undine
     }
 
     void
-    accelerate(FluidStep<dim> &step) const override
+    accelerate(FluidStage<dim> &step) const override
     {
       if (is_zero(on_fluid))
         return;
@@ -102,7 +102,7 @@ namespace undine
   private:
     /// Of the fluid [m/s^2].
     dealii::Tensor<1, dim>
-    acceleration(const FluidStep<dim> &step, const dealii::Point<dim> &place) const
+    acceleration(const FluidStage<dim> &step, const dealii::Point<dim> &place) const
     {
       return on_fluid.acceleration.vector(place, step.end) +
              on_fluid.per_volume.vector(place, step.end) / step.model.density();

@@ -77,7 +77,7 @@ namespace undine
     }
 
     void
-    accelerate(FluidStep<dim> &step) const override
+    accelerate(FluidStage<dim> &step) const override
     {
       const auto timed = step.timing.section(this->name);
       for (const auto &lift : lifts)
@@ -111,7 +111,7 @@ namespace undine
     };
 
     void
-    accelerate_along(FluidStep<dim>    &step,
+    accelerate_along(FluidStage<dim>    &step,
                      const Field<dim>  &scalar,
                      const Lift        &lift,
                      const unsigned int axis) const

@@ -8,7 +8,7 @@
 namespace undine
 {
   /// The fluid carries its own momentum: dv/dt + (v.grad) v = a for one step, where in steps of one
-  /// stage a share of the acceleration a by forces is carried along (see FluidStep). Without
+  /// stage a share of the acceleration a by forces is carried along (see FluidStage). Without
   /// convection the flow is a Stokes flow.
   template <int dim>
   class Convection : public Effect<dim>
@@ -43,7 +43,7 @@ namespace undine
     }
 
     void
-    transport(FluidStep<dim> &step) const override
+    transport(FluidStage<dim> &step) const override
     {
       const auto timed = step.timing.section(this->name);
       if (step.stage.keeps_rates)
@@ -54,7 +54,7 @@ namespace undine
 
   private:
     void
-    carry(const std::vector<Velocity<dim> *> &velocities, FluidStep<dim> &step) const
+    carry(const std::vector<Velocity<dim> *> &velocities, FluidStage<dim> &step) const
     {
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
@@ -74,11 +74,11 @@ namespace undine
     }
 
     void
-    carry_with_acceleration(FluidStep<dim> &step) const
+    carry_with_acceleration(FluidStage<dim> &step) const
     {
       auto        &velocity = step.state.velocity;
       const auto  &now      = step.state.acceleration;
-      const double share    = FluidStep<dim>::carried_share * step.dt;
+      const double share    = FluidStage<dim>::carried_share * step.dt;
       for (unsigned int axis = 0; axis < dim; ++axis)
         add_to_whole_faces(velocity[axis], share, now[axis]);
       carry({&velocity}, step);

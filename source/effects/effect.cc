@@ -30,21 +30,21 @@ namespace undine
 
   template <int dim>
   void
-  Effect<dim>::transport(FluidStep<dim> &) const
+  Effect<dim>::transport(FluidStage<dim> &) const
   {
   }
 
 
   template <int dim>
   void
-  Effect<dim>::accelerate(FluidStep<dim> &) const
+  Effect<dim>::accelerate(FluidStage<dim> &) const
   {
   }
 
 
   template <int dim>
   void
-  Effect<dim>::diffuse(FluidStep<dim> &) const
+  Effect<dim>::diffuse(FluidStage<dim> &) const
   {
   }
 

@@ -125,7 +125,7 @@ namespace undine
 
       /// s^0 of a stage that keeps rates (T9), and what the next one needs of s^n and f^n.
       void
-      start(FluidStep<dim> &step) const
+      start(FluidStage<dim> &step) const
       {
         auto       &values = step.state.scalars.at(name);
         const auto &rate   = step.state.scalar_rates.at(name);
@@ -264,7 +264,7 @@ namespace undine
 
     /// All terms of a stage, so that forces use the fields at its end.
     void
-    transport(FluidStep<dim> &step) const override
+    transport(FluidStage<dim> &step) const override
     {
       const auto timed = step.timing.section(this->name);
       for (const auto &field : fields)
@@ -323,7 +323,7 @@ namespace undine
   private:
     /// And what the next stage starts from.
     void
-    carry(Field<dim> &values, const CarriedScalar<dim> &field, FluidStep<dim> &step) const
+    carry(Field<dim> &values, const CarriedScalar<dim> &field, FluidStage<dim> &step) const
     {
       std::vector<Field<dim>> carried;
       carried.push_back(std::move(values));
@@ -338,7 +338,7 @@ namespace undine
 
     /// Sources and diffusion, and the rate that they make.
     void
-    change(const CarriedScalar<dim> &field, FluidStep<dim> &step) const
+    change(const CarriedScalar<dim> &field, FluidStage<dim> &step) const
     {
       auto        &values  = step.state.scalars.at(field.name);
       const auto   carried = values;

@@ -17,7 +17,7 @@ namespace undine
   ///
   ///     (1 - h nu Laplace) w = v'' - h grad q^n / rho,   v* = w + h grad q^n / rho        (E3)
   ///
-  /// for each component, with no-slip walls, inflow, and no friction on openings (see FluidStep for
+  /// for each component, with no-slip walls, inflow, and no friction on openings (see FluidStage for
   /// the old pressure gradient).
   template <int dim>
   class Viscosity : public Effect<dim>
@@ -53,7 +53,7 @@ namespace undine
     }
 
     void
-    diffuse(FluidStep<dim> &step) const override
+    diffuse(FluidStage<dim> &step) const override
     {
       const auto timed    = step.timing.section(this->name);
       auto      &velocity = step.state.velocity;
@@ -120,7 +120,7 @@ namespace undine
   private:
     /// Friction along one axis, also on surfaces. Returns the number of iterations.
     unsigned int
-    among_bodies(FluidStep<dim> &step, const unsigned int axis) const
+    among_bodies(FluidStage<dim> &step, const unsigned int axis) const
     {
       const auto &bodies   = step.tracer.bodies();
       auto       &friction = frictions[axis];

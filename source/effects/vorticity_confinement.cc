@@ -57,7 +57,7 @@ namespace undine
     }
 
     void
-    accelerate(FluidStep<dim> &step) const override
+    accelerate(FluidStage<dim> &step) const override
     {
       const auto timed  = step.timing.section(this->name);
       const auto forces = confining_forces(step);
@@ -112,7 +112,7 @@ namespace undine
 
     /// Velocities in the centres of whole cells, and after them 1 there.
     static Fields
-    centre_velocities(const FluidStep<dim> &step)
+    centre_velocities(const FluidStage<dim> &step)
     {
       auto velocity = step.state.velocity;
       exchange(velocity);
@@ -144,7 +144,7 @@ namespace undine
 
 
     static Vorticity
-    vorticity(const FluidStep<dim> &step)
+    vorticity(const FluidStage<dim> &step)
     {
       const auto &grid     = step.model.grid();
       const auto  velocity = centre_velocities(step);
@@ -200,7 +200,7 @@ namespace undine
 
     /// f in the centres of cells, with one ghost layer [m/s^2].
     Fields
-    confining_forces(FluidStep<dim> &step) const
+    confining_forces(FluidStage<dim> &step) const
     {
       const auto &grid  = step.model.grid();
       const auto  omega = vorticity(step);

@@ -190,7 +190,7 @@ namespace undine
           speed                = std::max(speed, velocity.norm());
           flux += fragment.mean[k] * velocity * fragment.area_vector;
         }
-      result.parts.push_back({component, surface.body(fragment.facet), flux});
+      result.contributions.push_back({component, surface.body(fragment.facet), flux});
       if (speed == 0)
         return;
       // What its corners are uncertain makes the area uncertain by the length of its rim.

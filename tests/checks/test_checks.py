@@ -68,7 +68,7 @@ class IncludeDirection(Tree):
         self.expect(self.includes(), "source/solid/material/rubber.cc:2:", "'solid/mesh'")
 
     def test_folder_sees_the_top_of_its_module(self):
-        self.write("source/fluid/grid/lattice.cc", LICENCE + "#include <undine/fluid/fluid_step.h>\n")
+        self.write("source/fluid/grid/lattice.cc", LICENCE + "#include <undine/fluid/fluid_stage.h>\n")
         self.expect(self.includes(), "source/fluid/grid/lattice.cc:2:", "'fluid'")
 
     def test_contact_sees_cutting(self):

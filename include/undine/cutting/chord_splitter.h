@@ -29,7 +29,7 @@ namespace undine
   {
   public:
     /// A vertex where an edge is split and the slab that it enters there.
-    struct Part
+    struct SplitPoint
     {
       int vertex;
       int slab;
@@ -50,7 +50,7 @@ namespace undine
     /// Append the vertices where the segment between two vertices on a ridge meets planes of
     /// `axis`.
     void
-    split_ridge(std::vector<Part> &parts,
+    split_ridge(std::vector<SplitPoint> &parts,
                 const int          from,
                 const int          to,
                 const unsigned int axis,
@@ -80,14 +80,14 @@ namespace undine
   private:
     template <class Complete>
     void
-    split_segment(std::vector<Part> &parts,
+    split_segment(std::vector<SplitPoint> &parts,
                   const int          from,
                   const int          to,
                   const unsigned int axis,
                   const Complete    &complete);
 
     void
-    split_in_facet(std::vector<Part> &parts,
+    split_in_facet(std::vector<SplitPoint> &parts,
                    const int          from,
                    const int          to,
                    const unsigned int axis,
@@ -122,7 +122,7 @@ namespace undine
     const Surface<dim>                &surface;
     SplitSurface<dim>                 &split;
     NodeWindings<dim>                 &windings;
-    std::array<std::vector<Part>, dim> scratch;
+    std::array<std::vector<SplitPoint>, dim> scratch;
   };
 } // namespace undine
 

@@ -92,7 +92,7 @@ namespace undine
     std::vector<int>                    chain_vertices;
     std::array<Polygon, 3>              polygons, lower_parts, upper_parts;
     std::vector<int>                    ridge_vertices, finer_vertices;
-    std::vector<ChordSplitter<3>::Part> parts;
+    std::vector<ChordSplitter<3>::SplitPoint> parts;
     std::vector<ChordSplitter<3>::Link> links;
   };
 

@@ -4,7 +4,7 @@
 
 #include <undine/base/core/column.h>
 #include <undine/base/options/options.h>
-#include <undine/fluid/fluid_step.h>
+#include <undine/fluid/fluid_stage.h>
 #include <undine/particles/setup/setup.h>
 #include <undine/solid/assembly/solid_environment.h>
 
@@ -62,15 +62,15 @@ namespace undine
 
     /// Carry velocity and scalars with the flow.
     virtual void
-    transport(FluidStep<dim> &step) const;
+    transport(FluidStage<dim> &step) const;
 
     /// Add explicit forces: v += h f / rho on the faces.
     virtual void
-    accelerate(FluidStep<dim> &step) const;
+    accelerate(FluidStage<dim> &step) const;
 
     /// Implicit terms.
     virtual void
-    diffuse(FluidStep<dim> &step) const;
+    diffuse(FluidStage<dim> &step) const;
     /// @}
 
     /// What a stage of a step computes for the effect on every cell of the grid.
@@ -85,7 +85,7 @@ namespace undine
     work() const;
 
     /// What exists on this rank for the effect alone: matrices that it keeps, its fields in the
-    /// state [bytes]. What it allocates within a phase goes to FluidStep::timing.memory.
+    /// state [bytes]. What it allocates within a phase goes to FluidStage::timing.memory.
     virtual std::size_t
     memory_consumption(const FluidState<dim> &state) const;
 
@@ -117,7 +117,7 @@ namespace undine
     virtual void
     measure(Scales &scales, const FluidState<dim> &state) const;
 
-    /// By which the scene calls for it. The phases of FluidStep::timing in which it works, and its
+    /// By which the scene calls for it. The phases of FluidStage::timing in which it works, and its
     /// memory there, bear this name.
     std::string name;
   };

@@ -2,7 +2,7 @@
 #ifndef undine_effects_face_forces_h
 #define undine_effects_face_forces_h
 
-#include <undine/fluid/fluid_step.h>
+#include <undine/fluid/fluid_stage.h>
 #include <undine/fluid/grid/field_algebra.h>
 
 namespace undine
@@ -15,7 +15,7 @@ namespace undine
   /// `on_face(index)` and `on_piece(number)` are the accelerations a [m/s^2].
   template <int dim, class OnFace, class OnPiece>
   void
-  accelerate_faces(FluidStep<dim>    &step,
+  accelerate_faces(FluidStage<dim>    &step,
                    const unsigned int axis,
                    const OnFace      &on_face,
                    const OnPiece     &on_piece)

@@ -137,7 +137,7 @@ namespace undine
 
   template <int dim>
   void
-  SleepingBodies<dim>::step(State<dim> &state, const Stage &stage, Report &report)
+  SleepingBodies<dim>::solve_stage(State<dim> &state, const Stage &stage, Report &report)
   {
     if (stage.is_first)
       {
@@ -151,7 +151,7 @@ namespace undine
           }
       }
     if (physics)
-      physics->step(state, stage, report);
+      physics->solve_stage(state, stage, report);
     if (!stage.is_last)
       return;
     const auto   timed = timing.section("sleep");
@@ -191,7 +191,7 @@ namespace undine
     physics.reset();
     part.reset();
     if (sleep.any_asleep())
-      make_part(state);
+      make_reduced_models(state);
     const auto &models = part ? part->models : all;
     budget.follow(models.surface.get());
     if (models.solid || models.fluid)
@@ -201,9 +201,9 @@ namespace undine
 
   template <int dim>
   void
-  SleepingBodies<dim>::make_part(const State<dim> &state)
+  SleepingBodies<dim>::make_reduced_models(const State<dim> &state)
   {
-    part            = std::make_unique<Part>();
+    part            = std::make_unique<ReducedModels>();
     part->asleep    = std::make_unique<const SolidModel<dim>>(*all.solid, sleepers);
     part->of_asleep = std::make_unique<const PartOfBodies<dim>>(*all.solid, *part->asleep);
 
@@ -251,7 +251,7 @@ namespace undine
   SleepingBodies<dim>::measure_asleep(const State<dim> &state) const
   {
     const auto          &model = *part->asleep;
-    const SolidStep<dim> step(model);
+    const SolidStepper<dim> step(model);
     const double         time  = state.clock.time;
     auto                 still = part->of_asleep->taken_from(state.solid);
     still.velocity             = 0;

@@ -64,7 +64,7 @@ namespace undine
 
   template <int dim>
   void
-  SurfaceFriction<dim>::end(State<dim> &state, const FluidStep<dim> &fluid)
+  SurfaceFriction<dim>::end(State<dim> &state, const FluidStage<dim> &fluid)
   {
     last_forces = fluid.friction->on_nodes;
     if (!models.solid)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/scheme/stepping_scheme.h>
-#include <undine/coupled/step/coupled_step.h>
+#include <undine/coupled/step/coupled_stage.h>
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/solid_side.h>
 
@@ -50,11 +50,11 @@ namespace undine
     }
 
     void
-    step(State<dim> &state, const Stage &stage, Report &report) override
+    solve_stage(State<dim> &state, const Stage &stage, Report &report) override
     {
       solid_side.start(state, stage);
       const auto       fluid = fluid_side.predict(state, stage);
-      CoupledStep<dim> coupled({models,
+      CoupledStage<dim> coupled({models,
                                 solid_side.mass(),
                                 solid_side.environment(),
                                 *fluid_side.geometry(),
@@ -82,7 +82,7 @@ namespace undine
 
   private:
     void
-    balance(const CoupledStep<dim> &step, const SolidReport<dim> &solid, const double dt)
+    balance(const CoupledStage<dim> &step, const SolidReport<dim> &solid, const double dt)
     {
       if (!budget.is_on())
         return;

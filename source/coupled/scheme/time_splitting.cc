@@ -41,7 +41,7 @@ namespace undine
     }
 
     void
-    step(State<dim> &state, const Stage &stage, Report &report) override
+    solve_stage(State<dim> &state, const Stage &stage, Report &report) override
     {
       SurfaceExchange<dim> exchange;
       {
@@ -94,7 +94,7 @@ namespace undine
 
     /// Throws SolveError where bodies close off fluid, whose volume their motion does not conserve.
     typename Projection<dim>::Report
-    project(State<dim> &state, const FluidStep<dim> &fluid, const Vectors &velocities)
+    project(State<dim> &state, const FluidStage<dim> &fluid, const Vectors &velocities)
     try
       {
         const auto phase = timing.section("project");

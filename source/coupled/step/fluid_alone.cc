@@ -25,7 +25,7 @@ namespace undine
 
   template <int dim>
   void
-  FluidAlone<dim>::step(State<dim> &state, const Stage &stage, Report &report)
+  FluidAlone<dim>::solve_stage(State<dim> &state, const Stage &stage, Report &report)
   {
     const auto timed    = timing.section("fluid");
     const auto fluid    = fluid_side.predict(state, stage);

@@ -134,7 +134,7 @@ namespace undine
   template <int dim>
   template <class Action>
   void
-  FluidSide<dim>::run_phase(FluidStep<dim>                   &fluid,
+  FluidSide<dim>::run_phase(FluidStage<dim>                   &fluid,
                             const typename Budget<dim>::Phase phase,
                             const Action                     &act)
   {
@@ -160,7 +160,7 @@ namespace undine
 
 
   template <int dim>
-  std::unique_ptr<FluidStep<dim>>
+  std::unique_ptr<FluidStage<dim>>
   FluidSide<dim>::predict(State<dim> &state, const Stage &stage)
   {
     if (stage.is_first)
@@ -170,7 +170,7 @@ namespace undine
       throw SolveError("bodies and obstacles have filled the domain: there is no fluid left in it. "
                        "Try: a smaller step, or obstacles that leave some.");
     share_parts(state.fluid);
-    auto fluid = std::make_unique<FluidStep<dim>>(model,
+    auto fluid = std::make_unique<FluidStage<dim>>(model,
                                                   state.fluid,
                                                   state.next_fluid,
                                                   environment.gravity,
@@ -202,7 +202,7 @@ namespace undine
 
   template <int dim>
   void
-  FluidSide<dim>::finish(FluidStep<dim> &fluid,
+  FluidSide<dim>::finish(FluidStage<dim> &fluid,
                          State<dim>     &state,
                          Report         &report,
                          const double    divergence)

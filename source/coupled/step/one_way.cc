@@ -35,7 +35,7 @@ namespace undine
 
   template <int dim>
   void
-  OneWay<dim>::step(State<dim> &state, const Stage &stage, Report &report)
+  OneWay<dim>::solve_stage(State<dim> &state, const Stage &stage, Report &report)
   {
     Half half = models.direction == Direction::fluid_to_body ? fluid_then_body(state, stage)
                                                              : body_then_fluid(state, stage);

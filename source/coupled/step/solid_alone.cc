@@ -23,7 +23,7 @@ namespace undine
 
   template <int dim>
   void
-  SolidAlone<dim>::step(State<dim> &state, const Stage &stage, Report &report)
+  SolidAlone<dim>::solve_stage(State<dim> &state, const Stage &stage, Report &report)
   {
     solid_side.start(state, stage);
     const auto solid = solid_side.advance(state, stage);

@@ -27,10 +27,10 @@ namespace undine
     , budget(budget)
     , timing(timing)
     , surroundings(models.environment())
-    , solid_step(model)
+    , solid_stepper(model)
   {
     if (budget.is_on())
-      solid_step.keep_balance();
+      solid_stepper.keep_balance();
   }
 
 
@@ -38,7 +38,7 @@ namespace undine
   void
   SolidSide<dim>::initialize(State<dim> &state, const double dt) const
   {
-    state.solid = solid_step.initialize(surroundings, state.clock.time, dt);
+    state.solid = solid_stepper.initialize(surroundings, state.clock.time, dt);
   }
 
 
@@ -69,7 +69,7 @@ namespace undine
       return;
     start_contact(state, stage);
     if (budget.is_on() && stage.is_first)
-      budget.start(solid_step.amounts(state.solid));
+      budget.start(solid_stepper.amounts(state.solid));
     using Start     = typename State<dim>::StageStart;
     const auto  now = state.solid;
     const Start still{now,
@@ -83,7 +83,7 @@ namespace undine
     state.solid     = start.solid;
     state.increment = start.increment;
     if (budget.is_on() && stage.is_last)
-      budget.add(solid_step.amounts(state.solid));
+      budget.add(solid_stepper.amounts(state.solid));
     if (stage.is_last)
       return;
     state.next = still;
@@ -95,7 +95,7 @@ namespace undine
   SolidReport<dim>
   SolidSide<dim>::advance(State<dim> &state, const Stage &stage, const Vector &forces)
   {
-    return solid_step.step(state.solid,
+    return solid_stepper.step(state.solid,
                            surroundings,
                            state.clock.time + stage.start(),
                            stage.length,
@@ -150,7 +150,7 @@ namespace undine
   {
     const auto measured = timing.section("measure");
     append(report.columns,
-           solid_columns(model, solid_step, surroundings, state.solid, time, solid));
+           solid_columns(model, solid_stepper, surroundings, state.solid, time, solid));
   }
 
 

@@ -184,11 +184,11 @@ namespace undine
     const auto          middle       = dealii::Utilities::MPI::sum(moment, communicator);
     std::vector<double> fluxes(swept.bodies.size(), 0.);
     std::vector<int>    touches(swept.bodies.size(), 0);
-    for (const auto &part : swept.parts)
-      if (which.parts()[part.component] == region)
+    for (const auto &contribution : swept.contributions)
+      if (which.parts()[contribution.component] == region)
         {
-          fluxes[part.body] += part.flux;
-          touches[part.body] = 1;
+          fluxes[contribution.body] += contribution.flux;
+          touches[contribution.body] = 1;
         }
     dealii::Utilities::MPI::sum(fluxes, communicator, fluxes);
     dealii::Utilities::MPI::max(touches, communicator, touches);

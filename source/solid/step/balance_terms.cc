@@ -75,10 +75,10 @@ namespace undine
     const auto &model     = motion.model();
     const auto &old_state = motion.old_state();
     result.elastic = elastic_energy(model, end) - elastic_energy(model, old_state.displacement);
-    for (const auto &stage : motion.coefficients().stages)
+    for (const auto &level : motion.coefficients().levels)
       result.elastic_loss +=
-        stage.weight * internal_work(model,
-                                     motion.stage_displacement(end, stage.position),
+        level.weight * internal_work(model,
+                                     motion.level_displacement(end, level.position),
                                      displacement_increment);
     try
       {
@@ -93,7 +93,7 @@ namespace undine
             for (unsigned int q = 0; q < rule.size(); ++q)
               along_path +=
                 rule.weight(q) * internal_work(model,
-                                               motion.stage_displacement(end, rule.point(q)[0]),
+                                               motion.level_displacement(end, rule.point(q)[0]),
                                                displacement_increment);
             if (std::abs(along_path - result.elastic) <= resolved)
               break;

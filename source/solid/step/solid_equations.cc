@@ -73,18 +73,18 @@ namespace undine
   /// forces += w_e [K(d_e) - P(d_e, t_e)], P being the follower pressures.
   template <int dim>
   void
-  SolidEquations<dim>::add_stage(Vector                        &forces,
-                                 const StepCoefficients::Stage &stage,
+  SolidEquations<dim>::add_level_forces(Vector                        &forces,
+                                 const StageCoefficients::TimeLevel &level,
                                  const Vector                  &displacement)
   {
     const Vector internal = internal_forces(model, displacement);
-    note_size(internal, stage.weight);
-    forces.add(stage.weight, internal);
+    note_size(internal, level.weight);
+    forces.add(level.weight, internal);
     if (has_pressure)
       {
-        const Vector pressure = pressure_loads(model, displacement, time + stage.position * dt);
-        note_size(pressure, stage.weight);
-        forces.add(-stage.weight, pressure);
+        const Vector pressure = pressure_loads(model, displacement, time + level.position * dt);
+        note_size(pressure, level.weight);
+        forces.add(-level.weight, pressure);
       }
   }
 
@@ -97,13 +97,13 @@ namespace undine
       own_rounding += std::numeric_limits<double>::epsilon() * inertia(model.vector()).l2_norm();
     if (coefficients.damping_old_velocity != 0)
       rayleigh_damping.add_forces(known, old_state.velocity, coefficients.damping_old_velocity);
-    for (const auto &stage : coefficients.stages)
+    for (const auto &level : coefficients.levels)
       {
-        const Vector loads = dead_loads(model, environment, time + stage.position * dt, &timing);
-        note_size(loads, stage.weight);
-        dead.add(stage.weight, loads);
-        if (stage.position == 0)
-          add_stage(known, stage, old_state.displacement);
+        const Vector loads = dead_loads(model, environment, time + level.position * dt, &timing);
+        note_size(loads, level.weight);
+        dead.add(level.weight, loads);
+        if (level.position == 0)
+          add_level_forces(known, level, old_state.displacement);
       }
     known.add(-1., dead);
     largest_known = largest_term;
@@ -146,9 +146,9 @@ namespace undine
     if (coefficients.damping != 0)
       rayleigh_damping.add_forces(result, velocity, coefficients.damping);
     const Vector end = displacement(velocity);
-    for (const auto &stage : coefficients.stages)
-      if (stage.position > 0)
-        add_stage(result, stage, motion.stage_displacement(end, stage.position));
+    for (const auto &level : coefficients.levels)
+      if (level.position > 0)
+        add_level_forces(result, level, motion.level_displacement(end, level.position));
     const Vector repulsion = contact.forces(end);
     if (repulsion.size() > 0)
       {
@@ -201,14 +201,14 @@ namespace undine
   {
     const auto timed  = timing.section("assemble tangent");
     Matrix     result = model.matrix();
-    for (const auto &stage : coefficients.stages)
-      if (stage.position > 0)
+    for (const auto &level : coefficients.levels)
+      if (level.position > 0)
         {
-          const double factor = stage.weight * stage.position * coefficients.displacement;
-          const Vector d      = motion.stage_displacement(end, stage.position);
+          const double factor = level.weight * level.position * coefficients.displacement;
+          const Vector d      = motion.level_displacement(end, level.position);
           result.add(factor, internal_stiffness(model, d));
           if (has_pressure)
-            result.add(-factor, pressure_stiffness(model, d, time + stage.position * dt));
+            result.add(-factor, pressure_stiffness(model, d, time + level.position * dt));
         }
     const double mass_factor = coefficients.mass + coefficients.damping * environment.mass_damping;
     if (mass_factor != 0)
@@ -271,11 +271,11 @@ namespace undine
     defect.add(-1., dead);
     defect.add(-1., weighted(reactions));
     if (has_pressure)
-      for (const auto &stage : coefficients.stages)
-        defect.add(-stage.weight,
+      for (const auto &level : coefficients.levels)
+        defect.add(-level.weight,
                    pressure_loads(model,
-                                  motion.stage_displacement(displacement(velocity), stage.position),
-                                  time + stage.position * dt));
+                                  motion.level_displacement(displacement(velocity), level.position),
+                                  time + level.position * dt));
     const Vector repulsion = contact.forces(displacement(velocity));
     if (repulsion.size() > 0)
       defect.add(-1., repulsion);
@@ -300,11 +300,11 @@ namespace undine
     Vector            damping = model.vector();
     rayleigh_damping.add_forces(damping, velocity, coefficients.damping);
     rayleigh_damping.add_forces(damping, old_state.velocity, coefficients.damping_old_velocity);
-    for (const auto &stage : coefficients.stages)
+    for (const auto &level : coefficients.levels)
       for (const auto &[effect, force] :
-           effect_loads(model, environment, time + stage.position * dt))
+           effect_loads(model, environment, time + level.position * dt))
         result.loads_by_effect[effect] +=
-          stage.weight / coefficients.sum_of_weights() * (force * displacement_increment);
+          level.weight / coefficients.sum_of_weights() * (force * displacement_increment);
     Vector loads = dead;
     if (nodal_forces.size() > 0)
       {
@@ -312,11 +312,11 @@ namespace undine
         loads.add(-1., nodal_forces);
       }
     if (has_pressure)
-      for (const auto &stage : coefficients.stages)
-        loads.add(stage.weight,
+      for (const auto &level : coefficients.levels)
+        loads.add(level.weight,
                   pressure_loads(model,
-                                 motion.stage_displacement(end, stage.position),
-                                 time + stage.position * dt));
+                                 motion.level_displacement(end, level.position),
+                                 time + level.position * dt));
     // Those against given forces act un-averaged, as these do.
     const double weight   = coefficients.sum_of_weights();
     const Vector averaged = weighted(reactions);

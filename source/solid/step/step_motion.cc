@@ -8,7 +8,7 @@ namespace undine
   template <int dim>
   StepMotion<dim>::StepMotion(const SolidModel<dim>  &model,
                               const SolidState       &old_state,
-                              const StepCoefficients &coefficients,
+                              const StageCoefficients &coefficients,
                               const double            time,
                               const double            dt)
     : solid(model)
@@ -83,7 +83,7 @@ namespace undine
 
   template <int dim>
   typename StepMotion<dim>::Vector
-  StepMotion<dim>::stage_displacement(const Vector &end_displacement, const double position) const
+  StepMotion<dim>::level_displacement(const Vector &end_displacement, const double position) const
   {
     Vector result = end_displacement;
     result.sadd(position, 1 - position, old.displacement);

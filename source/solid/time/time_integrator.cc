@@ -4,11 +4,11 @@
 namespace undine
 {
   double
-  StepCoefficients::sum_of_weights() const
+  StageCoefficients::sum_of_weights() const
   {
     double sum = 0;
-    for (const auto &stage : stages)
-      sum += stage.weight;
+    for (const auto &level : levels)
+      sum += level.weight;
     return sum;
   }
 

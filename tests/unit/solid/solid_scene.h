@@ -5,7 +5,7 @@
 #include <undine/solid/mesh/solid_model.h>
 #include <undine/solid/mesh/solid_point.h>
 #include <undine/solid/step/solid_columns.h>
-#include <undine/solid/step/solid_step.h>
+#include <undine/solid/step/solid_stepper.h>
 
 #include <fmt/format.h>
 
@@ -114,7 +114,7 @@ namespace undine_tests
     }
 
     SolidModel<dim>       model;
-    SolidStep<dim>        stepper;
+    SolidStepper<dim>        stepper;
     SolidEnvironment<dim> environment;
     SolidState            state;
     SolidReport<dim>      report;

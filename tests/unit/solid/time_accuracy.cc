@@ -18,16 +18,16 @@ namespace
 
   /// An oscillator of unit mass and stiffness after a stage.
   Values
-  end_of_stage(const StepCoefficients &step, const Values &old)
+  end_of_stage(const StageCoefficients &step, const Values &old)
   {
     const double known =
       step.displacement_velocity * old[1] + step.displacement_acceleration * old[2];
     double matrix = step.mass;
     double right  = -step.mass_old_velocity * old[1] - step.mass_old_acceleration * old[2];
-    for (const auto &stage : step.stages)
+    for (const auto &level : step.levels)
       {
-        matrix += stage.weight * stage.position * step.displacement;
-        right -= stage.weight * (old[0] + stage.position * known);
+        matrix += level.weight * level.position * step.displacement;
+        right -= level.weight * (old[0] + level.position * known);
       }
     const double u = right / matrix;
     return {{old[0] + known + step.displacement * u,

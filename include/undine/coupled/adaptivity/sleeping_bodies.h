@@ -5,7 +5,7 @@
 #include <undine/coupled/budget/budget.h>
 #include <undine/coupled/step/physics.h>
 #include <undine/solid/mesh/part_of_bodies.h>
-#include <undine/solid/step/solid_step.h>
+#include <undine/solid/step/solid_stepper.h>
 
 #include <functional>
 #include <memory>
@@ -49,13 +49,13 @@ namespace undine
     advance(State<dim> &state, const Stages &stages, Report &report) override;
 
     void
-    step(State<dim> &state, const Stage &stage, Report &report) override;
+    solve_stage(State<dim> &state, const Stage &stage, Report &report) override;
 
   private:
     using Vectors = std::vector<dealii::Tensor<1, dim>>;
 
     /// The models in place of those of all bodies, where some sleep.
-    struct Part
+    struct ReducedModels
     {
       std::unique_ptr<const SolidModel<dim>>   asleep;
       std::unique_ptr<const PartOfBodies<dim>> of_asleep;
@@ -66,7 +66,7 @@ namespace undine
     void
     choose(State<dim> &state);
     void
-    make_part(const State<dim> &state);
+    make_reduced_models(const State<dim> &state);
     void
     keep_still(const State<dim> &state);
     std::shared_ptr<const SolidMeasures<dim>>
@@ -96,7 +96,7 @@ namespace undine
     const std::vector<bool>                          may_sleep;    ///< [body]
     std::vector<double>                              masses;       ///< [body] [kg]
     std::vector<bool>                                sleepers; ///< [body] for which `physics` is
-    std::unique_ptr<Part>                            part;     ///< nullptr: nobody sleeps
+    std::unique_ptr<ReducedModels>                            part;     ///< nullptr: nobody sleeps
     std::unique_ptr<Physics<dim>>                    physics;  ///< nullptr: nothing is left to do
     std::vector<std::pair<std::string, std::string>> names;    ///< of its columns, with units
 

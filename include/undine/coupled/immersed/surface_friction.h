@@ -4,7 +4,7 @@
 
 #include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/coupled/state/state.h>
-#include <undine/fluid/fluid_step.h>
+#include <undine/fluid/fluid_stage.h>
 
 #include <memory>
 #include <vector>
@@ -40,7 +40,7 @@ namespace undine
 
     /// The stage has ended: G for the next one. Collective.
     void
-    end(State<dim> &state, const FluidStep<dim> &fluid);
+    end(State<dim> &state, const FluidStage<dim> &fluid);
 
     /// Friction of the last stage on all nodes [N]; empty without friction.
     const Vectors &

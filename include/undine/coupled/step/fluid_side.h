@@ -9,7 +9,7 @@
 #include <undine/coupled/model/models.h>
 #include <undine/coupled/state/report.h>
 #include <undine/coupled/state/state.h>
-#include <undine/fluid/fluid_step.h>
+#include <undine/fluid/fluid_stage.h>
 #include <undine/fluid/pressure/projection.h>
 
 #include <memory>
@@ -34,13 +34,13 @@ namespace undine
     /// Cut the grid by the surfaces of bodies and obstacles, then transport, forces and implicit
     /// terms of every effect that is on: v^n in `state` becomes v*. The bodies in `state` are those
     /// at the stage's start. Collective. Throws SolveError.
-    std::unique_ptr<FluidStep<dim>>
+    std::unique_ptr<FluidStage<dim>>
     predict(State<dim> &state, const Stage &stage);
 
     /// The end of the stage that predict() began, after the velocity has been made divergence-free
     /// up to `divergence` [1]; adds to the report. Collective.
     void
-    finish(FluidStep<dim> &fluid, State<dim> &state, Report &report, double divergence);
+    finish(FluidStage<dim> &fluid, State<dim> &state, Report &report, double divergence);
 
     /// Forces of pressure, weight and friction in the nodes of all surfaces [N], after finish(), at
     /// `time` [s]; empty if there is no surface in the fluid. Collective.
@@ -64,7 +64,7 @@ namespace undine
   private:
     template <class Action>
     void
-    run_phase(FluidStep<dim> &fluid, typename Budget<dim>::Phase phase, const Action &act);
+    run_phase(FluidStage<dim> &fluid, typename Budget<dim>::Phase phase, const Action &act);
     void
     count_memory(const FluidState<dim> &state);
     typename FluidGeometry<dim>::Positions

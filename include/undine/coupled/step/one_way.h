@@ -27,7 +27,7 @@ namespace undine
     initialize(State<dim> &state, double dt, Report &report) override;
 
     void
-    step(State<dim> &state, const Stage &stage, Report &report) override;
+    solve_stage(State<dim> &state, const Stage &stage, Report &report) override;
 
     std::vector<dealii::Tensor<1, dim>>
     loads_on_surfaces(const State<dim> &state, double time) const override;
@@ -38,7 +38,7 @@ namespace undine
 
     struct Half
     {
-      std::unique_ptr<FluidStep<dim>>  fluid;
+      std::unique_ptr<FluidStage<dim>>  fluid;
       typename Projection<dim>::Report projected;
       SolidReport<dim>                 solid;
       Exchange                         exchange;

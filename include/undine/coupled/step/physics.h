@@ -36,7 +36,7 @@ namespace undine
       for (const auto &stage : stages)
         {
           throw_if_interrupted(communicator);
-          step(state, stage, report);
+          solve_stage(state, stage, report);
         }
     }
 
@@ -44,7 +44,7 @@ namespace undine
     /// columns at the end of the step. Collective. Throws SolveError; the state may then be half
     /// advanced.
     virtual void
-    step(State<dim> &state, const Stage &stage, Report &report) = 0;
+    solve_stage(State<dim> &state, const Stage &stage, Report &report) = 0;
 
     /// Forces of the fluid on the surfaces in it at the end of the last stage, at `time` [s], in
     /// all their nodes [N]; empty if they do not act on bodies. Collective.

@@ -20,7 +20,7 @@ namespace undine
     initialize(State<dim> &state, double dt, Report &report) override;
 
     void
-    step(State<dim> &state, const Stage &stage, Report &report) override;
+    solve_stage(State<dim> &state, const Stage &stage, Report &report) override;
 
   private:
     Budget<dim>   &budget;

@@ -6,7 +6,7 @@
 #include <undine/coupled/budget/budget.h>
 #include <undine/coupled/state/report.h>
 #include <undine/coupled/state/state.h>
-#include <undine/solid/step/solid_step.h>
+#include <undine/solid/step/solid_stepper.h>
 
 namespace undine
 {
@@ -70,7 +70,7 @@ namespace undine
     const typename SolidModel<dim>::Matrix &
     mass() const
     {
-      return solid_step.mass();
+      return solid_stepper.mass();
     }
 
   private:
@@ -81,7 +81,7 @@ namespace undine
     Budget<dim>                &budget;
     TimingTree                 &timing;
     const SolidEnvironment<dim> surroundings;
-    SolidStep<dim>              solid_step;
+    SolidStepper<dim>              solid_stepper;
   };
 } // namespace undine
 

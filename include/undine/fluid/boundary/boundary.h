@@ -68,7 +68,7 @@ namespace undine
     bool
     holds_normal_velocity() const;
 
-    /// The tangential velocity on the boundary is given: all walls with friction, and inflow.
+    /// The tangential velocity on the boundary is given: walls to which fluid sticks, and inflow.
     bool
     holds_tangential_velocity() const;
 
@@ -80,7 +80,8 @@ namespace undine
     bool
     lets_fluid_pass() const;
 
-    /// A wall at which the fluid's tangential velocity is that of the wall.
+    /// A wall that viscous fluid does not slip along freely; so far all of them hold its tangential
+    /// velocity.
     bool
     has_friction() const;
 

@@ -53,7 +53,7 @@ namespace undine
   struct FluidState
   {
     Velocity<dim>                     velocity;     ///< [m/s]
-    Velocity<dim>                     acceleration; ///< Dv/Dt of the last stage (FluidStep) [m/s^2]
+    Velocity<dim>                     acceleration; ///< Dv/Dt of the last stage (FluidStage) [m/s^2]
     Velocity<dim>                     change;       ///< dv/dt of the last stage [m/s^2]
     Field<dim>                        pressure;     ///< reduced pressure p - rho g.x [Pa]
     std::map<std::string, Field<dim>> scalars;      ///< by name, e.g. "smoke", "temperature"

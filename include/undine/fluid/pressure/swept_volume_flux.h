@@ -11,8 +11,8 @@ namespace undine
   /// Components are those of FluidTopology::cells.
   struct SweptVolumeFlux
   {
-    /// A part of the flux out of a component.
-    struct Part
+    /// What one body contributes to the flux out of a component.
+    struct Contribution
     {
       int          component;
       unsigned int body;
@@ -21,7 +21,7 @@ namespace undine
 
     std::vector<double>      fluxes; ///< (B u)_c out of each component [m^dim/s]; empty: none
     std::vector<double>      uncertainties; ///< of these, by rounding [m^dim/s]
-    std::vector<Part>        parts;         ///< of which they are the sums
+    std::vector<Contribution>        contributions; ///< of which they are the sums
     std::vector<std::string> bodies;        ///< what messages call them
 
     /// Area of the surfaces around each component that yield to pressure [m^(dim-1)]; empty: none

@@ -2,7 +2,7 @@
 #ifndef undine_particles_fluid_explicit_forces_h
 #define undine_particles_fluid_explicit_forces_h
 
-#include <undine/particles/fluid/ways_in.h>
+#include <undine/particles/fluid/inward_directions.h>
 #include <undine/particles/model/constants.h>
 #include <undine/particles/model/step_control.h>
 #include <undine/particles/neighbours/neighbours.h>
@@ -43,7 +43,7 @@ namespace undine::particles
               motion.v += velocity_change(i, place.tag, motion.v, dt) + dt * force;
               if (constants.wall_friction.acts())
                 motion.v += friction_of_walls(i, motion.v, dt);
-              const Real ahead = (1 - constants.way_share) * dt;
+              const Real ahead = (1 - constants.path_weight) * dt;
               place.x          = constants.grid.wrapped(place.x + dt * (motion.v - ahead * force));
             }
           else if (place.tag.kind() == Kind::solid)

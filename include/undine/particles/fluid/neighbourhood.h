@@ -3,7 +3,7 @@
 #define undine_particles_fluid_neighbourhood_h
 
 #include <undine/particles/fluid/stored_correction.h>
-#include <undine/particles/fluid/ways_in.h>
+#include <undine/particles/fluid/inward_directions.h>
 #include <undine/particles/math/matrix.h>
 #include <undine/particles/model/constants.h>
 #include <undine/particles/model/lattice.h>
@@ -26,7 +26,7 @@ namespace undine::particles
     unsigned char *is_beside_given;
     /// M, which makes gradients exact for linear fields.
     StoredCorrection<dim, Real> *corrections;
-    StoredVector<dim, Real>     *ways_in; ///< as by MeasureWaysIn; nullptr: no bodies
+    StoredVector<dim, Real>     *inward_directions; ///< as by MeasureInwardDirections; nullptr: no bodies
   };
 
   /// Measures them, over all kinds of neighbours; but M of fluid and bodies without dummies, which
@@ -54,8 +54,8 @@ namespace undine::particles
       result.fillings[i]    = 0;
       const auto identity   = SymmetricMatrix<dim, Real>::diagonal(1);
       result.corrections[i] = StoredCorrection<dim, Real>::of(identity, PressureIs::given);
-      if (result.ways_in != nullptr)
-        result.ways_in[i] = Vector<dim, Real>::zero();
+      if (result.inward_directions != nullptr)
+        result.inward_directions[i] = Vector<dim, Real>::zero();
       if (tag.kind() == Kind::dummy || control->done())
         return;
       auto                    side   = Vector<dim, Real>::zero();
@@ -70,8 +70,8 @@ namespace undine::particles
         if (pair.tag.kind() != Kind::dummy || tag.kind() == Kind::wall)
           moment.add_square(pair.weight_over_square(), pair.r);
       });
-      if (result.ways_in != nullptr && tag.kind() == Kind::fluid)
-        result.ways_in[i] = bodies.way_in(constants.number_density);
+      if (result.inward_directions != nullptr && tag.kind() == Kind::fluid)
+        result.inward_directions[i] = bodies.inward_direction(constants.number_density);
       side *= 1 / constants.number_density;
       const Real coverage  = this->coverage(tag, identities[i], n / constants.number_density, side);
       result.densities[i]  = n;

@@ -80,7 +80,7 @@ namespace undine::particles
 
     /// beta of Places: an acceleration a takes a particle along by beta h^2 a in a sub-step; 1 with
     /// the velocity at its end, 1/2 with the mean velocity [1].
-    Real way_share;
+    Real path_weight;
 
     Real collision_distance; ///< [m]
     Real restitution;        ///< [1]

@@ -23,7 +23,7 @@ namespace undine::particles
       , coverages(executor, n)
       , is_beside_given(executor, n)
       , corrections(executor, n)
-      , ways_in(executor, n_solid > 0 ? n : 0)
+      , inward_directions(executor, n_solid > 0 ? n : 0)
       , counts(executor, n)
       , entries(executor, list_slot((n + 31) / 32 * 32, 0, capacity))
       , diagonal(executor, n)
@@ -52,7 +52,7 @@ namespace undine::particles
     StoredVector<dim, Real> *
     ways() const
     {
-      return ways_in.size() > 0 ? ways_in.data() : nullptr;
+      return inward_directions.size() > 0 ? inward_directions.data() : nullptr;
     }
 
     /// `scale` is the largest coefficient.
@@ -69,7 +69,7 @@ namespace undine::particles
     Buffer<Executor, Real>                        coverages;
     Buffer<Executor, unsigned char>               is_beside_given;
     Buffer<Executor, StoredCorrection<dim, Real>> corrections;
-    Buffer<Executor, StoredVector<dim, Real>>     ways_in;
+    Buffer<Executor, StoredVector<dim, Real>>     inward_directions;
     Buffer<Executor, int>                         counts;
     Buffer<Executor, Entry>                       entries;
     Buffer<Executor, Real>                    diagonal, right_hand_side, pressures, faces_diagonal;

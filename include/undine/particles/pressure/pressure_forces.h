@@ -281,7 +281,7 @@ namespace undine::particles
     {
       const Real dt = static_cast<Real>(control->dt);
       motion.v += dt * acceleration;
-      place.x += (constants.way_share * dt * dt) * acceleration;
+      place.x += (constants.path_weight * dt * dt) * acceleration;
       atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(motion.v))));
     }
 

@@ -10,7 +10,7 @@
 namespace undine
 {
   /// The balance of the bodies' energy and momentum over a step, each term from its own formula.
-  /// With dd = d^{n+1} - d^n, the terms of StepCoefficients and W = sum_e w_e,
+  /// With dd = d^{n+1} - d^n, the terms of StageCoefficients and W = sum_e w_e,
   ///
   ///     kinetic + elastic = loads + nodal + supports + contact - damping
   ///                         - inertia_loss - elastic_loss

@@ -6,7 +6,7 @@
 #include <undine/solid/assembly/solid_environment.h>
 #include <undine/solid/mesh/solid_model.h>
 #include <undine/solid/mesh/solid_state.h>
-#include <undine/solid/step/solid_step.h>
+#include <undine/solid/step/solid_stepper.h>
 
 #include <vector>
 
@@ -93,7 +93,7 @@ namespace undine
   template <int dim>
   SolidMeasures<dim>
   measure_solid(const SolidModel<dim>       &model,
-                const SolidStep<dim>        &step,
+                const SolidStepper<dim>        &step,
                 const SolidEnvironment<dim> &environment,
                 const SolidState            &state,
                 double                       time,
@@ -111,7 +111,7 @@ namespace undine
   template <int dim>
   Columns
   solid_columns(const SolidModel<dim>       &model,
-                const SolidStep<dim>        &step,
+                const SolidStepper<dim>        &step,
                 const SolidEnvironment<dim> &environment,
                 const SolidState            &state,
                 double                       time,

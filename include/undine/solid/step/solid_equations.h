@@ -9,7 +9,7 @@
 
 namespace undine
 {
-  /// The balance of momentum over one step (T1), with StepCoefficients, as equations for the end
+  /// The balance of momentum over one step (T1), with StageCoefficients, as equations for the end
   /// velocity u = u^{n+1}: residual, Jacobian and what u makes of the state. Fixed degrees of
   /// freedom have a zero residual and a diagonal Jacobian; u has to carry the prescribed velocity
   /// there, which guess() does, and d^{n+1} is the prescribed displacement exactly. All functions
@@ -181,7 +181,7 @@ namespace undine
     Vector
     inertia(const Vector &velocity) const;
     void
-    add_stage(Vector &forces, const StepCoefficients::Stage &stage, const Vector &displacement);
+    add_level_forces(Vector &forces, const StageCoefficients::TimeLevel &level, const Vector &displacement);
     Matrix
     full_jacobian(const Vector &end_displacement, const Vector &in_contact) const;
     void
@@ -197,7 +197,7 @@ namespace undine
     const double                 dt;
     TimingTree                  &timing;
     Vector                       nodal_forces;
-    const StepCoefficients       coefficients;
+    const StageCoefficients       coefficients;
     const StepMotion<dim>        motion;
     RayleighDamping<dim>         rayleigh_damping;
     const StepContact<dim>       contact;

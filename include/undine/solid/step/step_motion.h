@@ -8,7 +8,7 @@
 
 namespace undine
 {
-  /// The displacements to which an end velocity u = u^{n+1} leads in one step, by StepCoefficients,
+  /// The displacements to which an end velocity u = u^{n+1} leads in one step, by StageCoefficients,
   /// with the prescribed ones in place. All functions that take or return vectors are collective.
   template <int dim>
   class StepMotion
@@ -19,7 +19,7 @@ namespace undine
     /// From `old_state` at `time` [s] over `dt` [s]. The model and the state must outlive it.
     StepMotion(const SolidModel<dim>  &model,
                const SolidState       &old_state,
-               const StepCoefficients &coefficients,
+               const StageCoefficients &coefficients,
                double                  time,
                double                  dt);
 
@@ -35,7 +35,7 @@ namespace undine
       return old;
     }
 
-    const StepCoefficients &
+    const StageCoefficients &
     coefficients() const
     {
       return step_coefficients;
@@ -70,7 +70,7 @@ namespace undine
 
     /// (1 - s) d^n + s d^{n+1} at the position s [m].
     Vector
-    stage_displacement(const Vector &end_displacement, double position) const;
+    level_displacement(const Vector &end_displacement, double position) const;
 
   private:
     Vector
@@ -78,7 +78,7 @@ namespace undine
 
     const SolidModel<dim> &solid;
     const SolidState      &old;
-    const StepCoefficients step_coefficients;
+    const StageCoefficients step_coefficients;
     const double           time;
     const double           length;
   };

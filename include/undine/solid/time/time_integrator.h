@@ -10,7 +10,7 @@
 
 namespace undine
 {
-  /// A time step of h [s] from t^n (T1), written for the one unknown u = u^{n+1} [m/s]:
+  /// A stage of h [s] from t^n (T1), written for the one unknown u = u^{n+1} [m/s]:
   ///
   ///     M (m u + m_u u^n + m_a a^n) + C (c u + c_u u^n)
   ///       + sum_e w_e [ K(d_e) - f(d_e, t_e) ] - kappa f_c - J p = 0                           [N]
@@ -22,10 +22,10 @@ namespace undine
   /// being ContactStart::weight. Unless the step is static, m = 1/h and m_u = -1/h: the impulse
   /// h J p of a fluid's pressure enters the momentum once and un-averaged, whatever the integrator.
   /// C = alpha M + eta K'(d^n + r h u^n).
-  struct StepCoefficients
+  struct StageCoefficients
   {
     /// Internal forces and loads between t^n (position 0) and t^{n+1} (position 1).
-    struct Stage
+    struct TimeLevel
     {
       double weight;   ///< w_e [1]
       double position; ///< s_e [1]
@@ -37,7 +37,7 @@ namespace undine
     double             damping               = 0; ///< c [1]
     double             damping_old_velocity  = 0; ///< c_u [1]
     double             damping_position      = 0; ///< r [1]
-    std::vector<Stage> stages;
+    std::vector<TimeLevel> levels;
     double             displacement              = 0; ///< e [s]
     double             displacement_velocity     = 0; ///< e_u [s]
     double             displacement_acceleration = 0; ///< e_a [s^2]
@@ -45,7 +45,7 @@ namespace undine
     double             acceleration_velocity     = 0; ///< b_u [1/s]
     double             acceleration_acceleration = 0; ///< b_a [1]
 
-    /// Sum of the stages' weights [1]: reactions are divided by it and, where energy and momentum
+    /// Sum of the levels' weights [1]: reactions are divided by it and, where energy and momentum
     /// are accounted for, loads and damping.
     double
     sum_of_weights() const;
@@ -81,8 +81,8 @@ namespace undine
     virtual Stages
     stages(double dt, RatesAtBegin rates) const;
 
-    /// The coefficients of a stage of length `dt` [s].
-    virtual StepCoefficients
+    /// The coefficients of a stage of `dt` [s].
+    virtual StageCoefficients
     coefficients(double dt) const = 0;
 
     /// Order and constant of the error in time.

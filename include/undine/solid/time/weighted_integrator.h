@@ -26,10 +26,10 @@ namespace undine
     }
 
     /// Those of inertia, damping and acceleration; the others are zero.
-    StepCoefficients
+    StageCoefficients
     coefficients(const double dt) const override
     {
-      StepCoefficients step;
+      StageCoefficients step;
       step.mass                  = 1 / dt;
       step.mass_old_velocity     = -1 / dt;
       step.damping               = weight;

@@ -15,7 +15,7 @@ namespace undine
   ///             + h (beta/gamma) (u^{n+1} - u^n - h (1-gamma) a^n)
   ///
   /// The impulse h J p of a fluid's pressure is added once and is no part of a. Eliminating a^{n+1}
-  /// and scaling by gamma / (1-alpha_m) gives the form of StepCoefficients. Second order, with K'
+  /// and scaling by gamma / (1-alpha_m) gives the form of StageCoefficients. Second order, with K'
   /// in C taken at d^n + (1-alpha_f) h u^n.
   class GeneralisedAlpha : public TimeIntegrator
   {
@@ -30,7 +30,7 @@ namespace undine
                   "At infinite frequency; 1: no damping, 0: the highest modes vanish in one step.");
     }
 
-    StepCoefficients
+    StageCoefficients
     coefficients(const double dt) const override
     {
       const double     alpha_m = this->alpha_m();
@@ -38,14 +38,14 @@ namespace undine
       const double     gamma   = this->gamma();
       const double     beta    = (1 - alpha_m + alpha_f) * (1 - alpha_m + alpha_f) / 4;
       const double     scale   = gamma / (1 - alpha_m);
-      StepCoefficients step;
+      StageCoefficients step;
       step.mass                      = 1 / dt;
       step.mass_old_velocity         = -1 / dt;
       step.mass_old_acceleration     = scale * alpha_m - (1 - gamma);
       step.damping                   = scale * (1 - alpha_f);
       step.damping_old_velocity      = scale * alpha_f;
       step.damping_position          = 1 - alpha_f;
-      step.stages                    = {{scale, 1 - alpha_f}};
+      step.levels                    = {{scale, 1 - alpha_f}};
       step.displacement              = dt * beta / gamma;
       step.displacement_velocity     = dt * (1 - beta / gamma);
       step.displacement_acceleration = dt * dt * (0.5 - beta / gamma);

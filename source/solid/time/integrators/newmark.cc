@@ -21,13 +21,13 @@ namespace undine
     {
     }
 
-    StepCoefficients
+    StageCoefficients
     coefficients(const double dt) const override
     {
       auto step   = WeightedIntegrator::coefficients(dt);
-      step.stages = {{weight, 1}};
+      step.levels = {{weight, 1}};
       if (weight < 1)
-        step.stages.push_back({1 - weight, 0});
+        step.levels.push_back({1 - weight, 0});
       step.displacement          = dt / 2;
       step.displacement_velocity = dt / 2;
       return step;

@@ -14,11 +14,11 @@ namespace undine
     {
     }
 
-    StepCoefficients
+    StageCoefficients
     coefficients(const double dt) const override
     {
-      StepCoefficients step;
-      step.stages       = {{1, 1}};
+      StageCoefficients step;
+      step.levels       = {{1, 1}};
       step.displacement = dt;
       return step;
     }

@@ -20,11 +20,11 @@ namespace undine
     {
     }
 
-    StepCoefficients
+    StageCoefficients
     coefficients(const double dt) const override
     {
       auto step                  = WeightedIntegrator::coefficients(dt);
-      step.stages                = {{1, weight}};
+      step.levels                = {{1, weight}};
       step.displacement          = weight * dt;
       step.displacement_velocity = (1 - weight) * dt;
       return step;

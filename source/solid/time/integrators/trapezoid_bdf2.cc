@@ -55,15 +55,15 @@ namespace undine
       return {first, second};
     }
 
-    StepCoefficients
+    StageCoefficients
     coefficients(const double length) const override
     {
-      StepCoefficients step;
+      StageCoefficients step;
       step.mass                  = 1 / length;
       step.mass_old_velocity     = -1 / length;
       step.damping               = 1;
       step.damping_position      = 1;
-      step.stages                = {{1, 1}};
+      step.levels                = {{1, 1}};
       step.displacement          = length;
       step.acceleration          = 1 / length;
       step.acceleration_velocity = -1 / length;

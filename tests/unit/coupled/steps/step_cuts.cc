@@ -34,7 +34,7 @@ namespace
     }
 
     void
-    accelerate(FluidStep<2> &step) const override
+    accelerate(FluidStage<2> &step) const override
     {
       for (auto &component : step.state.velocity.components)
         for_each(component.owned(), [&](const auto &face) { component(face) += 1; });

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_coupled_step_coupled_step_h
-#define undine_coupled_step_coupled_step_h
+#ifndef undine_coupled_step_coupled_stage_h
+#define undine_coupled_step_coupled_stage_h
 
 #include <undine/coupled/budget/budget.h>
 #include <undine/coupled/state/state.h>
 #include <undine/coupled/step/coupled_equations.h>
-#include <undine/fluid/fluid_step.h>
+#include <undine/fluid/fluid_stage.h>
 #include <undine/solid/solvers/tangent_solver.h>
-#include <undine/solid/step/solid_step.h>
+#include <undine/solid/step/solid_stepper.h>
 
 #include <memory>
 #include <string>
@@ -17,7 +17,7 @@ namespace undine
   /// The simultaneous solution (C1) of bodies and fluid in one stage of a step, with everything
   /// that lives only that long.
   template <int dim>
-  class CoupledStep
+  class CoupledStage
   {
   public:
     using Vector = BlockSystem::Vector;
@@ -37,8 +37,8 @@ namespace undine
     /// `state` holds u^n and, in the fluid, v*, which gets the velocities of inflows and walls.
     /// `boundary_flux`: `initial` or `swept`, see make_surface_flux(). Collective. Throws
     /// InputError, SolveError.
-    CoupledStep(const Parts          &parts,
-                const FluidStep<dim> &fluid,
+    CoupledStage(const Parts          &parts,
+                const FluidStage<dim> &fluid,
                 State<dim>           &state,
                 const std::string    &boundary_flux);
 
@@ -68,7 +68,7 @@ namespace undine
     loads_besides_pressure();
 
     const Parts                             parts;
-    const FluidStep<dim>                   &fluid;
+    const FluidStage<dim>                   &fluid;
     State<dim>                             &state;
     const NewtonOptions                    &newton;
     const double                            end_time;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_solid_step_solid_step_h
-#define undine_solid_step_solid_step_h
+#ifndef undine_solid_step_solid_stepper_h
+#define undine_solid_step_solid_stepper_h
 
 #include <undine/base/core/newton.h>
 #include <undine/base/core/timing.h>
@@ -30,7 +30,7 @@ namespace undine
     /// the size of the forces by which Newton's method is stopped (SolidEquations::scale).
     std::vector<double> momentum_residuals;
 
-    /// Only if asked for, see SolidStep::keep_balance().
+    /// Only if asked for, see SolidStepper::keep_balance().
     std::optional<SolidBalance<dim>> balance;
 
     /// SolidEquations::contact_velocity() [m/s].
@@ -48,14 +48,14 @@ namespace undine
 
   /// Advances the bodies without a fluid.
   template <int dim>
-  class SolidStep
+  class SolidStepper
   {
   public:
     using Vector = typename SolidModel<dim>::Vector;
     using Matrix = typename SolidModel<dim>::Matrix;
 
     /// `model` must outlive it. Collective.
-    explicit SolidStep(const SolidModel<dim> &model);
+    explicit SolidStepper(const SolidModel<dim> &model);
 
     /// From now on reports hold the balance of energy and momentum, which costs time.
     void

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_fluid_step_h
-#define undine_fluid_fluid_step_h
+#ifndef undine_fluid_fluid_stage_h
+#define undine_fluid_fluid_stage_h
 
 #include <undine/base/core/stage.h>
 #include <undine/base/core/timing.h>
@@ -41,7 +41,7 @@ namespace undine
   /// to 2 c for stiff friction and A = -1. c = 0.45 keeps that below one and takes away nine tenths
   /// of the error of first order in h.
   template <int dim>
-  struct FluidStep
+  struct FluidStage
   {
     static constexpr double carried_share = 0.45; ///< c
 
@@ -49,7 +49,7 @@ namespace undine
     /// starts from. `tracer` gets its own copy of the flow, which later changes of `state` do not
     /// reach. The topology of the fluid, `bodies.topology`, may differ from that of `state`:
     /// velocity and scalars change to it when they are carried, the pressure does here. Collective.
-    FluidStep(const FluidModel<dim>                            &model,
+    FluidStage(const FluidModel<dim>                            &model,
               FluidState<dim>                                  &state,
               FluidStageStart<dim>                             &next,
               const dealii::Tensor<1, dim>                     &gravity,

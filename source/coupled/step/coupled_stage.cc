@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/step/coupled_step.h>
+#include <undine/coupled/step/coupled_stage.h>
 #include <undine/fluid/grid/field_algebra.h>
 #include <undine/operators/flux_matrix.h>
 #include <undine/solid/step/initial_guesses.h>
@@ -32,8 +32,8 @@ namespace undine
 
 
   template <int dim>
-  CoupledStep<dim>::CoupledStep(const Parts          &parts,
-                                const FluidStep<dim> &fluid,
+  CoupledStage<dim>::CoupledStage(const Parts          &parts,
+                                const FluidStage<dim> &fluid,
                                 State<dim>           &state,
                                 const std::string    &boundary_flux)
     : parts(parts)
@@ -82,8 +82,8 @@ namespace undine
   /// Loads of the fluid on the bodies other than its reduced pressure [N]. Friction has been found
   /// before: v* contains its reaction.
   template <int dim>
-  typename CoupledStep<dim>::Vector
-  CoupledStep<dim>::loads_besides_pressure()
+  typename CoupledStage<dim>::Vector
+  CoupledStage<dim>::loads_besides_pressure()
   {
     surfaces.at_rest = parts.geometry.other_forces(fluid.gravity, end_time);
     auto result      = parts.models.solid->vector();
@@ -101,7 +101,7 @@ namespace undine
   /// stabilise_backflow()).
   template <int dim>
   SolidReport<dim>
-  CoupledStep<dim>::solve()
+  CoupledStage<dim>::solve()
   {
     const auto       timed = parts.timing.section("couple");
     SolidReport<dim> report;
@@ -134,7 +134,7 @@ namespace undine
 
   template <int dim>
   NewtonReport
-  CoupledStep<dim>::solve_from(const Vector velocity, const Vector pressure)
+  CoupledStage<dim>::solve_from(const Vector velocity, const Vector pressure)
   {
     x.block(0) = equations.kept_apart(velocity);
     x.block(1) = pressure;
@@ -147,7 +147,7 @@ namespace undine
   /// d^{n+1} from u^{n+1}, and what else follows.
   template <int dim>
   void
-  CoupledStep<dim>::end(SolidReport<dim> &report)
+  CoupledStage<dim>::end(SolidReport<dim> &report)
   {
     const auto &velocity = x.block(0);
     surface->move(velocity);
@@ -166,7 +166,7 @@ namespace undine
 
   template <int dim>
   double
-  CoupledStep<dim>::divergence() const
+  CoupledStage<dim>::divergence() const
   {
     return divergence_left;
   }
@@ -174,7 +174,7 @@ namespace undine
 
   template <int dim>
   PressureBalance<dim>
-  CoupledStep<dim>::pressure_balance() const
+  CoupledStage<dim>::pressure_balance() const
   {
     return undine::pressure_balance(*parts.models.fluid,
                                     predicted,
@@ -186,7 +186,7 @@ namespace undine
 
   template <int dim>
   SurfaceExchange<dim>
-  CoupledStep<dim>::exchange() const
+  CoupledStage<dim>::exchange() const
   {
     const auto pressure    = pressures.field(x.block(1));
     auto       result      = surfaces;
@@ -203,12 +203,12 @@ namespace undine
 
   template <int dim>
   SolidBalance<dim>
-  CoupledStep<dim>::solid_balance(const SolidReport<dim> &report) const
+  CoupledStage<dim>::solid_balance(const SolidReport<dim> &report) const
   {
     return equations.balance(x.block(0), report.reactions);
   }
 
 
-  template class CoupledStep<2>;
-  template class CoupledStep<3>;
+  template class CoupledStage<2>;
+  template class CoupledStage<3>;
 } // namespace undine

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_particles_fluid_ways_in_h
-#define undine_particles_fluid_ways_in_h
+#ifndef undine_particles_fluid_inward_directions_h
+#define undine_particles_fluid_inward_directions_h
 
 #include <undine/particles/model/constants.h>
 #include <undine/particles/neighbours/neighbours.h>
@@ -30,7 +30,7 @@ namespace undine::particles
     /// it fades out.
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
-    way_in(const Real full) const
+    inward_direction(const Real full) const
     {
       const Real strength = minimum(Real(1), Real(20) * (density / full - Real(0.55)));
       if (!(strength > 0))
@@ -41,13 +41,13 @@ namespace undine::particles
   };
 
 
-  /// Ways into bodies, of the particles of the fluid.
+  /// The directions into bodies, of the particles of the fluid.
   template <int dim, class Real>
-  struct MeasureWaysIn
+  struct MeasureInwardDirections
   {
     Constants<dim, Real>     constants;
     Neighbours<dim, Real>    neighbours;
-    StoredVector<dim, Real> *ways_in;
+    StoredVector<dim, Real> *inward_directions;
 
     UNDINE_HOST_DEVICE
     void
@@ -56,7 +56,7 @@ namespace undine::particles
       BodiesAround<dim, Real> bodies;
       if (neighbours.places[i].tag.kind() == Kind::fluid)
         neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) { bodies.add(pair); });
-      ways_in[i] = bodies.way_in(constants.number_density);
+      inward_directions[i] = bodies.inward_direction(constants.number_density);
     }
   };
 
@@ -67,7 +67,7 @@ namespace undine::particles
   struct StopEntry
   {
     Real                           fluid_density; ///< [kg/m^3]
-    const StoredVector<dim, Real> *ways_in;       ///< nullptr: no bodies
+    const StoredVector<dim, Real> *inward_directions;       ///< nullptr: no bodies
 
     /// The particles of a body that fluid pushes in front of it.
     static constexpr Real pushed = 4;
@@ -80,9 +80,9 @@ namespace undine::particles
              const Real               solid_density,
              const Vector<dim, Real> &approach) const
     {
-      if (ways_in == nullptr || pair.tag.kind() != Kind::solid)
+      if (inward_directions == nullptr || pair.tag.kind() != Kind::solid)
         return Vector<dim, Real>::zero();
-      return change(ways_in[i], pair, solid_density, approach);
+      return change(inward_directions[i], pair, solid_density, approach);
     }
 
     /// The change of the velocity of a body's particle by its neighbour j.
@@ -93,23 +93,23 @@ namespace undine::particles
              const Real               solid_density,
              const Vector<dim, Real> &approach) const
     {
-      if (ways_in == nullptr || pair.tag.kind() != Kind::fluid)
+      if (inward_directions == nullptr || pair.tag.kind() != Kind::fluid)
         return Vector<dim, Real>::zero();
       return (-fluid_density / solid_density) *
-             change(ways_in[j], pair, solid_density, Real(-1) * approach);
+             change(inward_directions[j], pair, solid_density, Real(-1) * approach);
     }
 
   private:
     /// Of the fluid.
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
-    change(const Vector<dim, Real> &way_in,
+    change(const Vector<dim, Real> &inward_direction,
            const Pair<dim, Real>   &pair,
            const Real               solid_density,
            const Vector<dim, Real> &approach) const
     {
       const Real share = pushed * solid_density / (fluid_density + pushed * solid_density);
-      return (share * pair.weight * minimum(Real(0), approach * way_in)) * way_in;
+      return (share * pair.weight * minimum(Real(0), approach * inward_direction)) * inward_direction;
     }
   };
 } // namespace undine::particles

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/advection/advection.h>
-#include <undine/fluid/fluid_step.h>
+#include <undine/fluid/fluid_stage.h>
 #include <undine/fluid/grid/field_algebra.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ namespace undine
 
 
   template <int dim>
-  FluidStep<dim>::FluidStep(const FluidModel<dim>                            &model_,
+  FluidStage<dim>::FluidStage(const FluidModel<dim>                            &model_,
                             FluidState<dim>                                  &state_,
                             FluidStageStart<dim>                             &next_,
                             const dealii::Tensor<1, dim>                     &gravity_,
@@ -79,7 +79,7 @@ namespace undine
   /// v^0 of this stage, and what the next one needs of v^n and a^n.
   template <int dim>
   void
-  FluidStep<dim>::start_from_rates()
+  FluidStage<dim>::start_from_rates()
   {
     before = state.velocity;
     if (stage.is_first)
@@ -97,7 +97,7 @@ namespace undine
 
   template <int dim>
   void
-  FluidStep<dim>::move_pressure_and_acceleration()
+  FluidStage<dim>::move_pressure_and_acceleration()
   {
     const auto &now = tracer.bodies().topology;
     state.pressure  = moved_to(state.pressure, now);
@@ -120,7 +120,7 @@ namespace undine
 
   template <int dim>
   std::vector<Velocity<dim> *>
-  FluidStep<dim>::to_carry()
+  FluidStage<dim>::to_carry()
   {
     if (stage.is_last)
       return {&state.velocity};
@@ -131,7 +131,7 @@ namespace undine
   /// The same velocity on the present topology of the fluid.
   template <int dim>
   Velocity<dim>
-  FluidStep<dim>::remapped_velocity(const Velocity<dim> &velocity) const
+  FluidStage<dim>::remapped_velocity(const Velocity<dim> &velocity) const
   {
     auto result = velocity;
     for (unsigned int axis = 0; axis < dim; ++axis)
@@ -142,7 +142,7 @@ namespace undine
 
   template <int dim>
   void
-  FluidStep<dim>::remap()
+  FluidStage<dim>::remap()
   {
     for (auto *velocity : to_carry())
       if ((*velocity)[0].topology() != tracer.bodies().topology)
@@ -157,7 +157,7 @@ namespace undine
 
   template <int dim>
   void
-  FluidStep<dim>::finish()
+  FluidStage<dim>::finish()
   {
     if (stage.keeps_rates)
       {
@@ -182,6 +182,6 @@ namespace undine
   }
 
 
-  template struct FluidStep<2>;
-  template struct FluidStep<3>;
+  template struct FluidStage<2>;
+  template struct FluidStage<3>;
 } // namespace undine

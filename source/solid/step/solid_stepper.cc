@@ -12,7 +12,7 @@
 #include <undine/solid/step/initial_guesses.h>
 #include <undine/solid/step/solid_columns.h>
 #include <undine/solid/step/solid_equations.h>
-#include <undine/solid/step/solid_step.h>
+#include <undine/solid/step/solid_stepper.h>
 
 #include <fmt/format.h>
 
@@ -147,7 +147,7 @@ namespace undine
 
 
   template <int dim>
-  SolidStep<dim>::SolidStep(const SolidModel<dim> &model)
+  SolidStepper<dim>::SolidStepper(const SolidModel<dim> &model)
     : model(model)
     , mass_matrix(undine::mass_matrix(model))
     , solver(model)
@@ -158,8 +158,8 @@ namespace undine
 
 
   template <int dim>
-  typename SolidStep<dim>::Vector
-  SolidStep<dim>::unbalanced_forces(const SolidState            &state,
+  typename SolidStepper<dim>::Vector
+  SolidStepper<dim>::unbalanced_forces(const SolidState            &state,
                                     const SolidEnvironment<dim> &environment,
                                     const double                 time) const
   {
@@ -180,7 +180,7 @@ namespace undine
 
   template <int dim>
   SolidAmounts<dim>
-  SolidStep<dim>::amounts(const SolidState &state) const
+  SolidStepper<dim>::amounts(const SolidState &state) const
   {
     auto momenta = model.vector();
     mass_matrix.vmult(momenta, state.velocity);
@@ -193,8 +193,8 @@ namespace undine
 
 
   template <int dim>
-  const typename SolidStep<dim>::Matrix &
-  SolidStep<dim>::mass() const
+  const typename SolidStepper<dim>::Matrix &
+  SolidStepper<dim>::mass() const
   {
     return mass_matrix;
   }
@@ -202,7 +202,7 @@ namespace undine
 
   template <int dim>
   const std::vector<double> &
-  SolidStep<dim>::initial_volumes() const
+  SolidStepper<dim>::initial_volumes() const
   {
     return volumes;
   }
@@ -210,7 +210,7 @@ namespace undine
 
   template <int dim>
   void
-  SolidStep<dim>::keep_balance()
+  SolidStepper<dim>::keep_balance()
   {
     keeps_balance = true;
   }
@@ -218,7 +218,7 @@ namespace undine
 
   template <int dim>
   SolidState
-  SolidStep<dim>::initialize(const SolidEnvironment<dim> &environment,
+  SolidStepper<dim>::initialize(const SolidEnvironment<dim> &environment,
                              const double                 time,
                              const double                 dt) const
   {
@@ -240,7 +240,7 @@ namespace undine
 
   template <int dim>
   SolidReport<dim>
-  SolidStep<dim>::step(SolidState                  &state,
+  SolidStepper<dim>::step(SolidState                  &state,
                        const SolidEnvironment<dim> &environment,
                        const double                 time,
                        const double                 dt,
@@ -279,6 +279,6 @@ namespace undine
   start_of_bodies(const SolidModel<2> &);
   template SolidState
   start_of_bodies(const SolidModel<3> &);
-  template class SolidStep<2>;
-  template class SolidStep<3>;
+  template class SolidStepper<2>;
+  template class SolidStepper<3>;
 } // namespace undine
