@@ -156,7 +156,9 @@ class Trial:
     def check_begin(self, printed):
         """The step at which a launch began, None if it did not come that far; notes what the hit before it has cost."""
         resumed = re.search(r"^resumed at step (\d+)", printed, re.M)
-        if not resumed and (self.is_resuming or not os.path.exists(self.folder + "/statistics")):
+        # Until a run has begun anew, rows that it finds are those of an earlier launch.
+        begins_anew = not self.is_resuming and re.search(r"^ +step +time", printed, re.M)
+        if not resumed and not begins_anew:
             return None
         step = int(resumed[1]) if resumed else 0
         if not self.kept_step <= step <= self.last_step:
