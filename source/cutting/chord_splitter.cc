@@ -97,10 +97,10 @@ namespace undine
   template <class Complete>
   void
   ChordSplitter<dim>::split_segment(std::vector<SplitPoint> &parts,
-                                    const int          from,
-                                    const int          to,
-                                    const unsigned int axis,
-                                    const Complete    &complete)
+                                    const int                from,
+                                    const int                to,
+                                    const unsigned int       axis,
+                                    const Complete          &complete)
   {
     const int first = split.vertices[from].slabs[axis];
     const int last  = split.vertices[to].slabs[axis];
@@ -126,10 +126,10 @@ namespace undine
   template <int dim>
   void
   ChordSplitter<dim>::split_ridge(std::vector<SplitPoint> &parts,
-                                  const int          from,
-                                  const int          to,
-                                  const unsigned int axis,
-                                  const unsigned int ridge)
+                                  const int                from,
+                                  const int                to,
+                                  const unsigned int       axis,
+                                  const unsigned int       ridge)
   {
     using Kind           = typename CutVertex<dim>::Kind;
     const auto parameter = [&](const int number) {
@@ -151,10 +151,10 @@ namespace undine
   template <int dim>
   void
   ChordSplitter<dim>::split_in_facet(std::vector<SplitPoint> &parts,
-                                     const int          from,
-                                     const int          to,
-                                     const unsigned int axis,
-                                     const unsigned int facet)
+                                     const int                from,
+                                     const int                to,
+                                     const unsigned int       axis,
+                                     const unsigned int       facet)
   {
     if (split.vertices[from].slabs[axis] == split.vertices[to].slabs[axis])
       return;

@@ -111,7 +111,7 @@ namespace undine
     };
 
     void
-    accelerate_along(FluidStage<dim>    &step,
+    accelerate_along(FluidStage<dim>   &step,
                      const Field<dim>  &scalar,
                      const Lift        &lift,
                      const unsigned int axis) const

@@ -17,8 +17,8 @@ namespace undine
   ///
   ///     (1 - h nu Laplace) w = v'' - h grad q^n / rho,   v* = w + h grad q^n / rho        (E3)
   ///
-  /// for each component, with no-slip walls, inflow, and no friction on openings (see FluidStage for
-  /// the old pressure gradient).
+  /// for each component, with no-slip walls, inflow, and no friction on openings (see FluidStage
+  /// for the old pressure gradient).
   template <int dim>
   class Viscosity : public Effect<dim>
   {

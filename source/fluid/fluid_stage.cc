@@ -50,13 +50,13 @@ namespace undine
 
   template <int dim>
   FluidStage<dim>::FluidStage(const FluidModel<dim>                            &model_,
-                            FluidState<dim>                                  &state_,
-                            FluidStageStart<dim>                             &next_,
-                            const dealii::Tensor<1, dim>                     &gravity_,
-                            const double                                      time_,
-                            const Stage                                      &stage_,
-                            TimingTree                                       &timing_,
-                            const typename CharacteristicTracer<dim>::Bodies &bodies)
+                              FluidState<dim>                                  &state_,
+                              FluidStageStart<dim>                             &next_,
+                              const dealii::Tensor<1, dim>                     &gravity_,
+                              const double                                      time_,
+                              const Stage                                      &stage_,
+                              TimingTree                                       &timing_,
+                              const typename CharacteristicTracer<dim>::Bodies &bodies)
     : model(model_)
     , state(state_)
     , next(next_)

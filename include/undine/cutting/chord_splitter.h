@@ -51,10 +51,10 @@ namespace undine
     /// `axis`.
     void
     split_ridge(std::vector<SplitPoint> &parts,
-                const int          from,
-                const int          to,
-                const unsigned int axis,
-                const unsigned int ridge);
+                const int                from,
+                const int                to,
+                const unsigned int       axis,
+                const unsigned int       ridge);
 
     /// Split the chord from -> to of `facet` on a face normal to `normal` at `place` by the planes
     /// of all axes from `axis` on; in 2D the facet itself, normal = 2. Appends its pieces to
@@ -81,17 +81,17 @@ namespace undine
     template <class Complete>
     void
     split_segment(std::vector<SplitPoint> &parts,
-                  const int          from,
-                  const int          to,
-                  const unsigned int axis,
-                  const Complete    &complete);
+                  const int                from,
+                  const int                to,
+                  const unsigned int       axis,
+                  const Complete          &complete);
 
     void
     split_in_facet(std::vector<SplitPoint> &parts,
-                   const int          from,
-                   const int          to,
-                   const unsigned int axis,
-                   const unsigned int facet);
+                   const int                from,
+                   const int                to,
+                   const unsigned int       axis,
+                   const unsigned int       facet);
 
     CutVertex<dim>
     vertex_between(const CutVertex<dim> &from,
@@ -118,10 +118,10 @@ namespace undine
                  const int             vertex,
                  const int             direction);
 
-    const GridBlock<dim>              &block;
-    const Surface<dim>                &surface;
-    SplitSurface<dim>                 &split;
-    NodeWindings<dim>                 &windings;
+    const GridBlock<dim>                    &block;
+    const Surface<dim>                      &surface;
+    SplitSurface<dim>                       &split;
+    NodeWindings<dim>                       &windings;
     std::array<std::vector<SplitPoint>, dim> scratch;
   };
 } // namespace undine

@@ -83,17 +83,17 @@ namespace undine
     void
     pass_on(const unsigned int axis, const Polygon &slice, const int slab, GridIndex<3> place);
 
-    const GridBlock<3>                 &block;
-    const Surface<3>                   &surface;
-    SplitSurface<3>                    &split;
-    ChordSplitter<3>                    chord_splitter;
-    unsigned int                        current_facet = 0;
-    std::vector<Chain>                  chains; ///< of each ridge
-    std::vector<int>                    chain_vertices;
-    std::array<Polygon, 3>              polygons, lower_parts, upper_parts;
-    std::vector<int>                    ridge_vertices, finer_vertices;
+    const GridBlock<3>                       &block;
+    const Surface<3>                         &surface;
+    SplitSurface<3>                          &split;
+    ChordSplitter<3>                          chord_splitter;
+    unsigned int                              current_facet = 0;
+    std::vector<Chain>                        chains; ///< of each ridge
+    std::vector<int>                          chain_vertices;
+    std::array<Polygon, 3>                    polygons, lower_parts, upper_parts;
+    std::vector<int>                          ridge_vertices, finer_vertices;
     std::vector<ChordSplitter<3>::SplitPoint> parts;
-    std::vector<ChordSplitter<3>::Link> links;
+    std::vector<ChordSplitter<3>::Link>       links;
   };
 
 

@@ -15,7 +15,7 @@ namespace undine
   /// `on_face(index)` and `on_piece(number)` are the accelerations a [m/s^2].
   template <int dim, class OnFace, class OnPiece>
   void
-  accelerate_faces(FluidStage<dim>    &step,
+  accelerate_faces(FluidStage<dim>   &step,
                    const unsigned int axis,
                    const OnFace      &on_face,
                    const OnPiece     &on_piece)

@@ -50,13 +50,13 @@ namespace undine
     /// reach. The topology of the fluid, `bodies.topology`, may differ from that of `state`:
     /// velocity and scalars change to it when they are carried, the pressure does here. Collective.
     FluidStage(const FluidModel<dim>                            &model,
-              FluidState<dim>                                  &state,
-              FluidStageStart<dim>                             &next,
-              const dealii::Tensor<1, dim>                     &gravity,
-              double                                            time,
-              const Stage                                      &stage,
-              TimingTree                                       &timing,
-              const typename CharacteristicTracer<dim>::Bodies &bodies = {});
+               FluidState<dim>                                  &state,
+               FluidStageStart<dim>                             &next,
+               const dealii::Tensor<1, dim>                     &gravity,
+               double                                            time,
+               const Stage                                      &stage,
+               TimingTree                                       &timing,
+               const typename CharacteristicTracer<dim>::Bodies &bodies = {});
 
     /// The velocities that convection carries.
     std::vector<Velocity<dim> *>

@@ -250,12 +250,12 @@ namespace undine
   std::shared_ptr<const SolidMeasures<dim>>
   SleepingBodies<dim>::measure_asleep(const State<dim> &state) const
   {
-    const auto          &model = *part->asleep;
+    const auto             &model = *part->asleep;
     const SolidStepper<dim> step(model);
-    const double         time  = state.clock.time;
-    auto                 still = part->of_asleep->taken_from(state.solid);
-    still.velocity             = 0;
-    still.acceleration         = 0;
+    const double            time  = state.clock.time;
+    auto                    still = part->of_asleep->taken_from(state.solid);
+    still.velocity                = 0;
+    still.acceleration            = 0;
     SolidReport<dim> report;
     report.reactions = model.vector();
     auto forces      = step.unbalanced_forces(still, environment, time);

@@ -53,18 +53,18 @@ namespace undine
     solve_stage(State<dim> &state, const Stage &stage, Report &report) override
     {
       solid_side.start(state, stage);
-      const auto       fluid = fluid_side.predict(state, stage);
+      const auto        fluid = fluid_side.predict(state, stage);
       CoupledStage<dim> coupled({models,
-                                solid_side.mass(),
-                                solid_side.environment(),
-                                *fluid_side.geometry(),
-                                solver,
-                                motion_solver,
-                                timing},
-                               *fluid,
-                               state,
-                               settings.boundary_flux);
-      const auto       solid = coupled.solve();
+                                 solid_side.mass(),
+                                 solid_side.environment(),
+                                 *fluid_side.geometry(),
+                                 solver,
+                                 motion_solver,
+                                 timing},
+                                *fluid,
+                                state,
+                                settings.boundary_flux);
+      const auto        solid = coupled.solve();
       solid_side.end(state, stage, solid);
       if (stage.is_last)
         balance(coupled, solid, stage.length);

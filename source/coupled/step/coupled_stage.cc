@@ -32,10 +32,10 @@ namespace undine
 
 
   template <int dim>
-  CoupledStage<dim>::CoupledStage(const Parts          &parts,
-                                const FluidStage<dim> &fluid,
-                                State<dim>           &state,
-                                const std::string    &boundary_flux)
+  CoupledStage<dim>::CoupledStage(const Parts           &parts,
+                                  const FluidStage<dim> &fluid,
+                                  State<dim>            &state,
+                                  const std::string     &boundary_flux)
     : parts(parts)
     , fluid(fluid)
     , state(state)

@@ -134,7 +134,7 @@ namespace undine
   template <int dim>
   template <class Action>
   void
-  FluidSide<dim>::run_phase(FluidStage<dim>                   &fluid,
+  FluidSide<dim>::run_phase(FluidStage<dim>                  &fluid,
                             const typename Budget<dim>::Phase phase,
                             const Action                     &act)
   {
@@ -171,13 +171,13 @@ namespace undine
                        "Try: a smaller step, or obstacles that leave some.");
     share_parts(state.fluid);
     auto fluid = std::make_unique<FluidStage<dim>>(model,
-                                                  state.fluid,
-                                                  state.next_fluid,
-                                                  environment.gravity,
-                                                  state.clock.time,
-                                                  stage,
-                                                  timing,
-                                                  no_slip_bodies(state, stage));
+                                                   state.fluid,
+                                                   state.next_fluid,
+                                                   environment.gravity,
+                                                   state.clock.time,
+                                                   stage,
+                                                   timing,
+                                                   no_slip_bodies(state, stage));
     {
       const auto phase = timing.section("transport");
       run_phase(
@@ -203,9 +203,9 @@ namespace undine
   template <int dim>
   void
   FluidSide<dim>::finish(FluidStage<dim> &fluid,
-                         State<dim>     &state,
-                         Report         &report,
-                         const double    divergence)
+                         State<dim>      &state,
+                         Report          &report,
+                         const double     divergence)
   {
     fluid.finish();
     if (fluid.friction)

@@ -96,12 +96,12 @@ namespace undine
   SolidSide<dim>::advance(State<dim> &state, const Stage &stage, const Vector &forces)
   {
     return solid_stepper.step(state.solid,
-                           surroundings,
-                           state.clock.time + stage.start(),
-                           stage.length,
-                           timing,
-                           forces,
-                           state.contact);
+                              surroundings,
+                              state.clock.time + stage.start(),
+                              stage.length,
+                              timing,
+                              forces,
+                              state.contact);
   }
 
 

@@ -228,7 +228,7 @@ namespace undine
   template <int dim>
   SolidMeasures<dim>
   measure_solid(const SolidModel<dim>       &model,
-                const SolidStepper<dim>        &step,
+                const SolidStepper<dim>     &step,
                 const SolidEnvironment<dim> &environment,
                 const SolidState            &state,
                 const double                 time,
@@ -291,7 +291,7 @@ namespace undine
   template <int dim>
   Columns
   solid_columns(const SolidModel<dim>       &model,
-                const SolidStepper<dim>        &step,
+                const SolidStepper<dim>     &step,
                 const SolidEnvironment<dim> &environment,
                 const SolidState            &state,
                 const double                 time,
@@ -318,14 +318,14 @@ namespace undine
   template std::vector<BodyMeasure<dim>> measure_bodies(const SolidModel<dim> &, const Vector &); \
   template std::vector<double>           maximum_speeds(const SolidModel<dim> &, const Vector &); \
   template SolidMeasures<dim>            measure_solid(const SolidModel<dim> &,                   \
-                                                       const SolidStepper<dim> &,                    \
+                                                       const SolidStepper<dim> &,                 \
                                                        const SolidEnvironment<dim> &,             \
                                                        const SolidState &,                        \
                                                        double,                                    \
                                                        const SolidReport<dim> &);                 \
   template Columns columns_of(const SolidMeasures<dim> &, const std::vector<Body<dim>> &);        \
   template Columns solid_columns(const SolidModel<dim> &,                                         \
-                                 const SolidStepper<dim> &,                                          \
+                                 const SolidStepper<dim> &,                                       \
                                  const SolidEnvironment<dim> &,                                   \
                                  const SolidState &,                                              \
                                  double,                                                          \

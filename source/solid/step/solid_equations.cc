@@ -73,9 +73,9 @@ namespace undine
   /// forces += w_e [K(d_e) - P(d_e, t_e)], P being the follower pressures.
   template <int dim>
   void
-  SolidEquations<dim>::add_level_forces(Vector                        &forces,
-                                 const StageCoefficients::TimeLevel &level,
-                                 const Vector                  &displacement)
+  SolidEquations<dim>::add_level_forces(Vector                             &forces,
+                                        const StageCoefficients::TimeLevel &level,
+                                        const Vector                       &displacement)
   {
     const Vector internal = internal_forces(model, displacement);
     note_size(internal, level.weight);

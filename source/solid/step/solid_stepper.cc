@@ -160,8 +160,8 @@ namespace undine
   template <int dim>
   typename SolidStepper<dim>::Vector
   SolidStepper<dim>::unbalanced_forces(const SolidState            &state,
-                                    const SolidEnvironment<dim> &environment,
-                                    const double                 time) const
+                                       const SolidEnvironment<dim> &environment,
+                                       const double                 time) const
   {
     auto result  = dead_loads(model, environment, time);
     auto product = model.vector();
@@ -219,8 +219,8 @@ namespace undine
   template <int dim>
   SolidState
   SolidStepper<dim>::initialize(const SolidEnvironment<dim> &environment,
-                             const double                 time,
-                             const double                 dt) const
+                                const double                 time,
+                                const double                 dt) const
   {
     SolidState state = start_of_bodies(model);
     assert_not_inverted(state.displacement, model);
@@ -241,12 +241,12 @@ namespace undine
   template <int dim>
   SolidReport<dim>
   SolidStepper<dim>::step(SolidState                  &state,
-                       const SolidEnvironment<dim> &environment,
-                       const double                 time,
-                       const double                 dt,
-                       TimingTree                  &timing,
-                       const Vector                &nodal_forces,
-                       const ContactStart          &contact)
+                          const SolidEnvironment<dim> &environment,
+                          const double                 time,
+                          const double                 dt,
+                          TimingTree                  &timing,
+                          const Vector                &nodal_forces,
+                          const ContactStart          &contact)
   {
     const auto          timed = timing.section("solid");
     SolidEquations<dim> equations(

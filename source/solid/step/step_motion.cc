@@ -6,11 +6,11 @@
 namespace undine
 {
   template <int dim>
-  StepMotion<dim>::StepMotion(const SolidModel<dim>  &model,
-                              const SolidState       &old_state,
+  StepMotion<dim>::StepMotion(const SolidModel<dim>   &model,
+                              const SolidState        &old_state,
                               const StageCoefficients &coefficients,
-                              const double            time,
-                              const double            dt)
+                              const double             time,
+                              const double             dt)
     : solid(model)
     , old(old_state)
     , step_coefficients(coefficients)

@@ -58,7 +58,7 @@ namespace undine_tests
     step(const double dt)
     {
       FluidStageStart<dim> unused;
-      FluidStage<dim>       fluid(
+      FluidStage<dim>      fluid(
         model, state, unused, environment.gravity, time, single_stage(dt), timing);
       for (const auto &effect : effects)
         effect->transport(fluid);

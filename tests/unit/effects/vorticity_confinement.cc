@@ -25,7 +25,7 @@ namespace
     const auto            before  = state.velocity;
     FluidStageStart<dim>  unused;
     TimingTree            timing;
-    FluidStage<dim>        step(model, state, unused, {}, 0, single_stage(1.), timing);
+    FluidStage<dim>       step(model, state, unused, {}, 0, single_stage(1.), timing);
     effects[0]->accelerate(step);
     auto result = state.velocity;
     add(result, -1., before);

@@ -114,7 +114,7 @@ namespace undine_tests
     }
 
     SolidModel<dim>       model;
-    SolidStepper<dim>        stepper;
+    SolidStepper<dim>     stepper;
     SolidEnvironment<dim> environment;
     SolidState            state;
     SolidReport<dim>      report;

@@ -96,7 +96,7 @@ namespace undine
     const std::vector<bool>                          may_sleep;    ///< [body]
     std::vector<double>                              masses;       ///< [body] [kg]
     std::vector<bool>                                sleepers; ///< [body] for which `physics` is
-    std::unique_ptr<ReducedModels>                            part;     ///< nullptr: nobody sleeps
+    std::unique_ptr<ReducedModels>                   part;     ///< nullptr: nobody sleeps
     std::unique_ptr<Physics<dim>>                    physics;  ///< nullptr: nothing is left to do
     std::vector<std::pair<std::string, std::string>> names;    ///< of its columns, with units
 

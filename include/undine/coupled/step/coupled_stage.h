@@ -37,10 +37,10 @@ namespace undine
     /// `state` holds u^n and, in the fluid, v*, which gets the velocities of inflows and walls.
     /// `boundary_flux`: `initial` or `swept`, see make_surface_flux(). Collective. Throws
     /// InputError, SolveError.
-    CoupledStage(const Parts          &parts,
-                const FluidStage<dim> &fluid,
-                State<dim>           &state,
-                const std::string    &boundary_flux);
+    CoupledStage(const Parts           &parts,
+                 const FluidStage<dim> &fluid,
+                 State<dim>            &state,
+                 const std::string     &boundary_flux);
 
     /// The state becomes that of t^{n+1}. Collective. Throws SolveError.
     SolidReport<dim>
@@ -68,7 +68,7 @@ namespace undine
     loads_besides_pressure();
 
     const Parts                             parts;
-    const FluidStage<dim>                   &fluid;
+    const FluidStage<dim>                  &fluid;
     State<dim>                             &state;
     const NewtonOptions                    &newton;
     const double                            end_time;

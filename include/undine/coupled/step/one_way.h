@@ -38,7 +38,7 @@ namespace undine
 
     struct Half
     {
-      std::unique_ptr<FluidStage<dim>>  fluid;
+      std::unique_ptr<FluidStage<dim>> fluid;
       typename Projection<dim>::Report projected;
       SolidReport<dim>                 solid;
       Exchange                         exchange;

@@ -81,7 +81,7 @@ namespace undine
     Budget<dim>                &budget;
     TimingTree                 &timing;
     const SolidEnvironment<dim> surroundings;
-    SolidStepper<dim>              solid_stepper;
+    SolidStepper<dim>           solid_stepper;
   };
 } // namespace undine
 

@@ -19,10 +19,10 @@ namespace undine
       double       flux; ///< [m^dim/s]
     };
 
-    std::vector<double>      fluxes; ///< (B u)_c out of each component [m^dim/s]; empty: none
-    std::vector<double>      uncertainties; ///< of these, by rounding [m^dim/s]
-    std::vector<Contribution>        contributions; ///< of which they are the sums
-    std::vector<std::string> bodies;        ///< what messages call them
+    std::vector<double>       fluxes; ///< (B u)_c out of each component [m^dim/s]; empty: none
+    std::vector<double>       uncertainties; ///< of these, by rounding [m^dim/s]
+    std::vector<Contribution> contributions; ///< of which they are the sums
+    std::vector<std::string>  bodies;        ///< what messages call them
 
     /// Area of the surfaces around each component that yield to pressure [m^(dim-1)]; empty: none
     /// does.

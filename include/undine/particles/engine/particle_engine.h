@@ -172,15 +172,17 @@ namespace undine::particles
       for (const auto &side : setup.open_sides)
         if (side.is_inflow)
           depth = depth > 0 ? std::min(depth, side.depth) : side.depth;
-      return n_behind_inflows == 0 ? 0 : static_cast<int>(n_behind_inflows * (2 + inflow_speed * frame / depth));
+      return n_behind_inflows == 0
+               ? 0
+               : static_cast<int>(n_behind_inflows * (2 + inflow_speed * frame / depth));
     }
 
     /// Look at the layers behind inflows.
     void
     measure_inflows(const ParticleState<dim> &state)
     {
-      n_behind_inflows    = 0;
-      inflow_speed = 0;
+      n_behind_inflows = 0;
+      inflow_speed     = 0;
       for (std::size_t i = 0; i < state.tags.size(); ++i)
         if (state.tags[i].material() == inflow_material)
           {
@@ -285,9 +287,9 @@ namespace undine::particles
     int                            expected = 1; ///< sub-steps of the next frame
     Look                           look;         ///< empty: nobody does
     Pace                           pace;
-    int                            n_behind_inflows    = 0; ///< particles behind inflows
-    double                         inflow_speed = 0; ///< of the fastest of them [m/s]
-    WallPaths<dim>                 paths;            ///< of this frame
+    int                            n_behind_inflows = 0; ///< particles behind inflows
+    double                         inflow_speed     = 0; ///< of the fastest of them [m/s]
+    WallPaths<dim>                 paths;                ///< of this frame
     std::unique_ptr<System<Entry>> system;
     std::unique_ptr<System<Wide>>  wide; ///< instead of `system`
     std::unique_ptr<Snapshot<Executor, dim, Real>> snapshot;

@@ -78,7 +78,8 @@ namespace undine::particles
       sort();
       list.find(now.view(), cells.cell_starts(), control.data());
       if (equation.ways() != nullptr)
-        executor.for_each(n, MeasureInwardDirections<dim, Real>{constants, neighbours(), equation.ways()});
+        executor.for_each(
+          n, MeasureInwardDirections<dim, Real>{constants, neighbours(), equation.ways()});
     }
 
     Neighbours<dim, Real>

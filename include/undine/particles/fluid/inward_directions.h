@@ -66,8 +66,8 @@ namespace undine::particles
   template <int dim, class Real>
   struct StopEntry
   {
-    Real                           fluid_density; ///< [kg/m^3]
-    const StoredVector<dim, Real> *inward_directions;       ///< nullptr: no bodies
+    Real                           fluid_density;     ///< [kg/m^3]
+    const StoredVector<dim, Real> *inward_directions; ///< nullptr: no bodies
 
     /// The particles of a body that fluid pushes in front of it.
     static constexpr Real pushed = 4;
@@ -109,7 +109,8 @@ namespace undine::particles
            const Vector<dim, Real> &approach) const
     {
       const Real share = pushed * solid_density / (fluid_density + pushed * solid_density);
-      return (share * pair.weight * minimum(Real(0), approach * inward_direction)) * inward_direction;
+      return (share * pair.weight * minimum(Real(0), approach * inward_direction)) *
+             inward_direction;
     }
   };
 } // namespace undine::particles

@@ -2,8 +2,8 @@
 #ifndef undine_particles_fluid_neighbourhood_h
 #define undine_particles_fluid_neighbourhood_h
 
-#include <undine/particles/fluid/stored_correction.h>
 #include <undine/particles/fluid/inward_directions.h>
+#include <undine/particles/fluid/stored_correction.h>
 #include <undine/particles/math/matrix.h>
 #include <undine/particles/model/constants.h>
 #include <undine/particles/model/lattice.h>
@@ -26,7 +26,8 @@ namespace undine::particles
     unsigned char *is_beside_given;
     /// M, which makes gradients exact for linear fields.
     StoredCorrection<dim, Real> *corrections;
-    StoredVector<dim, Real>     *inward_directions; ///< as by MeasureInwardDirections; nullptr: no bodies
+    StoredVector<dim, Real>
+      *inward_directions; ///< as by MeasureInwardDirections; nullptr: no bodies
   };
 
   /// Measures them, over all kinds of neighbours; but M of fluid and bodies without dummies, which

@@ -93,7 +93,7 @@ namespace undine
   template <int dim>
   SolidMeasures<dim>
   measure_solid(const SolidModel<dim>       &model,
-                const SolidStepper<dim>        &step,
+                const SolidStepper<dim>     &step,
                 const SolidEnvironment<dim> &environment,
                 const SolidState            &state,
                 double                       time,
@@ -111,7 +111,7 @@ namespace undine
   template <int dim>
   Columns
   solid_columns(const SolidModel<dim>       &model,
-                const SolidStepper<dim>        &step,
+                const SolidStepper<dim>     &step,
                 const SolidEnvironment<dim> &environment,
                 const SolidState            &state,
                 double                       time,

@@ -181,7 +181,9 @@ namespace undine
     Vector
     inertia(const Vector &velocity) const;
     void
-    add_level_forces(Vector &forces, const StageCoefficients::TimeLevel &level, const Vector &displacement);
+    add_level_forces(Vector                             &forces,
+                     const StageCoefficients::TimeLevel &level,
+                     const Vector                       &displacement);
     Matrix
     full_jacobian(const Vector &end_displacement, const Vector &in_contact) const;
     void
@@ -197,7 +199,7 @@ namespace undine
     const double                 dt;
     TimingTree                  &timing;
     Vector                       nodal_forces;
-    const StageCoefficients       coefficients;
+    const StageCoefficients      coefficients;
     const StepMotion<dim>        motion;
     RayleighDamping<dim>         rayleigh_damping;
     const StepContact<dim>       contact;

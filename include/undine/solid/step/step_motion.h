@@ -8,8 +8,9 @@
 
 namespace undine
 {
-  /// The displacements to which an end velocity u = u^{n+1} leads in one step, by StageCoefficients,
-  /// with the prescribed ones in place. All functions that take or return vectors are collective.
+  /// The displacements to which an end velocity u = u^{n+1} leads in one step, by
+  /// StageCoefficients, with the prescribed ones in place. All functions that take or return
+  /// vectors are collective.
   template <int dim>
   class StepMotion
   {
@@ -17,11 +18,11 @@ namespace undine
     using Vector = typename SolidModel<dim>::Vector;
 
     /// From `old_state` at `time` [s] over `dt` [s]. The model and the state must outlive it.
-    StepMotion(const SolidModel<dim>  &model,
-               const SolidState       &old_state,
+    StepMotion(const SolidModel<dim>   &model,
+               const SolidState        &old_state,
                const StageCoefficients &coefficients,
-               double                  time,
-               double                  dt);
+               double                   time,
+               double                   dt);
 
     const SolidModel<dim> &
     model() const
@@ -76,11 +77,11 @@ namespace undine
     Vector
     free_increment(const Vector &velocity) const;
 
-    const SolidModel<dim> &solid;
-    const SolidState      &old;
+    const SolidModel<dim>  &solid;
+    const SolidState       &old;
     const StageCoefficients step_coefficients;
-    const double           time;
-    const double           length;
+    const double            time;
+    const double            length;
   };
 } // namespace undine
 

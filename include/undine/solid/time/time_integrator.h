@@ -31,19 +31,19 @@ namespace undine
       double position; ///< s_e [1]
     };
 
-    double             mass                  = 0; ///< m [1/s]
-    double             mass_old_velocity     = 0; ///< m_u [1/s]
-    double             mass_old_acceleration = 0; ///< m_a [1]
-    double             damping               = 0; ///< c [1]
-    double             damping_old_velocity  = 0; ///< c_u [1]
-    double             damping_position      = 0; ///< r [1]
+    double                 mass                  = 0; ///< m [1/s]
+    double                 mass_old_velocity     = 0; ///< m_u [1/s]
+    double                 mass_old_acceleration = 0; ///< m_a [1]
+    double                 damping               = 0; ///< c [1]
+    double                 damping_old_velocity  = 0; ///< c_u [1]
+    double                 damping_position      = 0; ///< r [1]
     std::vector<TimeLevel> levels;
-    double             displacement              = 0; ///< e [s]
-    double             displacement_velocity     = 0; ///< e_u [s]
-    double             displacement_acceleration = 0; ///< e_a [s^2]
-    double             acceleration              = 0; ///< b [1/s]
-    double             acceleration_velocity     = 0; ///< b_u [1/s]
-    double             acceleration_acceleration = 0; ///< b_a [1]
+    double                 displacement              = 0; ///< e [s]
+    double                 displacement_velocity     = 0; ///< e_u [s]
+    double                 displacement_acceleration = 0; ///< e_a [s^2]
+    double                 acceleration              = 0; ///< b [1/s]
+    double                 acceleration_velocity     = 0; ///< b_u [1/s]
+    double                 acceleration_acceleration = 0; ///< b_a [1]
 
     /// Sum of the levels' weights [1]: reactions are divided by it and, where energy and momentum
     /// are accounted for, loads and damping.

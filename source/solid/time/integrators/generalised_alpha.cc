@@ -33,11 +33,11 @@ namespace undine
     StageCoefficients
     coefficients(const double dt) const override
     {
-      const double     alpha_m = this->alpha_m();
-      const double     alpha_f = radius / (radius + 1);
-      const double     gamma   = this->gamma();
-      const double     beta    = (1 - alpha_m + alpha_f) * (1 - alpha_m + alpha_f) / 4;
-      const double     scale   = gamma / (1 - alpha_m);
+      const double      alpha_m = this->alpha_m();
+      const double      alpha_f = radius / (radius + 1);
+      const double      gamma   = this->gamma();
+      const double      beta    = (1 - alpha_m + alpha_f) * (1 - alpha_m + alpha_f) / 4;
+      const double      scale   = gamma / (1 - alpha_m);
       StageCoefficients step;
       step.mass                      = 1 / dt;
       step.mass_old_velocity         = -1 / dt;
