@@ -49,7 +49,6 @@ add_compile_options(${flags} -fno-omit-frame-pointer)
 # The assertions of libstdc++, which cost little.
 add_compile_definitions(_GLIBCXX_ASSERTIONS)
 add_link_options(${flags})
-set(UNDINE_SANITIZER_SOURCE ${CMAKE_CURRENT_LIST_DIR}/defaults.cc)
-set_source_files_properties(${UNDINE_SANITIZER_SOURCE} PROPERTIES
-  SKIP_PRECOMPILE_HEADERS ON COMPILE_DEFINITIONS UNDINE_SANITIZERS="${CMAKE_CURRENT_LIST_DIR}")
+set(UNDINE_SANITIZER_SOURCE ${CMAKE_BINARY_DIR}/sanitizer_defaults.cc)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/defaults.cc.in ${UNDINE_SANITIZER_SOURCE} @ONLY)
 message(STATUS "Sanitizers: ${UNDINE_SANITIZE}")

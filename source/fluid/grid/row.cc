@@ -75,7 +75,10 @@ namespace undine
   Row::position(const int index) const
   {
     if (length == 0)
-      return points[index - first];
+      {
+        AssertIndexRange(index - first, static_cast<int>(points.size()));
+        return points[index - first];
+      }
     const int point = wrapped(index);
     return points[point] + (index - point) / n * length;
   }

@@ -108,10 +108,17 @@ namespace undine
     };
     surfaces->for_each_freshly_cleared(*grid->cells(), box, mark);
     for (unsigned int axis = 0; axis < dim; ++axis)
-      surfaces->for_each_freshly_cleared(*grid->faces(axis), box, [&](const GridIndex<dim> &face) {
-        mark(face);
-        mark(moved(face, axis, -1));
-      });
+      {
+        auto faces = box;
+        if (!grid->periodic(axis)) // below the first one there is a boundary point of cells only
+          faces.lower[axis] = std::max(faces.lower[axis], 0);
+        surfaces->for_each_freshly_cleared(*grid->faces(axis),
+                                           faces,
+                                           [&](const GridIndex<dim> &face) {
+                                             mark(face);
+                                             mark(moved(face, axis, -1));
+                                           });
+      }
   }
 
 

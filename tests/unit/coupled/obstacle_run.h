@@ -46,7 +46,7 @@ namespace undine_tests
     {
       report    = Report();
       report.dt = dt;
-      scheme.step(state, single_stage(report.dt), report);
+      scheme.solve_stage(state, single_stage(report.dt), report);
       ++state.clock.step;
       state.clock.time = state.clock.step * dt;
     }

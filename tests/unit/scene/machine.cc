@@ -86,6 +86,7 @@ TEST_CASE("control groups of version 1 bound memory, also where the group is not
 }
 
 
+#ifndef __SANITIZE_ADDRESS__ // which takes memory of its own
 TEST_CASE("limits of the process bound its memory")
 {
   rlimit before;
@@ -107,6 +108,7 @@ TEST_CASE("memory in use grows with what is used")
   std::vector<char> some(64 << 20, 'x');
   CHECK(memory_in_use() - before == Approx(some.size()).epsilon(0.1));
 }
+#endif
 
 
 TEST_CASE("the disk of a folder that does not exist yet is that of the one above it")

@@ -29,7 +29,8 @@ namespace undine::particles
   flattened(const std::vector<T> &values)
   {
     std::vector<Real> numbers(values.size() * sizeof(T) / sizeof(Real));
-    std::memcpy(numbers.data(), values.data(), numbers.size() * sizeof(Real));
+    if (!numbers.empty())
+      std::memcpy(numbers.data(), values.data(), numbers.size() * sizeof(Real));
     return {numbers.begin(), numbers.end()};
   }
 
@@ -41,7 +42,8 @@ namespace undine::particles
     std::vector<Real> part(values.size() * sizeof(T) / sizeof(Real));
     for (Real &number : part)
       number = static_cast<Real>(numbers[position++]);
-    std::memcpy(values.data(), part.data(), part.size() * sizeof(Real));
+    if (!part.empty())
+      std::memcpy(values.data(), part.data(), part.size() * sizeof(Real));
   }
 
 
