@@ -112,12 +112,11 @@ namespace undine
         auto faces = box;
         if (!grid->periodic(axis)) // below the first one there is a boundary point of cells only
           faces.lower[axis] = std::max(faces.lower[axis], 0);
-        surfaces->for_each_freshly_cleared(*grid->faces(axis),
-                                           faces,
-                                           [&](const GridIndex<dim> &face) {
-                                             mark(face);
-                                             mark(moved(face, axis, -1));
-                                           });
+        surfaces->for_each_freshly_cleared(
+          *grid->faces(axis), faces, [&](const GridIndex<dim> &face) {
+            mark(face);
+            mark(moved(face, axis, -1));
+          });
       }
   }
 
