@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Energies that a run shows, and the work that was put in, from where bodies are."""
+import dataclasses
+
+import law_outline
+
+ENERGIES = ("Fluid kinetic energy", "solid kinetic energy", "solid elastic energy")
+
+
+def energies(run):
+    """Kinetic and elastic energy of fluid and bodies in every row [J]. What contact stores is left out, which makes a
+    bound from above only milder."""
+    columns = [run.columns[name] for name in ENERGIES if name in run.columns]
+    return [sum(values) for values in zip(*columns)]
+
+
+@dataclasses.dataclass(frozen=True)
+class LoadedBody:
+    """A body, what it weighs, and how the area that it takes is known."""
+    name: str
+    density: float  # at rest [kg/m^dim]
+    load: tuple = (0.0, 0.0)  # dead force per volume at rest, constant [N/m^dim]
+    outline: law_outline.Outline = None  # without one the centre of mass stands for that of the volume
+
+    def volumes_and_moments(self, run):
+        """Of every row: volume [m^dim] and its integral of y."""
+        volumes = run.column(f"volume {self.name}")
+        if self.outline is None:
+            return list(zip(volumes, [volume * y for volume, y in zip(volumes, self.centres(run, "y"))]))
+        result = [law_outline.area_and_moment(polygon) for polygon in self.outline.polygons(run)]
+        if result and abs(result[0][0] - volumes[0]) > 1e-6 * volumes[0]:
+            raise ValueError(f"the outline of body {self.name} takes {result[0][0]} m^2 instead of {volumes[0]} m^2")
+        return result
+
+    def centres(self, run, axis):
+        return run.column(f"centre of mass {self.name} {axis}")
+
+
+@dataclasses.dataclass(frozen=True)
+class Surroundings:
+    """A fluid of which the surface, where the pressure is zero, lies at the height `surface`."""
+    density: float  # [kg/m^dim]
+    gravity: float  # downwards [m/s^2]
+    surface: float  # [m]
+
+    def settings(self, sides):
+        """Openings of the fluid at these sides, with the pressure of the fluid at rest: there the reduced one is the
+        same everywhere."""
+        result = {"Fluid/Boundaries/opening": {
+            "Sides": sides, "Kind": "pressure", "Pressure": repr(self.density * self.gravity * self.surface)}}
+        if self.gravity > 0:
+            result["Effects/gravity"] = {"Acceleration": f"0, {-self.gravity!r}"}
+        return result
+
+
+def works(run, bodies, around):
+    """The work of gravity, of the pressure at openings and of dead loads since the start, in every row [J].
+
+    What a body gains in height the fluid loses: gravity's work on the fluid and that of the pressure at the openings is
+    together what it takes to bring the body's volume from the surface to its depth."""
+    result = [0.0] * len(run.times())
+    for body in bodies:
+        shapes, xs, ys = body.volumes_and_moments(run), body.centres(run, "x"), body.centres(run, "y")
+        if not shapes:
+            continue
+        rest_volume = run.column(f"volume {body.name}")[0]
+        depths = [around.density * around.gravity * (around.surface * volume - moment) for volume, moment in shapes]
+        mass = body.density * rest_volume
+        for row in range(len(result)):
+            result[row] += depths[0] - depths[row] - mass * around.gravity * (ys[row] - ys[0])
+            result[row] += rest_volume * (body.load[0] * (xs[row] - xs[0]) + body.load[1] * (ys[row] - ys[0]))
+    return result
