@@ -218,11 +218,11 @@ namespace undine
                             "names no field to carry",
                             "Add a subsection with the field's name, such as 'subsection smoke'.");
       for (const auto &field : fields)
-        if (around.has_obstacles && field->diffusivity > 0)
+        if (around.has_immersed_surfaces && field->diffusivity > 0)
           throw options.section(field->name)
             .error("Diffusivity",
-                   "diffusion around obstacles is not part of this version",
-                   "Remove the key or the section 'Obstacles'.");
+                   "diffusion around bodies and obstacles is not part of this version",
+                   "Remove the key, or the sections 'Bodies' and 'Obstacles'.");
       for (const auto &field : fields)
         check_field(options, *field, around.fluid->boundaries().all());
     }

@@ -28,11 +28,11 @@ namespace undine
     /// What the effect may ask about the rest of the scene.
     struct Surroundings
     {
-      const FluidModel<dim>   *fluid;         ///< nullptr: none
-      const SolidModel<dim>   *solid;         ///< nullptr: none
-      bool                     has_obstacles; ///< there are obstacles in the fluid
-      std::vector<std::string> effects;       ///< names of those that the scene calls for
-      std::vector<std::string> scalars;       ///< names of the scalar fields that are carried
+      const FluidModel<dim>   *fluid;                 ///< nullptr: none
+      const SolidModel<dim>   *solid;                 ///< nullptr: none
+      bool                     has_immersed_surfaces; ///< of bodies or obstacles, in the fluid
+      std::vector<std::string> effects;               ///< names of those that the scene calls for
+      std::vector<std::string> scalars; ///< names of the scalar fields that are carried
       bool                     has_fluid_particles = false; ///< a fluid, but not on a grid
     };
 

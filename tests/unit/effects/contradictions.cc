@@ -35,10 +35,10 @@ namespace
       const auto              effects = make_effects<2>(options);
       const FluidModel<2>     fluid(options, MPI_COMM_WORLD);
       const SolidModel<2>     solid(options, MPI_COMM_WORLD);
-      constexpr bool          has_obstacles = false;
+      constexpr bool          has_immersed_surfaces = false;
       Effect<2>::Surroundings around{scene == Made::of_bodies ? nullptr : &fluid,
                                      scene == Made::of_fluid ? nullptr : &solid,
-                                     has_obstacles,
+                                     has_immersed_surfaces,
                                      {},
                                      {}};
       const Effect<2> *asked = nullptr;

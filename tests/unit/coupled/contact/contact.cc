@@ -215,9 +215,9 @@ TEST_CASE("what contact cannot do is refused with a hint", "[contact]")
   const auto why = [](const std::string &bodies, const std::string &effects) {
     return message_of([&] {
       CoupledRun<2>                    run(steps_of(.01) + bodies + effects);
-      constexpr bool                   has_obstacles = false;
+      constexpr bool                   has_immersed_surfaces = false;
       typename Effect<2>::Surroundings around{
-        nullptr, run.models.solid.get(), has_obstacles, {"contact"}, {}};
+        nullptr, run.models.solid.get(), has_immersed_surfaces, {"contact"}, {}};
       run.models.effects[0]->check(run.options.section("Effects").section("contact"), around);
     });
   };
