@@ -46,7 +46,7 @@ namespace undine
     transport(FluidStage<dim> &step) const override
     {
       const auto timed = step.timing.section(this->name);
-      if (step.stage.keeps_rates)
+      if (step.stage.keeps_rates())
         carry(step.to_carry(), step);
       else
         carry_with_acceleration(step);

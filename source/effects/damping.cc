@@ -5,8 +5,8 @@
 
 namespace undine
 {
-  /// Rayleigh damping of bodies (E5), C = alpha M + eta K'(d^n + r h u^n): with the tangent at the
-  /// present deformation, so that rigid rotation is not damped.
+  /// Rayleigh damping of bodies (E5), alpha M u + eta V(d) u: the viscous stress V belongs to the
+  /// rate of strain of the material, so that rigid rotation is not damped.
   template <int dim>
   class Damping : public Effect<dim>
   {
@@ -43,7 +43,7 @@ namespace undine
     std::string
     summary() const override
     {
-      return fmt::format("C = {:.4g} M + {:.4g} K'", mass_coefficient, stiffness_coefficient);
+      return fmt::format("C = {:.4g} M + {:.4g} V", mass_coefficient, stiffness_coefficient);
     }
 
     void

@@ -123,24 +123,6 @@ namespace undine
         return diffusivity > 0 || !source.is_zero();
       }
 
-      /// s^0 of a stage that keeps rates (T9), and what the next one needs of s^n and f^n.
-      void
-      start(FluidStage<dim> &step) const
-      {
-        auto       &values = step.state.scalars.at(name);
-        const auto &rate   = step.state.scalar_rates.at(name);
-        const auto  before = values;
-        if (step.stage.is_first)
-          add(values, step.stage.rate(), rate);
-        else
-          values = step.next.scalars.at(name);
-        step.next.scalars.erase(name);
-        if (step.stage.is_last)
-          return;
-        auto &next = step.next.scalars[name] = before;
-        add(next, step.stage.next_old.length, rate);
-      }
-
       std::string              name;
       Expression<dim>          initial, source, inflow, held;
       std::vector<std::string> held_boundaries;
@@ -186,7 +168,7 @@ namespace undine
   ///
   ///     ds/dt + v.grad s = D Laplace(s) + q                                               (E4)
   ///
-  /// along the flow by the stages of the step (T9) with ds/dt = D Laplace(s) + q as the rate, of
+  /// along the flow by the stages of the step (T10) with ds/dt = D Laplace(s) + q as the rate, of
   /// second order in time; in steps of one stage with the source in the middle and implicit
   /// diffusion, of first order. Advection is not conservative: the integral of s drifts with the
   /// error of the interpolation.
@@ -269,15 +251,26 @@ namespace undine
       const auto timed = step.timing.section(this->name);
       for (const auto &field : fields)
         {
-          auto &values = step.state.scalars.at(field->name);
-          step.timing.memory.hold_briefly(this->name, values.memory_consumption());
-          if (field->changes() && step.stage.keeps_rates)
-            field->start(step);
-          if (step.next.scalars.count(field->name) > 0)
-            step.timing.memory.hold_briefly(this->name, 2 * values.memory_consumption());
-          carry(values, *field, step);
-          if (field->changes())
-            change(*field, step);
+          auto                   &values = step.state.scalars.at(field->name);
+          std::vector<Field<dim>> fields_to_carry;
+          if (field->changes() && step.keeps_mean())
+            fields_to_carry = {values, values};
+          else
+            fields_to_carry.push_back(std::move(values));
+          if (field->changes() && step.stage.going_on() != 0)
+            add(fields_to_carry.front(),
+                step.stage.going_on(),
+                step.state.scalar_rates.at(field->name));
+          step.timing.memory.hold_briefly(
+            this->name, fields_to_carry.size() * fields_to_carry.front().memory_consumption());
+          auto carried = method->advect(step.tracer, std::move(fields_to_carry), *field);
+          if (!field->changes())
+            {
+              values = std::move(carried.front());
+              continue;
+            }
+          values = carried.front();
+          change(*field, carried, step);
         }
     }
 
@@ -321,29 +314,16 @@ namespace undine
     }
 
   private:
-    /// And what the next stage starts from.
+    /// Sources and diffusion, and the rate that is kept. `carried`: s^0 where the stage keeps
+    /// rates, and then s^b if that rate is a mean.
     void
-    carry(Field<dim> &values, const CarriedScalar<dim> &field, FluidStage<dim> &step) const
+    change(const CarriedScalar<dim>      &field,
+           const std::vector<Field<dim>> &carried,
+           FluidStage<dim>               &step) const
     {
-      std::vector<Field<dim>> carried;
-      carried.push_back(std::move(values));
-      const auto next = step.next.scalars.find(field.name);
-      if (next != step.next.scalars.end())
-        carried.push_back(next->second);
-      carried = method->advect(step.tracer, std::move(carried), field);
-      values  = std::move(carried.front());
-      if (next != step.next.scalars.end())
-        next->second = std::move(carried.back());
-    }
-
-    /// Sources and diffusion, and the rate that they make.
-    void
-    change(const CarriedScalar<dim> &field, FluidStage<dim> &step) const
-    {
-      auto        &values  = step.state.scalars.at(field.name);
-      const auto   carried = values;
-      const auto  &stage   = step.stage;
-      const double at      = stage.keeps_rates ? step.end : step.time + stage.duration() / 2;
+      auto        &values = step.state.scalars.at(field.name);
+      const auto  &stage  = step.stage;
+      const double at     = stage.keeps_rates() ? step.end : step.time + stage.duration() / 2;
       if (!field.source.is_zero())
         {
           field.add_source(values, at, stage.length);
@@ -358,10 +338,8 @@ namespace undine
         }
       auto &rate = step.state.scalar_rates.at(field.name);
       rate       = values;
-      add(rate, -1., carried);
-      add(rate, 1 / stage.length - 1, Field<dim>(rate));
-      if (const auto next = step.next.scalars.find(field.name); next != step.next.scalars.end())
-        add(next->second, stage.next_new.length, rate);
+      add(rate, -1., carried.back());
+      add(rate, 1 / (step.keeps_mean() ? stage.duration() : stage.length) - 1, Field<dim>(rate));
     }
 
     static void

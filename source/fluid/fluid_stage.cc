@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/advection/advection.h>
+#include <undine/fluid/advection/remap.h>
 #include <undine/fluid/fluid_stage.h>
 #include <undine/fluid/grid/field_algebra.h>
 
@@ -29,7 +29,7 @@ namespace undine
     carrying_velocity(const FluidState<dim> &state, const Stage &stage)
     {
       auto result = state.velocity;
-      if (stage.keeps_rates)
+      if (stage.keeps_rates())
         add(result, stage.duration() / 2, state.change);
       return result;
     }
@@ -51,7 +51,6 @@ namespace undine
   template <int dim>
   FluidStage<dim>::FluidStage(const FluidModel<dim>                            &model_,
                               FluidState<dim>                                  &state_,
-                              FluidStageStart<dim>                             &next_,
                               const dealii::Tensor<1, dim>                     &gravity_,
                               const double                                      time_,
                               const Stage                                      &stage_,
@@ -59,7 +58,6 @@ namespace undine
                               const typename CharacteristicTracer<dim>::Bodies &bodies)
     : model(model_)
     , state(state_)
-    , next(next_)
     , gravity(gravity_)
     , stage(stage_)
     , time(time_ + stage.begin)
@@ -69,29 +67,23 @@ namespace undine
     , timing(timing_)
     , tracer(model_, carrying_velocity(state_, stage), time, stage.duration(), bodies)
   {
-    if (stage.keeps_rates)
-      start_from_rates();
+    if (stage.keeps_rates())
+      go_on();
     if (state.pressure.topology() != bodies.topology)
       move_pressure_and_acceleration();
   }
 
 
-  /// v^0 of this stage, and what the next one needs of v^n and a^n.
+  /// From v^b to v^0.
   template <int dim>
   void
-  FluidStage<dim>::start_from_rates()
+  FluidStage<dim>::go_on()
   {
     before = state.velocity;
-    if (stage.is_first)
-      add(state.velocity, stage.rate(), state.acceleration);
-    else
-      state.velocity = next.velocity;
-    next.velocity = Velocity<dim>();
-    if (!stage.is_last)
-      {
-        next.velocity = before;
-        add(next.velocity, stage.next_old.length, state.acceleration);
-      }
+    if (keeps_mean())
+      carried_begin = before;
+    if (stage.going_on() != 0)
+      add(state.velocity, stage.going_on(), state.acceleration);
   }
 
 
@@ -101,7 +93,7 @@ namespace undine
   {
     const auto &now = tracer.bodies().topology;
     state.pressure  = moved_to(state.pressure, now);
-    if (stage.keeps_rates)
+    if (stage.keeps_rates())
       return; // accelerations have been carried as part of velocities
     for (auto &component : state.acceleration.components)
       component = moved_to(component, now);
@@ -122,9 +114,9 @@ namespace undine
   std::vector<Velocity<dim> *>
   FluidStage<dim>::to_carry()
   {
-    if (stage.is_last)
-      return {&state.velocity};
-    return {&state.velocity, &next.velocity};
+    if (carried_begin)
+      return {&state.velocity, &*carried_begin};
+    return {&state.velocity};
   }
 
 
@@ -147,7 +139,7 @@ namespace undine
     for (auto *velocity : to_carry())
       if ((*velocity)[0].topology() != tracer.bodies().topology)
         *velocity = remapped_velocity(*velocity);
-    if (stage.keeps_rates)
+    if (stage.keeps_rates())
       {
         carried = state.velocity;
         before  = remapped_velocity(before);
@@ -159,12 +151,16 @@ namespace undine
   void
   FluidStage<dim>::finish()
   {
-    if (stage.keeps_rates)
+    if (stage.keeps_rates())
       {
-        state.acceleration = difference(state.velocity, *carried, stage.length);
-        state.change       = difference(state.velocity, before, stage.duration());
-        if (!stage.is_last)
-          add(next.velocity, stage.next_new.length, state.acceleration);
+        state.acceleration = carried_begin
+                               ? difference(state.velocity, *carried_begin, stage.duration())
+                               : difference(state.velocity, *carried, stage.length);
+        if (by_contact)
+          add(state.acceleration,
+              -1 / (carried_begin ? stage.duration() : stage.length),
+              *by_contact);
+        state.change = difference(state.velocity, before, stage.duration());
       }
     else if (carried)
       for (unsigned int axis = 0; axis < dim; ++axis)

@@ -22,14 +22,15 @@ namespace undine
   ///  2. accelerate: v'' = v' + g f
   ///  3. diffuse:    (1 - g nu Laplace) w = v'' - g grad q / rho,  v* = w + g grad q / rho
   ///  4. project:    v = v* - g grad p / rho,  div v = 0                          (Projection)
-  ///  5. finish:     a = (v - v') / g,  q = p - mu div w
+  ///  5. finish:     a = (v - v') / g or (v - A(v^b)) / duration,  q = p - mu div w
   ///
   /// with pressures q of the last stage. Friction acts on the flow that 4 will leave, not on one
   /// that still slips along walls: step 3 borrows the old pressure gradient and gives it back, the
   /// incremental pressure correction in its rotational form (Guermond, Minev & Shen 2006).
   ///
-  /// Stages that keep rates (T9) start from v^0 = v^n + w a^n and so on, a being the acceleration
-  /// of the fluid's parcels; the flow that carries is that in the middle of the stage,
+  /// Stages that keep rates (T10) start from v^0 = v^b + w a, v^b being the velocity at the stage's
+  /// begin and a the acceleration of the fluid's parcels that the stage before has kept; the flow
+  /// that carries is that in the middle of the stage,
   ///
   ///     v + (duration of the stage) / 2 dv/dt.
   ///
@@ -45,13 +46,12 @@ namespace undine
   {
     static constexpr double carried_share = 0.45; ///< c
 
-    /// A stage of the step that begins at `time` = t^n. `next` is what the stage that follows
-    /// starts from. `tracer` gets its own copy of the flow, which later changes of `state` do not
-    /// reach. The topology of the fluid, `bodies.topology`, may differ from that of `state`:
-    /// velocity and scalars change to it when they are carried, the pressure does here. Collective.
+    /// A stage of the step that begins at `time` = t^n. `tracer` gets its own copy of the flow,
+    /// which later changes of `state` do not reach. The topology of the fluid, `bodies.topology`,
+    /// may differ from that of `state`: velocity and scalars change to it when they are carried,
+    /// the pressure does here. Collective.
     FluidStage(const FluidModel<dim>                            &model,
                FluidState<dim>                                  &state,
-               FluidStageStart<dim>                             &next,
                const dealii::Tensor<1, dim>                     &gravity,
                double                                            time,
                const Stage                                      &stage,
@@ -73,7 +73,6 @@ namespace undine
 
     const FluidModel<dim>       &model;
     FluidState<dim>             &state;
-    FluidStageStart<dim>        &next;    ///< of the stage that follows
     const dealii::Tensor<1, dim> gravity; ///< uniform acceleration, in the reduced pressure [m/s^2]
     const Stage                  stage;
     const double                 time;  ///< where the paths of parcels begin [s]
@@ -84,11 +83,22 @@ namespace undine
     const CharacteristicTracer<dim> tracer;                ///< carries everything
     unsigned int                    linear_iterations = 0; ///< summed over implicit solves
 
+    /// Is the mean rate of the stage kept, and another one than that at its end?
+    bool
+    keeps_mean() const
+    {
+      return stage.kept == KeptRate::mean && stage.going_on() != 0;
+    }
+
     /// Results of effects for finish(). @{
     std::optional<Velocity<dim>> carried;             ///< v' [m/s], by convection
     std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
     std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces
     /// @}
+
+    /// The contribution of forces of contact between bodies to the velocity at the end of the stage
+    /// [m/s], which is no rate that the next stage goes on with; empty: none.
+    std::optional<Velocity<dim>> by_contact;
 
     /// For the budget: the work of the effect that has just acted, on this rank, by the effect's
     /// own formula [J]; empty: it has none.
@@ -96,13 +106,16 @@ namespace undine
 
   private:
     void
-    start_from_rates();
+    go_on();
     void
     move_pressure_and_acceleration();
     Velocity<dim>
     remapped_velocity(const Velocity<dim> &velocity) const;
 
     Velocity<dim> before; ///< velocity where the paths begin, if rates are kept [m/s]
+
+    /// The same, carried, if a mean rate is kept and differs from that at the end [m/s].
+    std::optional<Velocity<dim>> carried_begin;
   };
 } // namespace undine
 

@@ -27,7 +27,7 @@ namespace undine
     TimeAccuracy
     accuracy_of(const Models<dim> &models, const TimeIntegrator &integrator)
     {
-      const bool by_stages = integrator.stages(1, RatesAtBegin::known).front().keeps_rates;
+      const bool by_stages = integrator.stages(1, RatesAtBegin::known).front().keeps_rates();
       return models.solid || by_stages ? integrator.accuracy() : fluid_accuracy;
     }
 

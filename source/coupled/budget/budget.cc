@@ -62,6 +62,20 @@ namespace undine
 
 
   template <int dim>
+  void
+  Budget<dim>::go_back_to(const Budget &earlier)
+  {
+    fluid            = earlier.fluid;
+    bodies           = earlier.bodies;
+    gain             = earlier.gain;
+    terms            = earlier.terms;
+    by_effect        = earlier.by_effect;
+    energy           = earlier.energy;
+    impulse_of_fluid = earlier.impulse_of_fluid;
+  }
+
+
+  template <int dim>
   typename Budget<dim>::Amount
   Budget<dim>::amount(const Velocity<dim> &velocity) const
   {

@@ -49,7 +49,8 @@ namespace undine
     for (std::size_t region = 0; region < result.size(); ++region)
       if (at_start[region])
         {
-          // If chambers have parted or merged since, the volume at t^n is that of another chamber.
+          // If chambers have parted or merged since, the volume at the begin is that of another
+          // chamber.
           constexpr double the_same = 1e-3;
           const double     exact    = volumes[region] - *at_start[region];
           if (std::abs(exact - result[region]) <= the_same * volumes[region])

@@ -194,18 +194,17 @@ namespace undine
     : stage(stage)
     , time(time)
   {
-    if (!stage.keeps_rates)
+    if (!stage.keeps_rates())
       return;
-    const auto &surface  = *models.surface;
-    const auto  at_start = surface.positions(state.solid, time);
-    before               = at_start;
-    const auto arrived   = surface.positions(state.solid, time + stage.end);
+    const auto &surface = *models.surface;
+    before              = surface.positions(state.stage_begin, time + stage.begin);
+    const auto arrived  = surface.positions(state.solid, time + stage.end);
     increment.resize(before.size());
     for (std::size_t node = surface.n_body_nodes(); node < increment.size(); ++node)
       increment[node] = arrived[node] - before[node];
-    increment = surface.with_bodies(state.increment, increment);
-    for (std::size_t node = 0; node < surface.n_body_nodes(); ++node)
-      before[node] -= increment[node];
+    auto of_bodies = state.mean_velocity;
+    of_bodies *= stage.going_on();
+    increment = surface.with_bodies(of_bodies, increment);
   }
 
 
@@ -218,7 +217,7 @@ namespace undine
                     const SolidEquations<dim>  &solid,
                     const BodiesInStage<dim>   &bodies)
   {
-    if (bodies.stage.keeps_rates)
+    if (bodies.stage.keeps_rates())
       return std::make_unique<FluxAtEnd<dim>>(models, geometry, numbers, solid, bodies);
     if (kind == "swept")
       return std::make_unique<SweptFlux<dim>>(

@@ -4,6 +4,8 @@
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/solid_side.h>
 
+#include <fmt/format.h>
+
 namespace undine
 {
   /// The section `Coupling`.
@@ -19,6 +21,11 @@ namespace undine
   ///  1. fluid: transport, forces, implicit terms of every effect that is on; v^n becomes v*
   ///  2. Newton's method for u^{n+1} and p                                     (CoupledEquations)
   ///  3. bodies: d^{n+1} from u^{n+1}; fluid: v^{n+1} = v* + h (rho V)^-1 D^T p
+  ///
+  /// Stages that keep rates cut the grid where bodies are expected at their end. If these come to
+  /// another place, by more than a small part of a cell, the stage is solved again with the grid
+  /// cut there: else the fluid would have left, or entered, what it has not, and light bodies that
+  /// shake from stage to stage would gain energy by that.
   template <int dim>
   class SimultaneousPhysics : public Physics<dim>
   {
@@ -36,6 +43,7 @@ namespace undine
       , solid_side(models, budget, timing)
       , solver(*models.solid, settings.solver)
       , motion_solver(*models.solid)
+      , impulse_solver(*models.solid, settings.solver)
     {
     }
 
@@ -52,26 +60,34 @@ namespace undine
     void
     solve_stage(State<dim> &state, const Stage &stage, Report &report) override
     {
-      solid_side.start(state, stage);
-      const auto        fluid = fluid_side.predict(state, stage);
-      CoupledStage<dim> coupled({models,
-                                 solid_side.mass(),
-                                 solid_side.environment(),
-                                 *fluid_side.geometry(),
-                                 solver,
-                                 motion_solver,
-                                 timing},
-                                *fluid,
-                                state,
-                                settings.boundary_flux);
-      const auto        solid = coupled.solve();
-      solid_side.end(state, stage, solid);
-      if (stage.is_last)
-        balance(coupled, solid, stage.length);
-      fluid_side.finish(*fluid, state, report, coupled.divergence());
-      if (stage.is_last)
-        add_solver_columns(report);
-      solid_side.finish(state, stage, solid, report);
+      if (stage.is_first)
+        report.stages_again = 0;
+      const State<dim>  begin         = state;
+      const Report      report_before = report;
+      const Budget<dim> budget_before = budget;
+      for (unsigned int round = 0;; ++round)
+        {
+          solve_once(state, stage, report);
+          if (!stage.keeps_rates())
+            return;
+          const auto places = models.surface->positions(state.solid, state.clock.time + stage.end);
+          const double misplacement = fluid_side.misplacement(places);
+          if (misplacement <= (round < most_rounds ? small_misplacement : largest_misplacement))
+            return;
+          if (round == most_rounds)
+            throw SolveError(fmt::format(
+              "the grid cannot be cut where bodies come to: wherever it is cut, they end "
+              "the step {:.2g} cells from there. Try: a smaller step.",
+              misplacement));
+          const auto newton = report.newton_iterations, linear = report.linear_iterations;
+          report                   = report_before;
+          report.newton_iterations = newton;
+          report.linear_iterations = linear;
+          report.stages_again += round + 1;
+          state = begin;
+          budget.go_back_to(budget_before);
+          fluid_side.expect(places);
+        }
     }
 
     std::vector<dealii::Tensor<1, dim>>
@@ -81,6 +97,40 @@ namespace undine
     }
 
   private:
+    // In cells. Bodies are where they are expected to second order in the step: steps that resolve
+    // what happens stay below the first. Beyond the second, which steps of a body that shakes
+    // exceed however often they are solved again, the fluid has lost or gained volume that matters.
+    static constexpr double       small_misplacement   = 0.1;
+    static constexpr double       largest_misplacement = 0.3;
+    static constexpr unsigned int most_rounds          = 2;
+
+    void
+    solve_once(State<dim> &state, const Stage &stage, Report &report)
+    {
+      solid_side.start(state, stage);
+      const auto        fluid = fluid_side.predict(state, stage);
+      CoupledStage<dim> coupled({models,
+                                 solid_side.mass(),
+                                 solid_side.environment(),
+                                 *fluid_side.geometry(),
+                                 solver,
+                                 motion_solver,
+                                 impulse_solver,
+                                 timing},
+                                *fluid,
+                                state,
+                                settings.boundary_flux);
+      const auto        solid = coupled.solve();
+      solid_side.end(state, stage);
+      fluid->by_contact = coupled.velocity_by_contact();
+      if (stage.is_last)
+        balance(coupled, solid, stage.length);
+      fluid_side.finish(*fluid, state, report, coupled.divergence());
+      if (stage.is_last)
+        add_solver_columns(report);
+      solid_side.finish(state, stage, solid, report);
+    }
+
     void
     balance(const CoupledStage<dim> &step, const SolidReport<dim> &solid, const double dt)
     {
@@ -95,8 +145,9 @@ namespace undine
     void
     add_solver_columns(Report &report) const
     {
-      report.columns.push_back(
-        {"Most iterations of a solve", "1", double(solver.most_iterations())});
+      append(report.columns,
+             {{"Most iterations of a solve", "1", double(solver.most_iterations())},
+              {"Stages solved again", "1", double(report.stages_again)}});
     }
 
     const Models<dim>      &models;
@@ -107,6 +158,7 @@ namespace undine
     SolidSide<dim>          solid_side;
     BlockSolver<dim>        solver;
     TangentSolver<dim>      motion_solver;
+    BlockSolver<dim>        impulse_solver;
   };
 
 

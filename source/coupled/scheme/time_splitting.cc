@@ -65,7 +65,7 @@ namespace undine
       auto       increment = state.solid.displacement;
       const auto solid     = solid_side.advance(state, stage, forces);
       increment.sadd(-1, 1, state.solid.displacement);
-      solid_side.end(state, stage, solid);
+      solid_side.end(state, stage);
       exchange.increment   = models.surface->with_bodies(increment, still());
       exchange.velocities  = node_velocities(state, exchange.increment, fluid->dt);
       const auto projected = project(state, *fluid, exchange.velocities);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/step/coupled_stage.h>
+#include <undine/coupled/step/solid_side.h>
 #include <undine/fluid/grid/field_algebra.h>
 #include <undine/operators/flux_matrix.h>
+#include <undine/solid/assembly/sparse.h>
 #include <undine/solid/step/initial_guesses.h>
 
 namespace undine
@@ -17,6 +19,10 @@ namespace undine
       return surface;
     }
 
+
+    // What contact does is handed on to the next stage apart from the rest: an error in its share
+    // changes the rates with which that goes on.
+    constexpr double impulse_reduction = 1e-10;
 
     /// The error of B u if positions of the size of the domain are known to rounding only.
     template <int dim>
@@ -50,7 +56,8 @@ namespace undine
                 fluid.dt,
                 parts.timing,
                 loads_besides_pressure(),
-                state.contact)
+                state.contact,
+                begin_of(state, fluid.stage))
     , numbers(parts.models.fluid->grid(), parts.geometry.bodies().topology)
     , surface(
         moved(make_surface_flux(
@@ -119,7 +126,7 @@ namespace undine
                     equations,
                     newton,
                     [&] {
-                      parts.motion_solver.begin_stage();
+                      parts.motion_solver.begin_stage(equations.symmetry());
                       return resting_guess(equations, parts.motion_solver, parts.timing);
                     },
                     [&](const Vector &velocity) { return solve_from(velocity, last_pressure); }));
@@ -159,8 +166,35 @@ namespace undine
     state.fluid.pressure      = pressure;
     pressures.closed_regions().remove_means(state.fluid.pressure);
     set_means(state.fluid.pressure, parts.models.fluid->grid());
-    report.contact_velocity = equations.contact_velocity(velocity);
-    state.solid             = equations.end_state(velocity, report.contact_velocity);
+    state.solid = equations.end_state(velocity, respond_to_contact());
+  }
+
+
+  /// The velocities that forces of contact give to bodies and fluid together, with the inertia of
+  /// both: light bodies move the fluid rather than themselves. Of the fluid's it takes note, those
+  /// of the bodies are returned [m/s]; empty: nothing touches.
+  template <int dim>
+  typename CoupledStage<dim>::Vector
+  CoupledStage<dim>::respond_to_contact()
+  {
+    const auto forces = equations.contact_forces(x.block(0));
+    if (forces.size() == 0)
+      return {};
+    const auto          timed = parts.timing.section("contact");
+    BlockSystem::Matrix inertia;
+    inertia.copy_from(parts.mass);
+    inertia *= 1 / fluid.dt;
+    fix_rows_and_columns(inertia, parts.models.solid->all_fixed());
+    const BlockSystem system(inertia, surface->matrix(), surface->factor(), pressures.matrix());
+    auto              right_side = problem.vector();
+    right_side.block(0)          = forces;
+    parts.impulse_solver.start_step();
+    const auto response = parts.impulse_solver.solve(
+      system, right_side, equations.displacement(x.block(0)), impulse_reduction);
+    fluid_by_contact = state.fluid.velocity;
+    add(*fluid_by_contact, -1., state.fluid.velocity);
+    pressures.accelerate(*fluid_by_contact, response.block(1));
+    return response.block(0);
   }
 
 

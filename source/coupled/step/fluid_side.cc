@@ -4,6 +4,10 @@
 #include <undine/coupled/step/physics.h>
 #include <undine/fluid/model/fluid_quantities.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace undine
 {
   template <int dim>
@@ -44,24 +48,56 @@ namespace undine
   }
 
 
-  /// Where the surfaces of the surface flux are in this stage, at `time` [s]. Bodies get there only
-  /// as far as they do not run into each other or into walls.
+  /// Where the bodies of the surface flux are in this stage, at `time` [s], and how they move. With
+  /// contact they get there only as far as they do not run into each other or into walls, with the
+  /// velocity that leads there: that at which the stage starts is one that contact has yet to stop,
+  /// and may be a hundred times as large.
   template <int dim>
-  typename FluidGeometry<dim>::Positions
-  FluidSide<dim>::expected_places(const State<dim> &state,
+  SolidState
+  FluidSide<dim>::expected_bodies(const State<dim> &state,
                                   const Stage      &stage,
                                   const double      time) const
   {
+    SolidState bodies = state.solid;
+    if (stage.ahead() != 0)
+      bodies.displacement.add(stage.ahead(), state.solid.velocity);
     const auto &contact = state.contact;
     if (!environment.contact || contact.place.size() == 0)
-      return models.surface->positions(state.solid, time, stage.ahead());
-    SolidState bodies = state.solid;
-    bodies.displacement.add(stage.ahead(), state.solid.velocity);
+      return bodies;
     const double part =
       environment.contact->free_part({contact.place, contact.time}, {bodies.displacement, time});
     if (part < 1)
       bodies.displacement.sadd(part, 1 - part, contact.place);
-    return models.surface->positions(bodies, time);
+    bodies.velocity = bodies.displacement;
+    bodies.velocity.add(-1., contact.place);
+    bodies.velocity *= 1 / stage.duration();
+    return bodies;
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::expect(typename FluidGeometry<dim>::Positions places)
+  {
+    expected = std::move(places);
+  }
+
+
+  template <int dim>
+  double
+  FluidSide<dim>::misplacement(const typename FluidGeometry<dim>::Positions &places) const
+  {
+    const auto &grid   = model.grid();
+    const auto &cut_at = cut->surface_positions();
+    double      result = 0;
+    for (std::size_t node = 0; node < places.size(); ++node)
+      {
+        const auto cell = grid.cell_at(cut_at[node]);
+        for (unsigned int d = 0; d < dim; ++d)
+          result = std::max(
+            result, std::abs(places[node][d] - cut_at[node][d]) / grid.cell_width(d, cell[d]));
+      }
+    return result;
   }
 
 
@@ -71,13 +107,15 @@ namespace undine
   {
     if (!cut)
       return;
-    const auto   phase = timing.section("cut cells");
-    const double time  = state.clock.time + stage.start() + stage.ahead();
-    const auto   now   = expected_places(state, stage, time);
+    const auto   phase  = timing.section("cut cells");
+    const double time   = state.clock.time + stage.start() + stage.ahead();
+    const auto   bodies = expected_bodies(state, stage, time);
+    const auto   given  = std::exchange(expected, {});
+    const auto   now    = given.empty() ? models.surface->positions(bodies, time) : given;
     cut->place(state.surface_positions.empty() ? now : state.surface_positions,
                now,
-               stage.keeps_rates ? models.surface->velocities_at(state.solid, time, stage.length)
-                                 : models.surface->velocities(state.solid, time, stage.length));
+               stage.keeps_rates() ? models.surface->velocities_at(bodies, time, stage.length)
+                                   : models.surface->velocities(bodies, time, stage.length));
   }
 
 
@@ -172,7 +210,6 @@ namespace undine
     share_parts(state.fluid);
     auto fluid = std::make_unique<FluidStage<dim>>(model,
                                                    state.fluid,
-                                                   state.next_fluid,
                                                    environment.gravity,
                                                    state.clock.time,
                                                    stage,

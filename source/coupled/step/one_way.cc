@@ -115,7 +115,7 @@ namespace undine
     auto increment = state.solid.displacement;
     half.solid     = solid_side.advance(state, stage, forces);
     increment.sadd(-1, 1, state.solid.displacement);
-    solid_side.end(state, stage, half.solid);
+    solid_side.end(state, stage);
     half.exchange.increment =
       models.surface->with_bodies(increment, Vectors(models.surface->surface().n_nodes()));
   }

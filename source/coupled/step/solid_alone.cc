@@ -27,7 +27,7 @@ namespace undine
   {
     solid_side.start(state, stage);
     const auto solid = solid_side.advance(state, stage);
-    solid_side.end(state, stage, solid);
+    solid_side.end(state, stage);
     if (solid.balance && stage.is_last)
       budget.add(*solid.balance, stage.length);
     solid_side.finish(state, stage, solid, report);

@@ -5,20 +5,12 @@
 
 namespace undine
 {
-  namespace
+  template <int dim>
+  StageBegin
+  begin_of(const State<dim> &state, const Stage &stage)
   {
-    /// The bodies go on for `length` [s] with the rates of `now`.
-    template <int dim>
-    void
-    go_on(typename State<dim>::StageStart &start, const double length, const SolidState &now)
-    {
-      if (length == 0)
-        return;
-      start.solid.displacement.add(length, now.velocity);
-      start.solid.velocity.add(length, now.acceleration);
-      start.increment.add(length, now.velocity);
-    }
-  } // namespace
+    return {state.stage_begin.displacement, stage.duration()};
+  }
 
 
   template <int dim>
@@ -65,29 +57,21 @@ namespace undine
   void
   SolidSide<dim>::start(State<dim> &state, const Stage &stage) const
   {
-    if (!stage.keeps_rates)
+    if (!stage.keeps_rates())
       return;
     start_contact(state, stage);
     if (budget.is_on() && stage.is_first)
       budget.start(solid_stepper.amounts(state.solid));
-    using Start     = typename State<dim>::StageStart;
-    const auto  now = state.solid;
-    const Start still{now,
-                      dealii::TrilinosWrappers::MPI::Vector(now.velocity.locally_owned_elements(),
-                                                            now.velocity.get_mpi_communicator())};
-    Start       start = still;
+    state.stage_begin = state.solid;
     if (stage.is_first)
-      go_on<dim>(start, stage.rate(), now);
-    else
-      start = state.next;
-    state.solid     = start.solid;
-    state.increment = start.increment;
+      state.mean_velocity = state.solid.velocity;
+    if (stage.going_on() != 0)
+      {
+        state.solid.displacement.add(stage.going_on(), state.mean_velocity);
+        state.solid.velocity.add(stage.going_on(), state.stage_begin.acceleration);
+      }
     if (budget.is_on() && stage.is_last)
       budget.add(solid_stepper.amounts(state.solid));
-    if (stage.is_last)
-      return;
-    state.next = still;
-    go_on<dim>(state.next, stage.next_old.length, now);
   }
 
 
@@ -101,27 +85,30 @@ namespace undine
                               stage.length,
                               timing,
                               forces,
-                              state.contact);
+                              state.contact,
+                              begin_of(state, stage));
   }
 
 
   template <int dim>
   void
-  SolidSide<dim>::end(State<dim> &state, const Stage &stage, const SolidReport<dim> &solid) const
+  SolidSide<dim>::end(State<dim> &state, const Stage &stage) const
   {
-    if (!stage.keeps_rates)
+    if (!stage.keeps_rates())
       return;
-    state.contact.place.clear();
-    if (stage.is_last)
+    if (stage.kept == KeptRate::mean)
       {
-        state.next = {};
-        state.increment.clear();
-        state.contact = {};
-        return;
+        const double of_begin = stage.going_on() / stage.duration();
+        const double of_end   = stage.length / stage.duration();
+        state.mean_velocity.sadd(of_begin, of_end, state.solid.velocity);
+        state.solid.acceleration.sadd(of_end, of_begin, state.stage_begin.acceleration);
       }
-    go_on<dim>(state.next, stage.next_new.length, state.solid);
-    if (solid.contact_velocity.size() > 0)
-      state.next.solid.velocity.add(1., solid.contact_velocity);
+    state.stage_begin = {};
+    state.contact.place.clear();
+    if (!stage.is_last)
+      return;
+    state.mean_velocity.clear();
+    state.contact = {};
   }
 
 
@@ -163,6 +150,10 @@ namespace undine
   }
 
 
+  template StageBegin
+  begin_of(const State<2> &, const Stage &);
+  template StageBegin
+  begin_of(const State<3> &, const Stage &);
   template class SolidSide<2>;
   template class SolidSide<3>;
 } // namespace undine

@@ -40,8 +40,9 @@ namespace undine
 
 
   template <int dim>
-  NearBodies<dim>::NearBodies(const CharacteristicTracer<dim> &tracer_, const Field<dim> &source)
+  NearBodies<dim>::NearBodies(const CharacteristicTracer<dim> &tracer_, const Field<dim> &source_)
     : tracer(tracer_)
+    , source(source_)
     , lattice(source.lattice())
     , axis(source.lattice().normal_axis())
   {
@@ -53,13 +54,64 @@ namespace undine
 
   template <int dim>
   double
-  NearBodies<dim>::value_at(const GridIndex<dim>     &index,
-                            const dealii::Point<dim> &place,
-                            const Place              &foot) const
+  NearBodies<dim>::measure_of_point(const GridIndex<dim> &index) const
   {
-    if (const auto seen = samples->along(index, place, foot))
+    const auto &grid = tracer.model().grid();
+    return axis < dim ? grid.face_area(axis, index) : grid.cell_volume(index);
+  }
+
+
+  template <int dim>
+  typename SubLattice<dim>::Part
+  NearBodies<dim>::whole(const GridIndex<dim> &index) const
+  {
+    return {index, lattice.point(index), measure_of_point(index)};
+  }
+
+
+  template <int dim>
+  double
+  NearBodies<dim>::value_at(const typename SubLattice<dim>::Part &part, const Place &foot) const
+  {
+    if (const auto seen = samples->along(part.index, part.place, foot))
       return *seen;
     return axis < dim ? tracer.bodies().obstruction->nearest_velocity(foot.point)[axis] : unknown;
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  NearBodies<dim>::value_before(const typename SubLattice<dim>::Part &part) const
+  {
+    constexpr double rounding = 1e-9;
+    const auto       only_one = [&](const SubLattice<dim> &divided) {
+      return divided.last(part.index) - divided.first(part.index) == 1;
+    };
+    const auto  &now      = tracer.bodies().topology;
+    const auto  *before   = source.divided();
+    const double size     = measure_of_point(part.index);
+    const bool   is_whole = part.measure > size * (1 - rounding);
+    if (!is_whole && !only_one(now->of(lattice)))
+      return {};
+    using Kind = typename SubLattice<dim>::Kind;
+    if (!before || before->kind(part.index) == Kind::whole)
+      return is_whole ? std::nullopt : std::optional<double>(source(part.index));
+    if (before->kind(part.index) == Kind::closed || !only_one(*before))
+      return {};
+    const int    number = before->first(part.index);
+    const double then   = before->all()[number].measure;
+    if (then + part.measure <= size * (1 + rounding) || (is_whole && then > size * (1 - rounding)))
+      return {};
+    return source.parts()[number];
+  }
+
+
+  template <int dim>
+  std::optional<double>
+  NearBodies<dim>::mean_around(const typename SubLattice<dim>::Part &part) const
+  {
+    return samples->mean_around(
+      part.index, tracer.vicinity().place(part.place), measure_of_point(part.index));
   }
 
 
@@ -75,34 +127,8 @@ namespace undine
   }
 
 
-  template <int dim>
-  Field<dim>
-  remapped(const CharacteristicTracer<dim> &tracer,
-           const Field<dim>                &field,
-           const BoundaryCondition<dim>    &condition)
-  {
-    const auto            source = completed(tracer, field, condition);
-    const NearBodies<dim> near(tracer, source);
-    Field<dim>            kept(source.shared_lattice(), tracer.bodies().topology);
-    const auto           *divided = kept.divided();
-    for_each_value(kept, [&](double &value, const auto &place, const GridIndex<dim> &index) {
-      const bool is_part =
-        divided != nullptr && divided->kind(index) != SubLattice<dim>::Kind::whole;
-      const auto here = tracer.vicinity().place(place);
-      value = is_part || tracer.vicinity().is_next_to_body(here) ? near.value_at(index, place, here)
-                                                                 : source(index);
-    });
-    near.finish(kept, condition);
-    return kept;
-  }
-
-
   template class NearBodies<2>;
   template class NearBodies<3>;
-  template Field<2>
-  remapped(const CharacteristicTracer<2> &, const Field<2> &, const BoundaryCondition<2> &);
-  template Field<3>
-  remapped(const CharacteristicTracer<3> &, const Field<3> &, const BoundaryCondition<3> &);
   template Field<2>
   completed(const CharacteristicTracer<2> &, Field<2>, const BoundaryCondition<2> &);
   template std::vector<Field<2>>

@@ -83,6 +83,33 @@ namespace undine
 
 
   template <int dim>
+  std::optional<double>
+  VisibleSamples<dim>::mean_around(const GridIndex<dim> &index,
+                                   const Place          &place,
+                                   const double          whole) const
+  {
+    double sum = 0, total = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const int side : {-1, 1})
+        {
+          auto neighbour = index;
+          neighbour[d] += side;
+          if (!points.stored_points().contains(neighbour) ||
+              !(points.inside(neighbour) == neighbour))
+            continue;
+          points.for_each_sample(neighbour, [&](const auto &sample) {
+            if (vicinity.is_hidden(place, sample.place))
+              return;
+            const double weight = points.is_whole(neighbour) ? whole : sample.measure;
+            sum += weight * values[sample.number];
+            total += weight;
+          });
+        }
+    return total > 0 ? std::optional<double>(sum / total) : std::nullopt;
+  }
+
+
+  template <int dim>
   bool
   VisibleSamples<dim>::is_clear_for_cubics(const dealii::Point<dim> &start,
                                            const Place              &query) const

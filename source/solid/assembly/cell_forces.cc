@@ -20,6 +20,8 @@ namespace undine
     , geometry(model.geometry())
     , dilatation(geometry)
     , displacements(geometry.n_nodes() * dim)
+    , velocities(displacements.size())
+    , viscous_pressures(geometry.n_points())
     , local_forces(displacements.size())
     , volume_gradients(displacements.size())
     , local_tangent(displacements.size())
@@ -52,11 +54,20 @@ namespace undine
   CellForces<dim>::displacement_gradient(const unsigned int point)
   {
     geometry.gradients(gradients, cell, point);
-    dealii::Tensor<2, dim> H;
+    return gradient(displacements);
+  }
+
+
+  /// That of nodal values at the current point.
+  template <int dim>
+  dealii::Tensor<2, dim>
+  CellForces<dim>::gradient(const std::vector<double> &nodal_values) const
+  {
+    Tensor2 result;
     for (unsigned int node = 0; node < gradients.size(); ++node)
       for (unsigned int axis = 0; axis < dim; ++axis)
-        H[axis] += displacements[node * dim + axis] * gradients[node];
-    return H;
+        result[axis] += nodal_values[node * dim + axis] * gradients[node];
+    return result;
   }
 
 
@@ -130,7 +141,7 @@ namespace undine
           moduli += dilatation.pressure(q) * cofactor_derivative(F);
           add_volume_gradient(cofactor(F), q);
         }
-      add_tangent(moduli, geometry.JxW(cell, q));
+      add_tangent(moduli, geometry.JxW(cell, q), Blocks::upper);
     });
     mirror_tangent();
     if (is_separated())
@@ -149,6 +160,136 @@ namespace undine
       sum += body->kinematics->energy(*body->material, H) * geometry.JxW(cell, q);
     });
     return is_separated() ? sum + dilatation.energy() : sum;
+  }
+
+
+  template <int dim>
+  void
+  CellForces<dim>::set_velocity(const dealii::TrilinosWrappers::MPI::Vector &velocity)
+  {
+    velocity.extract_subvector_to(geometry.dofs(cell), velocities);
+  }
+
+
+  /// F, or I for laws of small rotations.
+  template <int dim>
+  dealii::Tensor<2, dim>
+  CellForces<dim>::rotation_and_stretch(const Tensor2 &displacement_gradient) const
+  {
+    return deformation::F(body->material->is_objective() ? displacement_gradient : Tensor2());
+  }
+
+
+  template <int dim>
+  void
+  CellForces<dim>::prepare_viscosity()
+  {
+    if (viscous_body != body)
+      rest_moduli = body->kinematics->respond(*body->material, Tensor2()).tangent;
+    viscous_body = body;
+    if (!is_separated())
+      {
+        std::fill(viscous_pressures.begin(), viscous_pressures.end(), 0.);
+        return;
+      }
+    at_all_points([&](const unsigned int q, const Tensor2 &H) {
+      viscous_pressures[q] = body->material->volumetric_tangent(1) *
+                             scalar_product(rotation_and_stretch(H), gradient(velocities));
+    });
+    dilatation.set_cell(cell);
+    viscous_pressures = dilatation.project(viscous_pressures);
+  }
+
+
+  /// S_v = A(I) : sym(F^T G) + U''(1) m I; A(I) sees only the symmetric part.
+  template <int dim>
+  dealii::Tensor<2, dim>
+  CellForces<dim>::viscous_stress(const unsigned int point, const Tensor2 &F) const
+  {
+    const Tensor2 rate = transpose(F) * gradient(velocities);
+    Tensor2       result;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        for (unsigned int j = 0; j < dim; ++j)
+          result[i][j] = scalar_product(rest_moduli[i][j], rate);
+        result[i][i] += viscous_pressures[point];
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  const std::vector<double> &
+  CellForces<dim>::viscous_forces()
+  {
+    prepare_viscosity();
+    std::fill(local_forces.begin(), local_forces.end(), 0.);
+    at_all_points([&](const unsigned int q, const Tensor2 &H) {
+      const Tensor2 F = rotation_and_stretch(H);
+      add_forces(F * viscous_stress(q, F), geometry.JxW(cell, q));
+    });
+    return local_forces;
+  }
+
+
+  /// With N = a G + b F, a and b being the factors, the change of displacements and velocities
+  /// changes P_v / eta by A_ijkl = a delta_ik S_lj + F_im A(I)_mjlq N_kq, and F : G by N : grad N.
+  template <int dim>
+  const dealii::FullMatrix<double> &
+  CellForces<dim>::viscous_tangent(const double displacement_factor, const double velocity_factor)
+  {
+    prepare_viscosity();
+    local_tangent  = 0;
+    const double a = body->material->is_objective() ? displacement_factor : 0.;
+
+    dealii::FullMatrix<double> of_volume(geometry.n_points(), local_forces.size());
+    dealii::FullMatrix<double> of_rates = of_volume;
+    at_all_points([&](const unsigned int q, const Tensor2 &H) {
+      const Tensor2 F = rotation_and_stretch(H);
+      const Tensor2 S = viscous_stress(q, F);
+      const Tensor2 N = a * gradient(velocities) + velocity_factor * F;
+      Tensor4       moduli;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          {
+            moduli[i][j][i] += a * S[j];
+            Tensor2 row; // F_im A(I)_mj
+            for (unsigned int m = 0; m < dim; ++m)
+              row += F[i][m] * rest_moduli[m][j];
+            moduli[i][j] += N * transpose(row);
+          }
+      add_tangent(moduli, geometry.JxW(cell, q), Blocks::all);
+      for (unsigned int dof = 0; dof < local_forces.size(); ++dof)
+        {
+          of_volume(q, dof) = F[dof % dim] * gradients[dof / dim] * geometry.JxW(cell, q);
+          of_rates(q, dof)  = N[dof % dim] * gradients[dof / dim];
+        }
+    });
+    if (is_separated())
+      add_volumetric_viscosity(of_volume, of_rates);
+    return local_tangent;
+  }
+
+
+  /// The part of the tangent by U''(1) m. [point][node * dim + axis]: F : grad N times the point's
+  /// weight, and N : grad N.
+  template <int dim>
+  void
+  CellForces<dim>::add_volumetric_viscosity(const dealii::FullMatrix<double> &volume_gradients,
+                                            const dealii::FullMatrix<double> &volume_rates)
+  {
+    const unsigned int         n_points = geometry.n_points();
+    dealii::FullMatrix<double> pressures(n_points, local_forces.size());
+    std::vector<double>        of_dof(n_points);
+    for (unsigned int dof = 0; dof < local_forces.size(); ++dof)
+      {
+        for (unsigned int q = 0; q < n_points; ++q)
+          of_dof[q] = body->material->volumetric_tangent(1) * volume_rates(q, dof);
+        of_dof = dilatation.project(of_dof);
+        for (unsigned int q = 0; q < n_points; ++q)
+          pressures(q, dof) = of_dof[q];
+      }
+    volume_gradients.Tmmult(local_tangent, pressures, true);
   }
 
 
@@ -173,10 +314,10 @@ namespace undine
   }
 
 
-  /// K_(i a)(j b) += grad_k N_i A_akbl grad_l N_j, for j >= i: the tangent is symmetric.
+  /// K_(i a)(j b) += grad_k N_i A_akbl grad_l N_j.
   template <int dim>
   void
-  CellForces<dim>::add_tangent(const Tensor4 &moduli, const double JxW)
+  CellForces<dim>::add_tangent(const Tensor4 &moduli, const double JxW, const Blocks blocks)
   {
     dealii::Tensor<3, dim> of_row;
     for (unsigned int i = 0; i < gradients.size(); ++i)
@@ -190,7 +331,7 @@ namespace undine
                   sum += gradients[i][k] * moduli[a][k][b][l];
                 of_row[a][b][l] = sum * JxW;
               }
-        for (unsigned int j = i; j < gradients.size(); ++j)
+        for (unsigned int j = blocks == Blocks::upper ? i : 0; j < gradients.size(); ++j)
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int b = 0; b < dim; ++b)
               local_tangent(i * dim + a, j * dim + b) += of_row[a][b] * gradients[j];

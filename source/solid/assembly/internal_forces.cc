@@ -65,6 +65,41 @@ namespace undine
 
 
   template <int dim>
+  Vector
+  viscous_forces(const SolidModel<dim> &model, const Vector &displacement, const Vector &velocity)
+  {
+    const Vector ghosted = model.ghosted(velocity);
+    Vector       result  = model.vector();
+    for_all_cells(model, displacement, [&](const unsigned int cell, CellForces<dim> &forces) {
+      forces.set_velocity(ghosted);
+      result.add(model.geometry().dofs(cell), forces.viscous_forces());
+    });
+    result.compress(dealii::VectorOperation::add);
+    return result;
+  }
+
+
+  template <int dim>
+  Matrix
+  viscous_stiffness(const SolidModel<dim> &model,
+                    const Vector          &displacement,
+                    const Vector          &velocity,
+                    const double           displacement_factor,
+                    const double           velocity_factor)
+  {
+    const Vector ghosted = model.ghosted(velocity);
+    Matrix       result  = model.matrix();
+    for_all_cells(model, displacement, [&](const unsigned int cell, CellForces<dim> &forces) {
+      forces.set_velocity(ghosted);
+      result.add(model.geometry().dofs(cell),
+                 forces.viscous_tangent(displacement_factor, velocity_factor));
+    });
+    result.compress(dealii::VectorOperation::add);
+    return result;
+  }
+
+
+  template <int dim>
   double
   elastic_energy(const SolidModel<dim> &model, const Vector &displacement)
   {
@@ -103,10 +138,13 @@ namespace undine
   }
 
 
-#define UNDINE_INSTANTIATE(dim)                                                \
-  template Vector internal_forces(const SolidModel<dim> &, const Vector &);    \
-  template Matrix internal_stiffness(const SolidModel<dim> &, const Vector &); \
-  template double elastic_energy(const SolidModel<dim> &, const Vector &);     \
+#define UNDINE_INSTANTIATE(dim)                                                            \
+  template Vector internal_forces(const SolidModel<dim> &, const Vector &);                \
+  template Matrix internal_stiffness(const SolidModel<dim> &, const Vector &);             \
+  template Vector viscous_forces(const SolidModel<dim> &, const Vector &, const Vector &); \
+  template Matrix viscous_stiffness(                                                       \
+    const SolidModel<dim> &, const Vector &, const Vector &, const double, const double);  \
+  template double elastic_energy(const SolidModel<dim> &, const Vector &);                 \
   template double rounding_of_forces(const SolidModel<dim> &, const double);
 
   UNDINE_INSTANTIATE(2)

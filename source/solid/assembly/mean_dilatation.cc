@@ -26,14 +26,11 @@ namespace undine
 
   template <int dim>
   void
-  MeanDilatation<dim>::reinit(const unsigned int         new_cell,
-                              const Material            &new_material,
-                              const std::vector<double> &jacobians)
+  MeanDilatation<dim>::set_cell(const unsigned int new_cell)
   {
-    cell     = new_cell;
-    material = &new_material;
-    centre   = geometry.centre(cell);
-    width    = geometry.width(cell);
+    cell   = new_cell;
+    centre = geometry.centre(cell);
+    width  = geometry.width(cell);
 
     inverse_mass = 0;
     for (unsigned int q = 0; q < geometry.n_points(); ++q)
@@ -41,7 +38,17 @@ namespace undine
         for (unsigned int j = 0; j < n_functions; ++j)
           inverse_mass(i, j) += basis(i, q) * basis(j, q) * geometry.JxW(cell, q);
     inverse_mass.gauss_jordan();
+  }
 
+
+  template <int dim>
+  void
+  MeanDilatation<dim>::reinit(const unsigned int         new_cell,
+                              const Material            &new_material,
+                              const std::vector<double> &jacobians)
+  {
+    set_cell(new_cell);
+    material    = &new_material;
     dilatations = project(jacobians);
     std::vector<double> volumetric_stresses;
     for (const double dilatation : dilatations)

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/solid/assembly/loads.h>
 #include <undine/solid/solvers/tangent_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
@@ -13,7 +12,6 @@ namespace undine
   TangentSolver<dim>::TangentSolver(const SolidModel<dim> &model)
     : model(model)
     , direct(solves_directly(model))
-    , symmetric(!has_pressure_loads(model))
   {
   }
 
@@ -66,7 +64,7 @@ namespace undine
     try
       {
         using GMRES = dealii::SolverGMRES<Vector>;
-        if (symmetric)
+        if (symmetry == Symmetry::symmetric)
           dealii::SolverCG<Vector>(control).solve(A, x, b, multigrid->hierarchy);
         else
           GMRES(control, typename GMRES::AdditionalData(100, true)) // preconditioned from the right
@@ -89,8 +87,9 @@ namespace undine
 
   template <int dim>
   void
-  TangentSolver<dim>::begin_stage()
+  TangentSolver<dim>::begin_stage(const Symmetry new_symmetry)
   {
+    symmetry = new_symmetry;
     multigrid.reset();
     gave_up        = false;
     all_iterations = 0;

@@ -22,7 +22,8 @@ namespace undine
                                       const double                 dt,
                                       TimingTree                  &timing,
                                       const Vector                &nodal_forces,
-                                      const ContactStart          &contact_start)
+                                      const ContactStart          &contact_start,
+                                      const StageBegin            &begin)
     : model(model)
     , mass(mass)
     , old_state(old_state)
@@ -33,7 +34,7 @@ namespace undine
     , nodal_forces(nodal_forces)
     , coefficients(model.numerics().integrator->coefficients(dt))
     , motion(model, old_state, coefficients, time, dt)
-    , rayleigh_damping(model, mass, environment, timing)
+    , rayleigh_damping(mass, environment, motion, begin, timing)
     , contact(environment.contact.get(), contact_start, model, old_state, time, dt, timing)
     , has_pressure(has_pressure_loads(model))
     , own_rounding(rounding_of_forces(
@@ -43,7 +44,6 @@ namespace undine
   {
     const auto timed = timing.section("assemble forces");
     timing.memory.hold("deformable bodies", mass.memory_consumption());
-    rayleigh_damping.assemble(motion);
     find_known_forces();
   }
 
@@ -95,8 +95,6 @@ namespace undine
   {
     if (coefficients.mass != 0)
       own_rounding += std::numeric_limits<double>::epsilon() * inertia(model.vector()).l2_norm();
-    if (coefficients.damping_old_velocity != 0)
-      rayleigh_damping.add_forces(known, old_state.velocity, coefficients.damping_old_velocity);
     for (const auto &level : coefficients.levels)
       {
         const Vector loads = dead_loads(model, environment, time + level.position * dt, &timing);
@@ -143,8 +141,7 @@ namespace undine
         note_size(change, 1);
         result.add(1., change);
       }
-    if (coefficients.damping != 0)
-      rayleigh_damping.add_forces(result, velocity, coefficients.damping);
+    rayleigh_damping.add_forces(result, velocity);
     const Vector end = displacement(velocity);
     for (const auto &level : coefficients.levels)
       if (level.position > 0)
@@ -174,7 +171,7 @@ namespace undine
   SolidEquations<dim>::jacobian(const Vector &velocity) const
   {
     const Vector end    = displacement(velocity);
-    Matrix       result = full_jacobian(end, end);
+    Matrix       result = full_jacobian(velocity, end, end);
     fix_rows_and_columns(result, model.all_fixed());
     return result;
   }
@@ -186,8 +183,8 @@ namespace undine
   {
     Vector jump = motion.prescribed_increment();
     jump *= -1 / coefficients.displacement;
-    LinearSystem system{full_jacobian(old_state.displacement, contact.last_place()),
-                        model.vector()};
+    LinearSystem system{
+      full_jacobian(guess_at_rest(), old_state.displacement, contact.last_place()), model.vector()};
     system.matrix.vmult(system.right_side, jump);
     clear_fixed(system.right_side, model);
     fix_rows_and_columns(system.matrix, model.all_fixed());
@@ -197,7 +194,9 @@ namespace undine
 
   template <int dim>
   typename SolidEquations<dim>::Matrix
-  SolidEquations<dim>::full_jacobian(const Vector &end, const Vector &in_contact) const
+  SolidEquations<dim>::full_jacobian(const Vector &velocity,
+                                     const Vector &end,
+                                     const Vector &in_contact) const
   {
     const auto timed  = timing.section("assemble tangent");
     Matrix     result = model.matrix();
@@ -210,10 +209,9 @@ namespace undine
           if (has_pressure)
             result.add(-factor, pressure_stiffness(model, d, time + level.position * dt));
         }
-    const double mass_factor = coefficients.mass + coefficients.damping * environment.mass_damping;
-    if (mass_factor != 0)
-      result.add(mass_factor, mass);
-    rayleigh_damping.add_stiffness(result, coefficients.damping);
+    if (coefficients.mass != 0)
+      result.add(coefficients.mass, mass);
+    rayleigh_damping.add_jacobian(result, velocity, end);
     contact.add_stiffness(result, coefficients.displacement, in_contact);
     timing.memory.hold_briefly("deformable bodies", result.memory_consumption());
     return result;
@@ -260,14 +258,7 @@ namespace undine
   SolidEquations<dim>::momentum_residuals(const Vector &velocity, const Vector &reactions) const
   {
     Vector defect = inertia(velocity);
-    if (environment.mass_damping > 0)
-      {
-        Vector drag = model.vector(), product = model.vector();
-        drag.add(coefficients.damping, velocity);
-        drag.add(coefficients.damping_old_velocity, old_state.velocity);
-        mass.vmult(product, drag);
-        defect.add(environment.mass_damping, product);
-      }
+    rayleigh_damping.add_drag(defect, velocity);
     defect.add(-1., dead);
     defect.add(-1., weighted(reactions));
     if (has_pressure)
@@ -298,8 +289,7 @@ namespace undine
 
     SolidBalance<dim> result;
     Vector            damping = model.vector();
-    rayleigh_damping.add_forces(damping, velocity, coefficients.damping);
-    rayleigh_damping.add_forces(damping, old_state.velocity, coefficients.damping_old_velocity);
+    rayleigh_damping.add_forces(damping, velocity);
     for (const auto &level : coefficients.levels)
       for (const auto &[effect, force] :
            effect_loads(model, environment, time + level.position * dt))
@@ -327,7 +317,9 @@ namespace undine
     balance_elasticity(result, motion, end, displacement_increment, own_rounding);
     contact.balance(result, end, displacement_increment);
 
-    result.damping       = damping * displacement_increment / weight;
+    // What it takes is its own; that its path may differ from the bodies' is the integrator's.
+    result.damping = dt * rayleigh_damping.power(velocity);
+    result.inertia_loss += damping * displacement_increment / weight - result.damping;
     result.loads         = loads * displacement_increment / weight;
     result.damping_force = -resultant(model, damping) / weight;
     result.loads_force   = resultant(model, loads) / weight;
@@ -343,11 +335,22 @@ namespace undine
 
   template <int dim>
   typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::contact_velocity(const Vector &velocity) const
+  SolidEquations<dim>::contact_forces(const Vector &velocity) const
   {
     if (!contact.is_told_apart())
       return {};
     Vector result = contact.forces(displacement(velocity));
+    if (result.size() > 0)
+      clear_fixed(result, model);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::contact_velocity(const Vector &velocity) const
+  {
+    Vector result = contact_forces(velocity);
     if (result.size() > 0)
       {
         result = solve_mass(model, mass, result, model.vector());
@@ -359,7 +362,7 @@ namespace undine
 
   template <int dim>
   SolidState
-  SolidEquations<dim>::end_state(const Vector &velocity, const Vector &contact_velocity) const
+  SolidEquations<dim>::end_state(const Vector &velocity, const Vector &by_contact) const
   {
     SolidState state;
     state.displacement = displacement(velocity);
@@ -367,8 +370,8 @@ namespace undine
     state.acceleration = model.vector();
     state.acceleration.add(
       coefficients.acceleration, velocity, coefficients.acceleration_velocity, old_state.velocity);
-    if (contact_velocity.size() > 0)
-      state.acceleration.add(-coefficients.acceleration, contact_velocity);
+    if (by_contact.size() > 0)
+      state.acceleration.add(-coefficients.acceleration, by_contact);
     const auto &integrator = *model.numerics().integrator;
     if (integrator.uses_acceleration())
       {

@@ -36,7 +36,7 @@ namespace undine
         , tolerance(tolerance)
         , timing(timing)
       {
-        solver.begin_stage();
+        solver.begin_stage(equations.symmetry());
       }
 
       double
@@ -169,11 +169,6 @@ namespace undine
     result.add(-1., internal_forces(model, state.displacement));
     mass_matrix.vmult(product, state.velocity);
     result.add(-environment.mass_damping, product);
-    if (environment.stiffness_damping > 0)
-      {
-        internal_stiffness(model, state.displacement).vmult(product, state.velocity);
-        result.add(-environment.stiffness_damping, product);
-      }
     return result;
   }
 
@@ -246,11 +241,12 @@ namespace undine
                           const double                 dt,
                           TimingTree                  &timing,
                           const Vector                &nodal_forces,
-                          const ContactStart          &contact)
+                          const ContactStart          &contact,
+                          const StageBegin            &begin)
   {
     const auto          timed = timing.section("solid");
     SolidEquations<dim> equations(
-      model, mass_matrix, state, environment, time, dt, timing, nodal_forces, contact);
+      model, mass_matrix, state, environment, time, dt, timing, nodal_forces, contact, begin);
     StepProblem<dim> problem(equations, solver, model.numerics().newton.relative_tolerance, timing);
     auto             velocity = model.vector();
 
@@ -269,8 +265,7 @@ namespace undine
     report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
     if (keeps_balance)
       report.balance = equations.balance(velocity, report.reactions);
-    report.contact_velocity = equations.contact_velocity(velocity);
-    state                   = equations.end_state(velocity, report.contact_velocity);
+    state = equations.end_state(velocity, equations.contact_velocity(velocity));
     return report;
   }
 

@@ -57,9 +57,7 @@ namespace undine_tests
     void
     step(const double dt)
     {
-      FluidStageStart<dim> unused;
-      FluidStage<dim>      fluid(
-        model, state, unused, environment.gravity, time, single_stage(dt), timing);
+      FluidStage<dim> fluid(model, state, environment.gravity, time, single_stage(dt), timing);
       for (const auto &effect : effects)
         effect->transport(fluid);
       for (const auto &effect : effects)

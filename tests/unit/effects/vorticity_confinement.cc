@@ -23,9 +23,8 @@ namespace
     const auto            effects = make_effects<dim>(options);
     auto                  state   = model.initial_state();
     const auto            before  = state.velocity;
-    FluidStageStart<dim>  unused;
     TimingTree            timing;
-    FluidStage<dim>       step(model, state, unused, {}, 0, single_stage(1.), timing);
+    FluidStage<dim>       step(model, state, {}, 0, single_stage(1.), timing);
     effects[0]->accelerate(step);
     auto result = state.velocity;
     add(result, -1., before);

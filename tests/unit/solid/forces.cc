@@ -109,6 +109,34 @@ namespace
   }
 
 
+  /// Viscous forces: the tangent by differences; K' at rest; no negative work, however a body is
+  /// deformed.
+  template <int dim>
+  void
+  check_viscosity(const std::string &material, const unsigned int degree, const std::string &keys)
+  {
+    INFO(material << ", degree " << degree << ", " << dim << "D " << keys);
+    const Solid<dim> solid(block<dim>(material, degree, keys));
+    const auto      &model = solid.model;
+    const auto       d     = random_field(model, 0.03 / degree, 1);
+    const auto       u     = random_field(model, 1, 2);
+    const auto       a     = random_field(model, 1, 3);
+    const double     of_d = 0.7, of_u = 0.4;
+    CHECK(tangent_error(
+            viscous_stiffness(model, d, u, of_d, of_u), model.vector(), a, [&](const Vector &x) {
+              return viscous_forces(model, sum(d, of_d, x), sum(u, of_u, x));
+            }) < 1e-7);
+
+    const auto zero    = model.vector();
+    const auto at_rest = product(internal_stiffness(model, zero), u);
+    CHECK(sum(viscous_forces(model, zero, u), -1, at_rest).l2_norm() <= 1e-12 * at_rest.l2_norm());
+
+    const auto crumpled = random_field(model, 0.3, 4);
+    for (const auto *velocity : {&u, &a})
+      CHECK(viscous_forces(model, crumpled, *velocity) * *velocity > 0);
+  }
+
+
   /// x -> R x - x for a rotation that is not small.
   template <int dim>
   Vector
@@ -154,6 +182,51 @@ TEST_CASE("a rigid rotation leaves bodies without force", "[solid][mpi]")
           const Solid<3> space(block<3>(material, degree));
           CHECK(internal_forces(space.model, rotated(space.model)).linfty_norm() < 1e-12);
         }
+}
+
+
+TEST_CASE("viscous forces: tangent by differences, stiffness at rest, no work is put in",
+          "[solid][mpi]")
+{
+  for (const auto &material : Registry<Material>::instance().names())
+    for (const unsigned int degree : {1, 2})
+      {
+        check_viscosity<2>(material, degree, "set Plane state = plane strain");
+        check_viscosity<2>(material, degree, "set Plane state = plane stress");
+        check_viscosity<3>(material, degree, "");
+      }
+}
+
+
+TEST_CASE("viscosity spares a body that is strained and rotates", "[solid][mpi]")
+{
+  for (const std::string material : {"neo-Hookean", "nearly incompressible rubber"})
+    {
+      const Solid<3> solid(block<3>(material, 1));
+      const auto     d        = random_field(solid.model, 0.03, 1);
+      auto           rotation = solid.model.vector();
+      const auto     ghosted  = solid.model.ghosted(d);
+      // The velocity of every node is across its present place.
+      const auto &geometry = solid.model.geometry();
+      for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
+        {
+          const auto dofs = geometry.dofs(cell);
+          for (unsigned int node = 0; node < geometry.n_nodes(); ++node)
+            {
+              const auto   first = dofs[node * 3], second = dofs[node * 3 + 1];
+              const double x = solid.model.rest_position(first)[0] + ghosted(first);
+              const double y = solid.model.rest_position(second)[1] + ghosted(second);
+              if (solid.model.locally_owned().is_element(first))
+                rotation(first) = -y;
+              if (solid.model.locally_owned().is_element(second))
+                rotation(second) = x;
+            }
+        }
+      rotation.compress(dealii::VectorOperation::insert);
+      const auto other = random_field(solid.model, 1, 2);
+      CHECK(viscous_forces(solid.model, d, rotation).l2_norm() <
+            1e-12 * viscous_forces(solid.model, d, other).l2_norm());
+    }
 }
 
 

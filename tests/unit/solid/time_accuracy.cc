@@ -12,9 +12,9 @@ using namespace undine_tests;
 
 namespace
 {
-  using Complex  = std::complex<double>;
-  using Values   = std::array<double, 3>; // d, u, a
-  using Columns3 = std::array<Values, 3>;
+  using Complex = std::complex<double>;
+  using Values  = std::array<double, 4>; // d, u, a and the mean velocity
+  using Columns = std::array<Values, 4>;
 
   /// An oscillator of unit mass and stiffness after a stage.
   Values
@@ -33,56 +33,55 @@ namespace
     return {{old[0] + known + step.displacement * u,
              u,
              step.acceleration * u + step.acceleration_velocity * old[1] +
-               step.acceleration_acceleration * old[2]}};
+               step.acceleration_acceleration * old[2],
+             u}};
   }
 
 
   Values
-  gone_on(const Values &start, const double length, const Values &rates)
+  end_of_stage(const TimeIntegrator &integrator, const Stage &stage, const Values &begin)
   {
-    return {{start[0] + length * rates[1], start[1] + length * rates[2], start[2]}};
+    auto start = begin;
+    start[0] += stage.going_on() * begin[3];
+    start[1] += stage.going_on() * begin[2];
+    auto result = end_of_stage(integrator.coefficients(stage.length), start);
+    if (stage.kept == KeptRate::mean)
+      for (const unsigned int rate : {2, 3})
+        result[rate] =
+          (stage.length * result[rate] + stage.going_on() * begin[rate]) / stage.duration();
+    return result;
   }
 
 
   /// After a step from each of the unit states.
-  Columns3
+  Columns
   amplification(const TimeIntegrator &integrator, const double h)
   {
-    Columns3 result;
-    for (unsigned int column = 0; column < 3; ++column)
+    Columns result{};
+    for (unsigned int column = 0; column < result.size(); ++column)
       {
-        Values old{};
-        old[column] = 1;
-        Values now = old, next = old;
+        result[column][column] = 1;
         for (const auto &stage : integrator.stages(h, RatesAtBegin::known))
-          {
-            const auto start =
-              stage.is_first ? gone_on(now, stage.keeps_rates ? stage.rate() : 0, now) : next;
-            next = gone_on(now, stage.next_old.length, now);
-            now  = end_of_stage(integrator.coefficients(stage.length), start);
-            next = gone_on(next, stage.next_new.length, now);
-          }
-        result[column] = now;
+          result[column] = end_of_stage(integrator, stage, result[column]);
       }
     return result;
   }
 
 
   Complex
-  characteristic(const Columns3 &A, const Complex &z)
+  characteristic(const Columns &A, const Complex &z)
   {
-    const auto entry = [&](const int i, const int j) { return A[j][i] - (i == j ? z : 0.); };
-    Complex    sum   = 0;
-    for (int j = 0; j < 3; ++j)
-      sum += entry(0, j) * (entry(1, (j + 1) % 3) * entry(2, (j + 2) % 3) -
-                            entry(1, (j + 2) % 3) * entry(2, (j + 1) % 3));
-    return sum;
+    dealii::Tensor<2, 4, Complex> matrix;
+    for (unsigned int i = 0; i < 4; ++i)
+      for (unsigned int j = 0; j < 4; ++j)
+        matrix[i][j] = A[j][i] - (i == j ? z : 0.);
+    return determinant(matrix);
   }
 
 
   /// The eigenvalue next to exp(i h), by the secant method.
   Complex
-  eigenvalue(const Columns3 &A, const double h)
+  eigenvalue(const Columns &A, const double h)
   {
     Complex z0 = std::exp(Complex(0, h)), z1 = z0 * (1. + h * h * h);
     Complex f0 = characteristic(A, z0);

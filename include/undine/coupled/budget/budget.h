@@ -110,6 +110,11 @@ namespace undine
     add(const SolidBalance<dim> &solid, double dt);
     /// @}
 
+    /// Forget what has been added since `earlier` was copied from this: a part of the step is
+    /// solved again.
+    void
+    go_back_to(const Budget &earlier);
+
     /// Energy and momentum taken from bodies that fell asleep.
     void
     add_rest(const SolidAmounts<dim> &rest);

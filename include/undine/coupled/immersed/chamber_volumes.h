@@ -17,12 +17,12 @@ namespace undine
   ///
   ///     ( S_c + sum_j w_j q_c(t_j) ) / g - (B u)_c    [m^dim/s],                             (C3)
   ///
-  /// spread over the bodies' surface there. S: what the chamber gains from t^n to the end of the
-  /// stage, the difference of its volumes: that where the grid is cut for the stage and that at t^n
-  /// are exact, and from the former to the end is a displacement increment of second order in h,
-  /// whose volume the fragments of facets sweep; q: what leaves through sides with a given
-  /// velocity, at the earlier times t_j of which the stage is made, which count for w_j; g: length
-  /// of the stage.
+  /// spread over the bodies' surface there. S: what the chamber gains from the begin to the end t^e
+  /// of the stage, the difference of its volumes: that where the grid is cut for the stage and that
+  /// at the begin are exact, and from the former to the end is a displacement increment of second
+  /// order in h, whose volume the fragments of facets sweep; q: what leaves through sides with a
+  /// given velocity, at the earlier times t_j of whose rates w r is made, w_j being the time for
+  /// which each counts; g: length of the stage.
   template <int dim>
   class ChamberVolumes
   {
@@ -30,7 +30,7 @@ namespace undine
     using Positions = typename FluidGeometry<dim>::Positions;
     using Vectors   = typename FluidGeometry<dim>::Velocities;
 
-    /// For a stage of the step from `time` = t^n, at which the nodes of all surfaces were at
+    /// For a stage of the step from `time` = t^n, at whose begin the nodes of all surfaces were at
     /// `before`. The references must outlive it. Collective.
     ChamberVolumes(const Models<dim>          &models,
                    const FluidGeometry<dim>   &geometry,
@@ -47,12 +47,13 @@ namespace undine
     }
 
     /// (C3) in every component, [FluidTopology::cells] [m^dim/s], for surfaces whose displacement
-    /// increment since t^n is `increment` [m], given `fluxes` B u of all components. Collective.
+    /// increment in the stage is `increment` [m], given `fluxes` B u of all components. Collective.
     std::vector<double>
     missing_fluxes(const std::vector<double> &fluxes, const Vectors &increment) const;
 
   private:
-    /// S from t^n to where the grid is cut. Cuts it where the surfaces were at t^n, too.
+    /// S from the begin of the stage to where the grid is cut. Cuts it where the surfaces were
+    /// then, too.
     std::vector<double>
     gained_until_cut(const Models<dim> &models) const;
 

@@ -85,7 +85,7 @@ namespace undine
   };
 
 
-  /// Positions of the nodes at t^n and their displacement increments since, for a stage.
+  /// Positions of the nodes at the begin of a stage and their displacement increments in it.
   template <int dim>
   struct BodiesInStage
   {
@@ -100,7 +100,7 @@ namespace undine
     const double time; ///< t^n [s]
 
     /// Of all nodes, if the stage keeps rates. @{
-    typename FluidGeometry<dim>::Positions before; ///< where they were at t^n [m]
+    typename FluidGeometry<dim>::Positions before; ///< where they were at its begin [m]
     typename FluidGeometry<dim>::Velocities
       increment; ///< of bodies to the start of the stage, of obstacles to its end [m]
     /// @}

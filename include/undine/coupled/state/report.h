@@ -18,6 +18,7 @@ namespace undine
     unsigned int linear_iterations = 0; ///< of all linear solves of the step
     unsigned int cuts              = 0; ///< how often the asked step was cut and redone
     unsigned int rejections        = 0; ///< those of the cuts that the error in time asked for
+    unsigned int stages_again = 0; ///< stages solved again, bodies being elsewhere than expected
     double       newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
     std::string  note;                 ///< what the user may want to know; empty if nothing
 

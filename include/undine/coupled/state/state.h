@@ -28,18 +28,10 @@ namespace undine
 
     particles::ParticleState<dim> particles;
 
-    /// The bodies from which a stage of a step starts (Stage).
-    struct StageStart
-    {
-      SolidState                            solid;
-      dealii::TrilinosWrappers::MPI::Vector increment; ///< of the bodies since t^n [m]
-    };
-
-    /// Only within a step. @{
-    StageStart                            next;       ///< of the stage that follows
-    FluidStageStart<dim>                  next_fluid; ///< the same for the fluid
-    dealii::TrilinosWrappers::MPI::Vector increment;  ///< of the bodies, t^n to this start [m]
-    ContactStart                          contact;    ///< of the bodies in this stage
+    /// Only within a step of stages that keep rates (Stage). @{
+    SolidState                            stage_begin;   ///< the bodies at the begin of the stage
+    dealii::TrilinosWrappers::MPI::Vector mean_velocity; ///< r of displacements [m/s]; empty: u
+    ContactStart                          contact;       ///< of the bodies in the stage
     /// @}
 
     /// Positions of the nodes of ImmersedSurface when the fluid's fields were computed [m].

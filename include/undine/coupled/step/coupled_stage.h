@@ -10,6 +10,7 @@
 #include <undine/solid/step/solid_stepper.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace undine
@@ -30,7 +31,8 @@ namespace undine
       const SolidEnvironment<dim>            &environment;
       const FluidGeometry<dim>               &geometry;
       BlockSolver<dim>                       &solver;
-      TangentSolver<dim>                     &motion_solver; ///< for bodies alone
+      TangentSolver<dim>                     &motion_solver;  ///< for bodies alone
+      BlockSolver<dim>                       &impulse_solver; ///< for what contact does
       TimingTree                             &timing;
     };
 
@@ -45,6 +47,14 @@ namespace undine
     /// The state becomes that of t^{n+1}. Collective. Throws SolveError.
     SolidReport<dim>
     solve();
+
+    /// What forces of contact have contributed to the fluid's velocity, after solve() [m/s]; empty:
+    /// nothing touches, or later stages need not know.
+    const std::optional<Velocity<dim>> &
+    velocity_by_contact() const
+    {
+      return fluid_by_contact;
+    }
 
     /// max |D v + B u| per face of a cell and speed after solve() [1].
     double
@@ -65,6 +75,8 @@ namespace undine
     void
     end(SolidReport<dim> &report);
     Vector
+    respond_to_contact();
+    Vector
     loads_besides_pressure();
 
     const Parts                             parts;
@@ -81,6 +93,7 @@ namespace undine
     CoupledEquations<dim>                   problem;
     BlockSystem::BlockVector                x;         ///< u^{n+1}, p
     Velocity<dim>                           predicted; ///< v*
+    std::optional<Velocity<dim>>            fluid_by_contact;
     double                                  divergence_left = 0;
   };
 } // namespace undine

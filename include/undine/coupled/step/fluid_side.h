@@ -37,6 +37,16 @@ namespace undine
     std::unique_ptr<FluidStage<dim>>
     predict(State<dim> &state, const Stage &stage);
 
+    /// The next predict() cuts the grid where surfaces have nodes at `places` [m], instead of where
+    /// it expects them.
+    void
+    expect(typename FluidGeometry<dim>::Positions places);
+
+    /// The largest distance, in cells, between where the grid was cut in this stage and where the
+    /// surfaces, whose nodes are at `places` [m], have come to [1].
+    double
+    misplacement(const typename FluidGeometry<dim>::Positions &places) const;
+
     /// The end of the stage that predict() began, after the velocity has been made divergence-free
     /// up to `divergence` [1]; adds to the report. Collective.
     void
@@ -67,8 +77,8 @@ namespace undine
     run_phase(FluidStage<dim> &fluid, typename Budget<dim>::Phase phase, const Action &act);
     void
     count_memory(const FluidState<dim> &state);
-    typename FluidGeometry<dim>::Positions
-    expected_places(const State<dim> &state, const Stage &stage, double time) const;
+    SolidState
+    expected_bodies(const State<dim> &state, const Stage &stage, double time) const;
     void
     place_surfaces(const State<dim> &state, const Stage &stage);
     void
@@ -80,13 +90,14 @@ namespace undine
     void
     add_columns(Report &report, const FluidState<dim> &state, double divergence, double time) const;
 
-    const Models<dim>                  &models;
-    const FluidModel<dim>              &model;
-    Budget<dim>                        &budget;
-    TimingTree                         &timing;
-    const SolidEnvironment<dim>         environment;
-    std::unique_ptr<FluidGeometry<dim>> cut;
-    SurfaceFriction<dim>                surface_friction;
+    const Models<dim>                     &models;
+    const FluidModel<dim>                 &model;
+    Budget<dim>                           &budget;
+    TimingTree                            &timing;
+    const SolidEnvironment<dim>            environment;
+    std::unique_ptr<FluidGeometry<dim>>    cut;
+    SurfaceFriction<dim>                   surface_friction;
+    typename FluidGeometry<dim>::Positions expected; ///< of the next predict(); empty: to be found
   };
 } // namespace undine
 

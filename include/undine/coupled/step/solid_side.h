@@ -10,6 +10,11 @@
 
 namespace undine
 {
+  /// Where the bodies were at the begin of the stage; empty if it keeps no rates.
+  template <int dim>
+  StageBegin
+  begin_of(const State<dim> &state, const Stage &stage);
+
   /// The part of a stage that the bodies go through in every scheme: all but the loads of the fluid
   /// on them. The counterpart of FluidSide.
   template <int dim>
@@ -26,8 +31,8 @@ namespace undine
     void
     initialize(State<dim> &state, double dt) const;
 
-    /// The bodies of `state` become those from which the stage of the step from t^n starts; what
-    /// the stage that follows needs of them is stored in `state`, and the budget, if it is on, gets
+    /// The bodies of `state` become those from which the stage of the step from t^n starts, their
+    /// values at its begin gone on with the rates that were kept; the budget, if it is on, gets
     /// their energy and momentum. Does nothing if the stage keeps no rates. Collective.
     void
     start(State<dim> &state, const Stage &stage) const;
@@ -37,10 +42,10 @@ namespace undine
     SolidReport<dim>
     advance(State<dim> &state, const Stage &stage, const Vector &forces = {});
 
-    /// The bodies of `state` are those at the end of the stage, as `solid` says: add their rates,
-    /// and what contact did, to the start of the stage that follows.
+    /// The bodies of `state` are those at the end of the stage: keep their rates for the stage that
+    /// follows. Does nothing if the stage keeps none.
     void
-    end(State<dim> &state, const Stage &stage, const SolidReport<dim> &solid) const;
+    end(State<dim> &state, const Stage &stage) const;
 
     /// Add to the report how the stage went and, after the last one, the columns of the bodies.
     /// Collective.

@@ -5,6 +5,7 @@
 #include <undine/fluid/advection/characteristic_tracer.h>
 #include <undine/fluid/advection/uniform_regions.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,11 +71,28 @@ namespace undine
     /// `source` is what completed() returned. The references must outlive it. Collective.
     NearBodies(const CharacteristicTracer<dim> &tracer, const Field<dim> &source);
 
-    /// The value that the path from `foot` brings to the point `index` or to one of its sub-cells
-    /// or sub-faces, which is at `place`. Where no sample is visible, a velocity is that of the
-    /// nearest surface, and a scalar is NaN.
+    /// The value that the path from `foot` brings to `part`, a sub-cell or sub-face or, by whole(),
+    /// a whole point. Where no sample is visible, a velocity is that of the nearest surface, and a
+    /// scalar is NaN.
     double
-    value_at(const GridIndex<dim> &index, const dealii::Point<dim> &place, const Place &foot) const;
+    value_at(const typename SubLattice<dim>::Part &part, const Place &foot) const;
+
+    /// A whole point as a part of itself.
+    typename SubLattice<dim>::Part
+    whole(const GridIndex<dim> &index) const;
+
+    /// The value before the last motion of bodies of what has certainly been the same sub-cell or
+    /// sub-face as `part`: both are the only ones of their point, and together they are larger than
+    /// the point, so that they overlap. Whether surfaces hide the centroid of one from that of the
+    /// other does not matter then: a centroid may lie in a body. Nothing if both are whole, since a
+    /// thin body may have passed between.
+    std::optional<double>
+    value_before(const typename SubLattice<dim>::Part &part) const;
+
+    /// The mean of what is visible from a sub-face among the faces next to it in its plane and
+    /// across it, by their open areas; nothing if nothing is.
+    std::optional<double>
+    mean_around(const typename SubLattice<dim>::Part &part) const;
 
     /// Cells and components to which nothing was brought are filled, see fill_unknown(); divided
     /// points take the mean of their sub-cells or sub-faces. Collective.
@@ -82,18 +100,15 @@ namespace undine
     finish(Field<dim> &carried, const BoundaryCondition<dim> &condition) const;
 
   private:
+    double
+    measure_of_point(const GridIndex<dim> &index) const;
+
     const CharacteristicTracer<dim>           &tracer;
+    const Field<dim>                          &source;
     const Lattice<dim>                        &lattice;
     unsigned int                               axis; ///< of a velocity; no_axis: scalar
     std::unique_ptr<const VisibleSamples<dim>> samples;
   };
-
-  /// The same field on the present topology of the fluid; no flow carries it. Collective.
-  template <int dim>
-  Field<dim>
-  remapped(const CharacteristicTracer<dim> &tracer,
-           const Field<dim>                &field,
-           const BoundaryCondition<dim>    &condition);
 
   /// Fields at t + h on the present topology of the fluid. `far(trace, index, k)` is the value of
   /// field k for a path that stays away from bodies; near them all methods are alike, see
@@ -128,8 +143,8 @@ namespace undine
       const auto place = lattice.point(index);
       const auto trace = tracer.trace(place, -tracer.dt());
       for (std::size_t k = 0; k < sources.size(); ++k)
-        carried[k](index) =
-          trace.near_body ? near[k].value_at(index, place, trace.foot) : far(trace, index, k);
+        carried[k](index) = trace.near_body ? near[k].value_at(near[k].whole(index), trace.foot)
+                                             : far(trace, index, k);
     };
     if (condition.neglected_variation() == 0)
       for_each(lattice.owned(), carry_one);
@@ -148,7 +163,7 @@ namespace undine
     for_each_owned_part(divided, [&](const unsigned int part, const auto &of_part) {
       const auto trace = tracer.trace(of_part.place, -tracer.dt());
       for (std::size_t k = 0; k < sources.size(); ++k)
-        carried[k].parts()[part] = near[k].value_at(of_part.index, of_part.place, trace.foot);
+        carried[k].parts()[part] = near[k].value_at(of_part, trace.foot);
     });
     for (std::size_t k = 0; k < sources.size(); ++k)
       near[k].finish(carried[k], condition);

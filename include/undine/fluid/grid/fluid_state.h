@@ -52,22 +52,13 @@ namespace undine
   template <int dim>
   struct FluidState
   {
-    Velocity<dim> velocity;                    ///< [m/s]
-    Velocity<dim> acceleration;                ///< Dv/Dt of the last stage (FluidStage) [m/s^2]
-    Velocity<dim> change;                      ///< dv/dt of the last stage [m/s^2]
-    Field<dim>    pressure;                    ///< reduced pressure p - rho g.x [Pa]
-    std::map<std::string, Field<dim>> scalars; ///< by name, e.g. "smoke", "temperature"
+    Velocity<dim>                     velocity;     ///< [m/s]
+    Velocity<dim>                     acceleration; ///< Dv/Dt that the last stage has kept [m/s^2]
+    Velocity<dim>                     change;       ///< dv/dt of the last stage [m/s^2]
+    Field<dim>                        pressure;     ///< reduced pressure p - rho g.x [Pa]
+    std::map<std::string, Field<dim>> scalars;      ///< by name, e.g. "smoke", "temperature"
     std::map<std::string, Field<dim>>
-      scalar_rates; ///< Ds/Dt of the last stage [1/s], of scalars that have one
-  };
-
-  /// The fields from which the stage that follows starts (Stage); only within a step.
-  template <int dim>
-  struct FluidStageStart
-  {
-    Velocity<dim> velocity; ///< [m/s]
-    std::map<std::string, Field<dim>>
-      scalars; ///< those that also change otherwise than by the flow
+      scalar_rates; ///< Ds/Dt that the last stage has kept [1/s], of scalars that have one
   };
 } // namespace undine
 

@@ -44,6 +44,11 @@ namespace undine
     std::optional<double>
     along(const GridIndex<dim> &index, const dealii::Point<dim> &place, const Place &foot) const;
 
+    /// The mean of the samples at the points next to `index` along the axes that are visible from
+    /// `place`, by their measures, that of a whole point being `whole`; nothing if none is.
+    std::optional<double>
+    mean_around(const GridIndex<dim> &index, const Place &place, double whole) const;
+
   private:
     /// Are all points that a cubic at `start` takes certainly visible from `query`, which is among
     /// them and not next to a body?

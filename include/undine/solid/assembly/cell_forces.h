@@ -16,6 +16,14 @@ namespace undine
   /// apart get the three-field element (MeanDilatation), others the displacement element. Forces,
   /// tangent and energy throw SolveError that names body and place where a point is inverted, on
   /// this rank only.
+  ///
+  /// The viscous stress (S15) has the constant moduli A(I) of the law at rest, for strain rates
+  /// relative to the material: with F = I + grad d, the gradient G = grad u of the velocities and,
+  /// for the three-field element, the mean m of F : G over the cell,
+  ///
+  ///     P_v / eta = F [A(I) : sym(F^T G) + U''(1) m I]                                  [Pa/s]
+  ///
+  /// Laws of small rotations have F = I in it.
   template <int dim>
   class CellForces
   {
@@ -39,6 +47,22 @@ namespace undine
     double
     energy();
 
+    /// Choose the nodal velocities [m/s] of the chosen cell, from a ghosted vector, for the next
+    /// two.
+    void
+    set_velocity(const dealii::TrilinosWrappers::MPI::Vector &velocity);
+
+    /// int P_v : grad N dX for eta = 1 s [N]. Its work, this times the velocities, is never
+    /// negative.
+    const std::vector<double> &
+    viscous_forces();
+
+    /// The derivative of viscous_forces() [N/m], if an unknown changes displacements by
+    /// `displacement_factor` [s] and velocities by `velocity_factor` [1] times its own change
+    /// [m/s]. Unsymmetric unless displacements stay.
+    const dealii::FullMatrix<double> &
+    viscous_tangent(double displacement_factor, double velocity_factor);
+
     /// Deformed over rest volume (2D: area) [1] at a quadrature point, whatever its sign.
     double
     stretched_volume(unsigned int point);
@@ -47,8 +71,17 @@ namespace undine
     using Tensor2 = dealii::Tensor<2, dim>;
     using Tensor4 = dealii::Tensor<4, dim>;
 
+    /// Of the blocks of a tangent, one for each pair of nodes.
+    enum class Blocks
+    {
+      upper, ///< those on and above the diagonal: what is symmetric
+      all
+    };
+
     Tensor2
     displacement_gradient(unsigned int point);
+    Tensor2
+    gradient(const std::vector<double> &nodal_values) const;
     bool
     is_separated() const;
     void
@@ -56,9 +89,18 @@ namespace undine
     void
     add_forces(const Tensor2 &stress, double JxW);
     void
-    add_tangent(const Tensor4 &moduli, double JxW);
+    add_tangent(const Tensor4 &moduli, double JxW, Blocks blocks);
     void
     mirror_tangent();
+    Tensor2
+    rotation_and_stretch(const Tensor2 &displacement_gradient) const;
+    void
+    prepare_viscosity();
+    Tensor2
+    viscous_stress(unsigned int point, const Tensor2 &F) const;
+    void
+    add_volumetric_viscosity(const dealii::FullMatrix<double> &volume_gradients,
+                             const dealii::FullMatrix<double> &volume_rates);
     void
     add_volume_gradient(const Tensor2 &cofactor, unsigned int point);
 
@@ -73,6 +115,10 @@ namespace undine
     unsigned int                        cell           = 0;
     const Body<dim>                    *body           = nullptr;
     std::vector<double>                 displacements;
+    std::vector<double>                 velocities;
+    const Body<dim>                    *viscous_body = nullptr; ///< whose moduli these are
+    Tensor4                             rest_moduli;            ///< A(I) [Pa]
+    std::vector<double>                 viscous_pressures;      ///< U''(1) m at the points [Pa/s]
     std::vector<dealii::Tensor<1, dim>> gradients; ///< of the shape functions at the current point
     std::vector<double>                 local_forces;
     std::vector<double>                 volume_gradients;

@@ -23,6 +23,23 @@ namespace undine
   internal_stiffness(const SolidModel<dim>                       &model,
                      const dealii::TrilinosWrappers::MPI::Vector &displacement);
 
+  /// Forces of the viscous stress P_v (S15) of all bodies for eta = 1 s, int P_v(d, u) : grad N_i
+  /// dX [N]: their work, this times u, is never negative.
+  template <int dim>
+  dealii::TrilinosWrappers::MPI::Vector
+  viscous_forces(const SolidModel<dim>                       &model,
+                 const dealii::TrilinosWrappers::MPI::Vector &displacement,
+                 const dealii::TrilinosWrappers::MPI::Vector &velocity);
+
+  /// Their exact derivative [N/m], see CellForces::viscous_tangent() for the factors.
+  template <int dim>
+  dealii::TrilinosWrappers::SparseMatrix
+  viscous_stiffness(const SolidModel<dim>                       &model,
+                    const dealii::TrilinosWrappers::MPI::Vector &displacement,
+                    const dealii::TrilinosWrappers::MPI::Vector &velocity,
+                    double                                       displacement_factor,
+                    double                                       velocity_factor);
+
   /// Elastic energy int W dX [J].
   template <int dim>
   double

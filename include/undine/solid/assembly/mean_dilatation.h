@@ -31,6 +31,14 @@ namespace undine
   public:
     explicit MeanDilatation(const RestGeometry<dim> &geometry);
 
+    /// Choose a cell for project().
+    void
+    set_cell(unsigned int cell);
+
+    /// The L2 projection phi^T M^{-1} int phi f at the cell's quadrature points, from f there.
+    std::vector<double>
+    project(const std::vector<double> &values) const;
+
     /// Find theta and p of a cell from J [1] at its quadrature points.
     void
     reinit(unsigned int cell, const Material &material, const std::vector<double> &jacobians);
@@ -56,10 +64,6 @@ namespace undine
   private:
     double
     basis(unsigned int function, unsigned int point) const;
-
-    /// phi^T M^{-1} int phi f at all points, from f there.
-    std::vector<double>
-    project(const std::vector<double> &values) const;
 
     const RestGeometry<dim>   &geometry;
     const unsigned int         n_functions;

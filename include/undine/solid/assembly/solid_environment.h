@@ -37,8 +37,8 @@ namespace undine
   struct SolidEnvironment
   {
     dealii::Tensor<1, dim>        gravity;               ///< uniform acceleration [m/s^2]
-    double                        mass_damping      = 0; ///< alpha, C = alpha M + eta K' [1/s]
-    double                        stiffness_damping = 0; ///< eta, C = alpha M + eta K' [s]
+    double                        mass_damping      = 0; ///< alpha, C = alpha M + eta V [1/s]
+    double                        stiffness_damping = 0; ///< eta, C = alpha M + eta V [s]
     std::vector<VolumeForce<dim>> forces;                ///< in order of their effects
 
     std::optional<ContactSettings<dim>> contact_settings; ///< none: no contact

@@ -4,6 +4,7 @@
 
 #include <undine/solid/mesh/solid_model.h>
 #include <undine/solid/solvers/factorisation.h>
+#include <undine/solid/solvers/symmetry.h>
 #include <undine/solid/solvers/tangent_multigrid.h>
 
 #include <memory>
@@ -13,8 +14,8 @@ namespace undine
 {
   /// Solves linear systems with the Jacobian of the bodies' equations, as `Linear solver` says: by
   /// factorisation, or by conjugate gradients with smoothed aggregation (ML) that knows the
-  /// rigid-body motions. Where follower pressures make the tangent unsymmetric, GMRES takes the
-  /// place of conjugate gradients. Where the iteration does not converge, as when the tangent is
+  /// rigid-body motions; GMRES takes the place of conjugate gradients where the tangent is not
+  /// symmetric. Where the iteration does not converge, as when the tangent is
   /// not positive definite, a factorisation takes its place, with `auto` for the rest of the stage.
   /// The analysis of the sparsity pattern is reused from one system to the next, the multigrid
   /// hierarchy within a stage until the number of iterations has grown by half.
@@ -35,9 +36,9 @@ namespace undine
     solve(const Matrix &A, const Vector &b, const Vector &displacement, double negligible = 0);
 
     /// Forget iterations(), note() and the hierarchy: what is solved follows from the state alone,
-    /// whether a run was resumed or not.
+    /// whether a run was resumed or not. Systems that follow have a `symmetry`.
     void
-    begin_stage();
+    begin_stage(Symmetry symmetry);
 
     /// Iterations of the iterative solver since begin_stage().
     unsigned int
@@ -56,7 +57,7 @@ namespace undine
 
     const SolidModel<dim>            &model;
     const bool                        direct;
-    const bool                        symmetric;
+    Symmetry                          symmetry = Symmetry::symmetric;
     Factorisation                     factorisation;
     std::unique_ptr<TangentMultigrid> multigrid;
     unsigned int first_iterations = 0;     ///< with that hierarchy when it was new; 0: it is new

@@ -4,12 +4,18 @@
 
 #include <undine/base/core/timing.h>
 #include <undine/solid/assembly/solid_environment.h>
+#include <undine/solid/step/stage_begin.h>
 #include <undine/solid/step/step_motion.h>
 
 namespace undine
 {
-  /// C = alpha M + eta K'(d^n + r h u^n) in one step, with alpha and eta of the environment;
-  /// nothing without damping. All functions are collective.
+  /// Rayleigh damping in one stage, alpha M u_C + eta V(d_V) u_V (S15) with alpha and eta of the
+  /// environment; nothing without damping. u_C is that of StageCoefficients, u_V the mean velocity
+  /// of the bodies over the stage and d_V the middle of their way: the rate at which the material
+  /// is strained is then (E^e - E^b) / duration for the strains E at both ends, exactly. It is zero
+  /// however far a body turns within the stage, and the work of the viscous stress is never
+  /// positive. With other velocities or places a rotation would look like a strain, and damping
+  /// would put energy in. All functions that take or return vectors are collective.
   template <int dim>
   class RayleighDamping
   {
@@ -18,30 +24,51 @@ namespace undine
     using Matrix = typename SolidModel<dim>::Matrix;
 
     /// The references must outlive it.
-    RayleighDamping(const SolidModel<dim>       &model,
-                    const Matrix                &mass,
+    RayleighDamping(const Matrix                &mass,
                     const SolidEnvironment<dim> &environment,
+                    const StepMotion<dim>       &motion,
+                    const StageBegin            &begin,
                     TimingTree                  &timing);
 
-    /// Assemble K', if the step needs it. Before the first of the following calls. Throws
-    /// SolveError.
-    void
-    assemble(const StepMotion<dim> &motion);
+    /// Is there a viscous stress?
+    bool
+    is_viscous() const;
 
-    /// forces += factor C velocity.
+    /// forces += alpha M u_C + eta W V u_V. Throws nothing.
     void
-    add_forces(Vector &forces, const Vector &velocity, double factor) const;
+    add_forces(Vector &forces, const Vector &end_velocity) const;
 
-    /// A += factor eta K'.
+    /// forces += alpha M u_C, the part of the forces that does not sum to zero over a body.
     void
-    add_stiffness(Matrix &A, double factor) const;
+    add_drag(Vector &forces, const Vector &end_velocity) const;
+
+    /// A += the derivative of the forces with respect to the end velocity, where the step ends with
+    /// `end_displacement`.
+    void
+    add_jacobian(Matrix &A, const Vector &end_velocity, const Vector &end_displacement) const;
+
+    /// (alpha M u_C + eta W V u_V) times u_C and u_V, over W, never negative [W].
+    double
+    power(const Vector &end_velocity) const;
 
   private:
+    Vector
+    drag_velocity(const Vector &end_velocity) const;
+    Vector
+    mean_velocity(const Vector &end_displacement) const;
+    Vector
+    middle(const Vector &end_displacement) const;
+    double
+    duration() const;
+    const Vector &
+    begin_place() const;
+
     const SolidModel<dim>       &model;
     const Matrix                &mass;
     const SolidEnvironment<dim> &environment;
+    const StepMotion<dim>       &motion;
+    const StageBegin             begin;
     TimingTree                  &timing;
-    Matrix                       stiffness; ///< K'; empty without it
   };
 } // namespace undine
 

@@ -28,7 +28,7 @@ namespace undine
     double loads        = 0; ///< dead loads and follower pressures / W times dd [J]
     double nodal        = 0; ///< given nodal forces times dd [J]
     double supports     = 0; ///< forces at fixed degrees of freedom times dd [J]
-    double damping      = 0; ///< C (c u + c_u u^n) / W times dd [J]
+    double damping      = 0; ///< h times RayleighDamping::power() [J]
     double contact      = 0; ///< forces of contact times dd [J]
     double inertia_loss = 0; ///< the integrator's: M (m u + ...).dd - kinetic [J], and the rest
     double elastic_loss = 0; ///< the integrator's: sum_e w_e K(d_e).dd - int K(d).dd [J]

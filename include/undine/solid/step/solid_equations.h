@@ -2,6 +2,7 @@
 #ifndef undine_solid_step_solid_equations_h
 #define undine_solid_step_solid_equations_h
 
+#include <undine/solid/solvers/symmetry.h>
 #include <undine/solid/step/rayleigh_damping.h>
 #include <undine/solid/step/step_contact.h>
 
@@ -23,9 +24,9 @@ namespace undine
 
     /// From `old_state` at `time` [s] over `dt` [s]. `mass` is mass_matrix(model). `nodal_forces`
     /// [N] act during the whole step and enter the momentum once, as J p does; empty: none. Forces
-    /// of contact (`environment`), at the end of the step, count alike, `contact.weight` times. The
-    /// references to model, mass, state, environment and timing must outlive the equations.
-    /// Collective. Throws SolveError.
+    /// of contact (`environment`), at the end of the step, count alike, `contact.weight` times.
+    /// `begin` is where a stage began that starts from elsewhere. The references to model, mass,
+    /// state, environment and timing must outlive the equations. Collective. Throws SolveError.
     SolidEquations(const SolidModel<dim>       &model,
                    const Matrix                &mass,
                    const SolidState            &old_state,
@@ -34,7 +35,8 @@ namespace undine
                    double                       dt,
                    TimingTree                  &timing,
                    const Vector                &nodal_forces = {},
-                   const ContactStart          &contact      = {});
+                   const ContactStart          &contact      = {},
+                   const StageBegin            &begin        = {});
 
     /// A first u [m/s]: u^n with prescribed velocities in place.
     Vector
@@ -105,7 +107,7 @@ namespace undine
 
     /// The balance of linear momentum of each body, in which inner forces cancel, [bodies] [1]:
     ///
-    ///     | sum over its nodes of  M (m u + m_u u^n + m_a a^n) + alpha M (c u + c_u u^n)
+    ///     | sum over its nodes of  M (m u + m_u u^n + m_a a^n) + alpha M u_C
     ///                              - loads - contact - supports |  /  scale
     ///
     /// `reactions` are those of the same u. Collective. Throws SolveError as residual() does.
@@ -142,15 +144,28 @@ namespace undine
       return coefficients.displacement;
     }
 
-    /// The contribution of forces of contact to the velocity in the step [m/s]; empty if there are
-    /// none, or if neither the integrator nor later stages need it. Collective.
+    /// kappa times the forces of contact [N], zero at fixed degrees of freedom; empty if there are
+    /// none, or if neither the integrator nor later stages need to know what they do. Collective.
+    Vector
+    contact_forces(const Vector &velocity) const;
+
+    /// What these contribute to the velocity of bodies without a fluid in the step [m/s]; empty if
+    /// there are none. Collective.
     Vector
     contact_velocity(const Vector &velocity) const;
 
-    /// The state at the end of the step, given contact_velocity(), which is not included in the
-    /// acceleration. Collective.
+    /// The state at the end of the step. The acceleration that the integrator or later stages use
+    /// leaves out `by_contact`, the contribution of contact to the velocity [m/s]; empty: none.
+    /// Collective.
     SolidState
-    end_state(const Vector &velocity, const Vector &contact_velocity) const;
+    end_state(const Vector &velocity, const Vector &by_contact) const;
+
+    /// Of jacobian(): follower pressures and viscosity of bodies make it unsymmetric.
+    Symmetry
+    symmetry() const
+    {
+      return has_pressure || rayleigh_damping.is_viscous() ? Symmetry::none : Symmetry::symmetric;
+    }
 
     /// Does the step leave out inertia?
     bool
@@ -185,7 +200,9 @@ namespace undine
                      const StageCoefficients::TimeLevel &level,
                      const Vector                       &displacement);
     Matrix
-    full_jacobian(const Vector &end_displacement, const Vector &in_contact) const;
+    full_jacobian(const Vector &velocity,
+                  const Vector &end_displacement,
+                  const Vector &in_contact) const;
     void
     find_known_forces();
     void
@@ -201,7 +218,7 @@ namespace undine
     Vector                       nodal_forces;
     const StageCoefficients      coefficients;
     const StepMotion<dim>        motion;
-    RayleighDamping<dim>         rayleigh_damping;
+    const RayleighDamping<dim>   rayleigh_damping;
     const StepContact<dim>       contact;
     const bool                   has_pressure;
     double                       largest_known = 0; ///< size of the terms without u [N]

@@ -10,6 +10,7 @@
 #include <undine/solid/mesh/solid_state.h>
 #include <undine/solid/solvers/tangent_solver.h>
 #include <undine/solid/step/solid_balance.h>
+#include <undine/solid/step/stage_begin.h>
 
 #include <optional>
 #include <string>
@@ -32,9 +33,6 @@ namespace undine
 
     /// Only if asked for, see SolidStepper::keep_balance().
     std::optional<SolidBalance<dim>> balance;
-
-    /// SolidEquations::contact_velocity() [m/s].
-    dealii::TrilinosWrappers::MPI::Vector contact_velocity;
 
     /// A note on anything unusual, such as "the tangent is indefinite: solved directly"; empty if
     /// there was nothing.
@@ -68,8 +66,8 @@ namespace undine
     initialize(const SolidEnvironment<dim> &environment, double time, double dt) const;
 
     /// From `time` to `time + dt` [s]. `nodal_forces` [N], if not empty, act during the whole step
-    /// (SolidEquations, also for `contact`). Collective. Throws SolveError; the state is then
-    /// unchanged.
+    /// (SolidEquations, also for `contact` and `begin`). Collective. Throws SolveError; the state
+    /// is then unchanged.
     ///
     ///  1. guess u^{n+1} = u^n
     ///  2. Newton: assemble residual and tangent, solve, line search
@@ -82,10 +80,12 @@ namespace undine
          double                       dt,
          TimingTree                  &timing,
          const Vector                &nodal_forces = {},
-         const ContactStart          &contact      = {});
+         const ContactStart          &contact      = {},
+         const StageBegin            &begin        = {});
 
-    /// f - K(d) - C u of a state at `time` [s], f being loads but those of a fluid and of contact,
-    /// supports not counted [N]. Collective. Throws SolveError.
+    /// f - K(d) - alpha M u of a state at `time` [s], f being loads but those of a fluid and of
+    /// contact, supports not counted [N]. Without the viscous stress: velocities at the start may
+    /// strain the material at any rate. Collective. Throws SolveError.
     Vector
     unbalanced_forces(const SolidState            &state,
                       const SolidEnvironment<dim> &environment,

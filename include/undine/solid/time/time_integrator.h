@@ -12,8 +12,9 @@ namespace undine
 {
   /// A stage of h [s] from t^n (T1), written for the one unknown u = u^{n+1} [m/s]:
   ///
-  ///     M (m u + m_u u^n + m_a a^n) + C (c u + c_u u^n)
+  ///     M (m u + m_u u^n + m_a a^n) + alpha M u_C + eta W V(d_V) u_V
   ///       + sum_e w_e [ K(d_e) - f(d_e, t_e) ] - kappa f_c - J p = 0                           [N]
+  ///     u_C = c u + c_u u^n
   ///     d_e = (1 - s_e) d^n + s_e d^{n+1},   t_e = t^n + s_e h
   ///     d^{n+1} = d^n + e_u u^n + e_a a^n + e u
   ///     a^{n+1} = b u + b_u u^n + b_a a^n
@@ -21,7 +22,8 @@ namespace undine
   /// where f are gravity, dead loads and follower pressures, and kappa f_c forces of contact, kappa
   /// being ContactStart::weight. Unless the step is static, m = 1/h and m_u = -1/h: the impulse
   /// h J p of a fluid's pressure enters the momentum once and un-averaged, whatever the integrator.
-  /// C = alpha M + eta K'(d^n + r h u^n).
+  /// alpha and eta are those of Rayleigh damping, whose viscosity V (S15) has no negative
+  /// eigenvalue.
   struct StageCoefficients
   {
     /// Internal forces and loads between t^n (position 0) and t^{n+1} (position 1).
@@ -36,7 +38,6 @@ namespace undine
     double                 mass_old_acceleration = 0; ///< m_a [1]
     double                 damping               = 0; ///< c [1]
     double                 damping_old_velocity  = 0; ///< c_u [1]
-    double                 damping_position      = 0; ///< r [1]
     std::vector<TimeLevel> levels;
     double                 displacement              = 0; ///< e [s]
     double                 displacement_velocity     = 0; ///< e_u [s]

@@ -10,12 +10,9 @@
 namespace undine
 {
   /// A method with one number, the weight w of the end of a step against its begin: from 1/2, where
-  /// it is of second order and damps nothing, to 1. Inertia and damping enter it as
-  ///
-  ///     M (u^{n+1} - u^n) / h + C ((1-w) u^n + w u^{n+1}),  C with K'(d^n + (1-w) h u^n);
-  ///
-  /// without that extrapolation w = 1/2 would be of first order with damping. A derived class says
-  /// where internal forces are taken and what displacement follows from the velocities.
+  /// it is of second order and damps nothing, to 1. Inertia enters it as M (u^{n+1} - u^n) / h. A
+  /// derived class says where internal forces and drag are taken and what displacement follows from
+  /// the velocities.
   class WeightedIntegrator : public TimeIntegrator
   {
   public:
@@ -25,16 +22,13 @@ namespace undine
       options.add(key, weight, "1", Allowed::between(0.5, 1), help);
     }
 
-    /// Those of inertia, damping and acceleration; the others are zero.
+    /// Those of inertia and acceleration; the others are zero.
     StageCoefficients
     coefficients(const double dt) const override
     {
       StageCoefficients step;
       step.mass                  = 1 / dt;
       step.mass_old_velocity     = -1 / dt;
-      step.damping               = weight;
-      step.damping_old_velocity  = 1 - weight;
-      step.damping_position      = 1 - weight;
       step.acceleration          = 1 / dt;
       step.acceleration_velocity = -1 / dt;
       return step;

@@ -8,15 +8,14 @@ namespace undine
   /// radius at infinite frequency, alpha_m = (2r-1)/(r+1), alpha_f = r/(r+1),
   /// gamma = 1/2 - alpha_m + alpha_f, beta = (1 - alpha_m + alpha_f)^2 / 4:
   ///
-  ///     M [(1-alpha_m) a^{n+1} + alpha_m a^n] + C u_f + K(d_f) - f(t_f) = 0,              (T4)
+  ///     M [(1-alpha_m) a^{n+1} + alpha_m a^n] + C u_f + K(d_f) - f(t_f) = 0,         (T4)
   ///         x_f = (1-alpha_f) x^{n+1} + alpha_f x^n  for d, u and t
   ///     u^{n+1} = u^n + h [(1-gamma) a^n + gamma a^{n+1}] + M^{-1} h J p
   ///     d^{n+1} = d^n + h u^n + h^2 (1/2-beta) a^n
   ///             + h (beta/gamma) (u^{n+1} - u^n - h (1-gamma) a^n)
   ///
   /// The impulse h J p of a fluid's pressure is added once and is no part of a. Eliminating a^{n+1}
-  /// and scaling by gamma / (1-alpha_m) gives the form of StageCoefficients. Second order, with K'
-  /// in C taken at d^n + (1-alpha_f) h u^n.
+  /// and scaling by gamma / (1-alpha_m) gives the form of StageCoefficients. Second order.
   class GeneralisedAlpha : public TimeIntegrator
   {
   public:
@@ -44,7 +43,6 @@ namespace undine
       step.mass_old_acceleration     = scale * alpha_m - (1 - gamma);
       step.damping                   = scale * (1 - alpha_f);
       step.damping_old_velocity      = scale * alpha_f;
-      step.damping_position          = 1 - alpha_f;
       step.levels                    = {{scale, 1 - alpha_f}};
       step.displacement              = dt * beta / gamma;
       step.displacement_velocity     = dt * (1 - beta / gamma);

@@ -5,7 +5,7 @@ namespace undine
 {
   /// The theta method, all forces at t^n + theta h:
   ///
-  ///     M (u^{n+1} - u^n) / h + C u_theta + K(d_theta) - f(t^n + theta h) = J p           (T2)
+  ///     M (u^{n+1} - u^n) / h + C u_theta + K(d_theta) - f(t^n + theta h) = J p  (T2)
   ///     u_theta = (1-theta) u^n + theta u^{n+1}
   ///     d_theta = d^n + theta h u_theta,  d^{n+1} = d^n + h u_theta
   ///
@@ -24,6 +24,8 @@ namespace undine
     coefficients(const double dt) const override
     {
       auto step                  = WeightedIntegrator::coefficients(dt);
+      step.damping               = weight;
+      step.damping_old_velocity  = 1 - weight;
       step.levels                = {{1, weight}};
       step.displacement          = weight * dt;
       step.displacement_velocity = (1 - weight) * dt;

@@ -14,7 +14,8 @@ namespace undine
   ///
   /// Second order, L-stable: a mode of frequency omega has the damping ratio .0037 (omega h)^3,
   /// stiff ones vanish. Pressures belong to the ends of stages, t_1 and t^{n+1}, and enter f like
-  /// all other forces.
+  /// all other forces. In the form of Stage: f^n is kept for g, then the mean rate over the first
+  /// stage for 2 (w - g), since y_1 - y^n = g (f^n + f_1).
   ///
   /// The first step, without f^n, is that of Alexander (SIAM J. Numer. Anal. 14 (1977) 1006,
   /// theorem 5): y_1 = y^n + g f_1, y^{n+1} = y^n + (h - g) f_1 + g f^{n+1}, with the same g.
@@ -36,23 +37,10 @@ namespace undine
     Stages
     stages(const double dt, const RatesAtBegin rates) const override
     {
-      const bool   knows_rates = rates == RatesAtBegin::known;
-      const double g           = (1 - std::sqrt(0.5)) * dt;
-      const double w           = std::sqrt(2.) / 4 * dt;
-      Stage        first, second;
-      first.length = second.length = g;
-      first.end = second.begin = knows_rates ? 2 * g : g;
-      first.earlier            = {{0, knows_rates ? g : 0}};
-      first.next_old           = {0, knows_rates ? w : 0};
-      first.next_new           = {first.end, knows_rates ? w : dt - g};
-      second.earlier           = {first.next_old, first.next_new};
-      second.end               = dt;
-
-      first.is_last      = false;
-      second.is_first    = false;
-      first.keeps_rates  = true;
-      second.keeps_rates = true;
-      return {first, second};
+      const double g     = (1 - std::sqrt(0.5)) * dt;
+      const double w     = rates == RatesAtBegin::known ? g : 0;
+      const auto   first = first_stage(w + g, w, KeptRate::mean);
+      return in_order({first, stage_after(first, dt, g, KeptRate::at_end)});
     }
 
     StageCoefficients
@@ -62,7 +50,6 @@ namespace undine
       step.mass                  = 1 / length;
       step.mass_old_velocity     = -1 / length;
       step.damping               = 1;
-      step.damping_position      = 1;
       step.levels                = {{1, 1}};
       step.displacement          = length;
       step.acceleration          = 1 / length;
