@@ -86,7 +86,7 @@ namespace undine
           report.stages_again += round + 1;
           state = begin;
           budget.go_back_to(budget_before);
-          fluid_side.expect(places);
+          fluid_side.expect(next_cut(places, round));
         }
     }
 
@@ -103,6 +103,19 @@ namespace undine
     static constexpr double       small_misplacement   = 0.1;
     static constexpr double       largest_misplacement = 0.3;
     static constexpr unsigned int most_rounds          = 2;
+
+    /// Where the grid is cut again, the bodies having come to `places` [m]: there, and then half
+    /// way, since bodies that shake come to either of two places by turns.
+    typename FluidGeometry<dim>::Positions
+    next_cut(const typename FluidGeometry<dim>::Positions &places, const unsigned int round) const
+    {
+      if (round == 0)
+        return places;
+      auto result = fluid_side.geometry()->surface_positions();
+      for (std::size_t node = 0; node < result.size(); ++node)
+        result[node] += 0.5 * (places[node] - result[node]);
+      return result;
+    }
 
     void
     solve_once(State<dim> &state, const Stage &stage, Report &report)

@@ -96,7 +96,8 @@ def scene_of(shape, ratio, modulus, per_second, end, cells):
     body = {f"Bodies/block/{key}": value for key, value in shape.settings.items()}
     space = {} if shape.dimension == 2 else {
         "Dimension": 3, "Domain/Lower corner": "0, 0, 0", "Domain/Upper corner": "1, 1, 1",
-        "Effects/gravity/Acceleration": f"0, {-fluid.gravity!r}, 0"}
+        "Effects/gravity/Acceleration": f"0, {-fluid.gravity!r}, 0",
+        "Solid numerics/Element degree": 1}  # their volume is that of the outline which the fluid meets
     return law_scenes.with_settings(
         law_scenes.read(os.path.join(law_scenes.SCENES, "light_block_rises.prm")), body,
         {"Effects/convection": None, "Fluid/Boundaries/top": None, "Output/Budget": "false"}, fluid.settings("top"),
