@@ -50,8 +50,9 @@ namespace undine
       if (at_start[region])
         {
           // If chambers have parted or merged since, the volume at the begin is that of another
-          // chamber.
-          constexpr double the_same = 1e-3;
+          // chamber. And where a surface comes to a plane of the grid or leaves it, the cut grid
+          // gains or loses what lies between.
+          constexpr double the_same = 1e-7;
           const double     exact    = volumes[region] - *at_start[region];
           if (std::abs(exact - result[region]) <= the_same * volumes[region])
             result[region] = exact;

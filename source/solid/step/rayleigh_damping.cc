@@ -22,6 +22,15 @@ namespace undine
 
   template <int dim>
   bool
+  RayleighDamping<dim>::is_on() const
+  {
+    return motion.coefficients().damping != 0 &&
+           (environment.mass_damping > 0 || environment.stiffness_damping > 0);
+  }
+
+
+  template <int dim>
+  bool
   RayleighDamping<dim>::is_viscous() const
   {
     return environment.stiffness_damping > 0 && motion.coefficients().damping != 0;
@@ -57,13 +66,15 @@ namespace undine
   }
 
 
-  /// u_V [m/s].
+  /// u_V [m/s], not from the difference of two displacements: rounding of that over a short step is
+  /// more than Newton's method may leave.
   template <int dim>
   typename RayleighDamping<dim>::Vector
-  RayleighDamping<dim>::mean_velocity(const Vector &end_displacement) const
+  RayleighDamping<dim>::mean_velocity(const Vector &end_velocity) const
   {
-    Vector result = end_displacement;
-    result.add(-1., begin_place());
+    Vector result = motion.increment(end_velocity);
+    if (begin.displacement.size() > 0)
+      result.add(1., motion.old_state().displacement, -1., begin.displacement);
     result *= 1 / duration();
     return result;
   }
@@ -103,7 +114,7 @@ namespace undine
     const auto   timed = timing.section("damping");
     const Vector end   = motion.displacement(end_velocity);
     forces.add(environment.stiffness_damping * motion.coefficients().sum_of_weights(),
-               viscous_forces(model, middle(end), mean_velocity(end)));
+               viscous_forces(model, middle(end), mean_velocity(end_velocity)));
   }
 
 
@@ -121,7 +132,7 @@ namespace undine
     const auto timed     = timing.section("damping");
     const auto stiffness = viscous_stiffness(model,
                                              middle(end_displacement),
-                                             mean_velocity(end_displacement),
+                                             mean_velocity(end_velocity),
                                              0.5 * coefficients.displacement,
                                              coefficients.displacement / duration());
     timing.memory.hold_briefly("damping", stiffness.memory_consumption());
@@ -139,7 +150,7 @@ namespace undine
     double result = drag * drag_velocity(end_velocity) / (weight * weight);
     if (is_viscous())
       {
-        const Vector end = motion.displacement(end_velocity), mean = mean_velocity(end);
+        const Vector end = motion.displacement(end_velocity), mean = mean_velocity(end_velocity);
         result += environment.stiffness_damping * (viscous_forces(model, middle(end), mean) * mean);
       }
     return result;

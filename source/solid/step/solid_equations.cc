@@ -141,7 +141,13 @@ namespace undine
         note_size(change, 1);
         result.add(1., change);
       }
-    rayleigh_damping.add_forces(result, velocity);
+    if (rayleigh_damping.is_on())
+      {
+        Vector damping = model.vector();
+        rayleigh_damping.add_forces(damping, velocity);
+        note_size(damping, 1);
+        result.add(1., damping);
+      }
     const Vector end = displacement(velocity);
     for (const auto &level : coefficients.levels)
       if (level.position > 0)

@@ -30,6 +30,10 @@ namespace undine
                     const StageBegin            &begin,
                     TimingTree                  &timing);
 
+    /// Is there any damping?
+    bool
+    is_on() const;
+
     /// Is there a viscous stress?
     bool
     is_viscous() const;
@@ -55,7 +59,7 @@ namespace undine
     Vector
     drag_velocity(const Vector &end_velocity) const;
     Vector
-    mean_velocity(const Vector &end_displacement) const;
+    mean_velocity(const Vector &end_velocity) const;
     Vector
     middle(const Vector &end_displacement) const;
     double
