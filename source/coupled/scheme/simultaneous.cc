@@ -62,14 +62,17 @@ namespace undine
     {
       if (stage.is_first)
         report.stages_again = 0;
+      if (!stage.keeps_rates())
+        {
+          solve_once(state, stage, report);
+          return;
+        }
       const State<dim>  begin         = state;
       const Report      report_before = report;
       const Budget<dim> budget_before = budget;
       for (unsigned int round = 0;; ++round)
         {
           solve_once(state, stage, report);
-          if (!stage.keeps_rates())
-            return;
           const auto places = models.surface->positions(state.solid, state.clock.time + stage.end);
           const double misplacement = fluid_side.misplacement(places);
           if (misplacement <= (round < most_rounds ? small_misplacement : largest_misplacement))

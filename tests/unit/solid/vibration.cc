@@ -100,7 +100,11 @@ TEST_CASE("large vibration with damping, loads and a moving end: second order", 
   for (const auto &integrator : second_order)
     {
       INFO(integrator.first);
-      CHECK(order_in_time(integrator.second, ends, environment) >= 1.8);
+      const double order = order_in_time(integrator.second, ends, environment);
+      CHECK(order >= 1.8);
+      // Errors of generalised alpha, whose first acceleration is without viscosity, cancel here.
+      if (integrator.first != "generalised alpha")
+        CHECK(order <= 2.2);
     }
 }
 

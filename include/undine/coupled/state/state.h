@@ -30,7 +30,7 @@ namespace undine
 
     /// Only within a step of stages that keep rates (Stage). @{
     SolidState                            stage_begin;   ///< the bodies at the begin of the stage
-    dealii::TrilinosWrappers::MPI::Vector mean_velocity; ///< r of displacements [m/s]; empty: u
+    dealii::TrilinosWrappers::MPI::Vector mean_velocity; ///< r of displacements [m/s]
     ContactStart                          contact;       ///< of the bodies in the stage
     /// @}
 
