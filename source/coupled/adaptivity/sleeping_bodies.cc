@@ -130,7 +130,7 @@ namespace undine
           }
         state  = saved;
         report = empty;
-        budget.start();
+        budget.start(state.budget_rates);
       }
   }
 
@@ -143,7 +143,7 @@ namespace undine
       {
         const auto timed = timing.section("sleep");
         choose(state);
-        rest = take_rest(state);
+        take_rest(state);
         if (part && part->of_awake)
           {
             whole       = state.solid;
@@ -163,8 +163,6 @@ namespace undine
         part->of_awake->put_into(whole, state.solid);
         state.solid = whole;
       }
-    if (budget.is_on())
-      budget.add_rest(rest);
     add_columns(report, state);
   }
 
@@ -272,20 +270,29 @@ namespace undine
 
   /// Bodies that have just fallen asleep stop.
   template <int dim>
-  SolidAmounts<dim>
-  SleepingBodies<dim>::take_rest(State<dim> &state) const
+  void
+  SleepingBodies<dim>::take_rest(State<dim> &state)
   {
-    SolidAmounts<dim> result;
     if (!part || state.sleep.settled)
-      return result;
-    const auto &model    = *part->asleep;
-    const auto  velocity = part->of_asleep->taken_from(state.solid.velocity);
-    result.energy        = kinetic_energy(model, mass_matrix(model), velocity);
-    result.momentum      = linear_momentum(model, velocity);
+      return;
+    const auto &model = *part->asleep;
+    if (budget.is_on())
+      {
+        const auto velocity     = part->of_asleep->taken_from(state.solid.velocity);
+        const auto acceleration = part->of_asleep->taken_from(state.solid.acceleration);
+        const auto mass         = mass_matrix(model);
+        auto       forces       = model.vector();
+        mass.vmult(forces, acceleration);
+        SolidAmounts<dim> rest, rates;
+        rest.kinetic   = kinetic_energy(model, mass, velocity);
+        rest.momentum  = linear_momentum(model, velocity);
+        rates.kinetic  = velocity * forces;
+        rates.momentum = linear_momentum(model, acceleration);
+        budget.add_rest(rest, rates);
+      }
     part->of_asleep->put_into(state.solid.velocity, model.vector());
     part->of_asleep->put_into(state.solid.acceleration, model.vector());
     state.sleep.settled = true;
-    return result;
   }
 
 

@@ -123,6 +123,7 @@ namespace undine
     void
     solve_once(State<dim> &state, const Stage &stage, Report &report)
     {
+      budget.begin_stage(stage);
       solid_side.start(state, stage);
       const auto        fluid = fluid_side.predict(state, stage);
       CoupledStage<dim> coupled({models,
@@ -139,23 +140,23 @@ namespace undine
       const auto        solid = coupled.solve();
       solid_side.end(state, stage);
       fluid->by_contact = coupled.velocity_by_contact();
-      if (stage.is_last)
-        balance(coupled, solid, stage.length);
+      balance(coupled, state, solid);
       fluid_side.finish(*fluid, state, report, coupled.divergence());
+      budget.end_stage();
       if (stage.is_last)
         add_solver_columns(report);
       solid_side.finish(state, stage, solid, report);
     }
 
     void
-    balance(const CoupledStage<dim> &step, const SolidReport<dim> &solid, const double dt)
+    balance(const CoupledStage<dim> &step, const State<dim> &state, const SolidReport<dim> &solid)
     {
       if (!budget.is_on())
         return;
       const auto measured = timing.section("measure");
-      budget.add(step.pressure_balance(), dt);
-      budget.add(step.exchange(), dt);
-      budget.add(step.solid_balance(solid), dt);
+      budget.add(step.pressure_balance(), step.velocity_before_pressures(), state.fluid.velocity);
+      budget.add(step.exchange());
+      budget.add(step.solid_balance(solid));
     }
 
     void

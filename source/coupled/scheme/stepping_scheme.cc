@@ -63,10 +63,7 @@ namespace undine
   Report
   SteppingScheme<dim>::initialize(State<dim> &state, const Models<dim> &models, TimingTree &timing)
   {
-    budget = std::make_unique<Budget<dim>>(models,
-                                           !keeps_budget  ? BudgetOf::nothing
-                                           : has_stages() ? BudgetOf::steps_of_several_stages
-                                                          : BudgetOf::steps_of_one_stage);
+    budget = std::make_unique<Budget<dim>>(models, keeps_budget ? KeepBudget::yes : KeepBudget::no);
     if (models.solid && models.requests_of_effects().sleep_settings)
       physics = std::make_unique<SleepingBodies<dim>>(
         models, *budget, timing, [this, &timing](const Models<dim> &awake) {
@@ -82,6 +79,7 @@ namespace undine
         *integrator,
         typename StepError<dim>::Settings{tolerance, displacement, asked_step, shortest_step()});
     physics->initialize(state, choose_dt(state), report);
+    state.budget_rates = budget->rates_at_start();
     append(report.columns, budget->columns());
     if (step_error)
       {
@@ -127,10 +125,11 @@ namespace undine
       try
         {
           report.dt = asked / (1u << report.cuts);
-          budget->start();
+          budget->start(state.budget_rates);
           const auto rates = state.clock.step > 0 ? RatesAtBegin::known : RatesAtBegin::unknown;
           physics->advance(state, integrator->stages(report.dt, rates), report);
           append(report.columns, budget->columns());
+          state.budget_rates = budget->rates();
           assert_finite(report.columns);
           judge_error(state, saved, report);
           state.clock.longest_step = report.cuts > 0 ? report.dt : 2 * state.clock.longest_step;

@@ -49,6 +49,7 @@ namespace undine
         // J p^n, where the grid was cut when p^n was computed.
         exchange.on_bodies = geometry_of(models, state)->pressure_forces(state.fluid.pressure);
       }
+      budget.begin_stage(stage);
       solid_side.start(state, stage);
       const auto  fluid    = fluid_side.predict(state, stage);
       const auto &geometry = *fluid_side.geometry();
@@ -69,17 +70,19 @@ namespace undine
       exchange.increment   = models.surface->with_bodies(increment, still());
       exchange.velocities  = node_velocities(state, exchange.increment, fluid->dt);
       const auto projected = project(state, *fluid, exchange.velocities);
-      if (budget.is_on() && stage.is_last)
+      if (budget.is_on())
         {
           const auto phase         = timing.section("measure");
           exchange.by_fluid        = geometry.pressure_forces(state.fluid.pressure);
           exchange.by_surface_flux = exchange.by_fluid;
-          budget.add(projected.balance(*models.fluid, state.fluid), fluid->dt);
-          budget.add(exchange, fluid->dt);
-          budget.add(*solid.balance, fluid->dt);
+          budget.add(
+            projected.balance(*models.fluid, state.fluid), projected.before, state.fluid.velocity);
+          budget.add(exchange);
+          budget.add(*solid.balance);
         }
       report.linear_iterations += projected.iterations;
       fluid_side.finish(*fluid, state, report, projected.divergence);
+      budget.end_stage();
       solid_side.finish(state, stage, solid, report);
     }
 

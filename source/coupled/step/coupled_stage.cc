@@ -166,7 +166,8 @@ namespace undine
     state.fluid.pressure      = pressure;
     pressures.closed_regions().remove_means(state.fluid.pressure);
     set_means(state.fluid.pressure, parts.models.fluid->grid());
-    state.solid = equations.end_state(velocity, respond_to_contact());
+    bodies_by_contact = respond_to_contact();
+    state.solid       = equations.end_state(velocity, bodies_by_contact);
   }
 
 
@@ -211,7 +212,6 @@ namespace undine
   CoupledStage<dim>::pressure_balance() const
   {
     return undine::pressure_balance(*parts.models.fluid,
-                                    predicted,
                                     state.fluid.velocity,
                                     pressures.field(x.block(1)),
                                     pressures.open_faces());
@@ -239,7 +239,7 @@ namespace undine
   SolidBalance<dim>
   CoupledStage<dim>::solid_balance(const SolidReport<dim> &report) const
   {
-    return equations.balance(x.block(0), report.reactions);
+    return equations.balance(x.block(0), report.reactions, bodies_by_contact);
   }
 
 

@@ -27,7 +27,8 @@ namespace undine
   void
   FluidAlone<dim>::solve_stage(State<dim> &state, const Stage &stage, Report &report)
   {
-    const auto timed    = timing.section("fluid");
+    const auto timed = timing.section("fluid");
+    budget.begin_stage(stage);
     const auto fluid    = fluid_side.predict(state, stage);
     const auto geometry = fluid_side.geometry();
 
@@ -41,10 +42,11 @@ namespace undine
                            fluid->dt,
                            geometry ? geometry->swept_volume_flux(fluid->dt) : SweptVolumeFlux());
     }
-    if (budget.is_on() && stage.is_last)
-      balance(state, projected, fluid->dt);
+    if (budget.is_on())
+      balance(state, projected);
     report.linear_iterations += projected.iterations;
     fluid_side.finish(*fluid, state, report, projected.divergence);
+    budget.end_stage();
   }
 
 
@@ -59,18 +61,17 @@ namespace undine
   template <int dim>
   void
   FluidAlone<dim>::balance(const State<dim>                       &state,
-                           const typename Projection<dim>::Report &projected,
-                           const double                            dt)
+                           const typename Projection<dim>::Report &projected)
   {
     const auto phase = timing.section("measure");
-    budget.add(projected.balance(model, state.fluid), dt);
+    budget.add(projected.balance(model, state.fluid), projected.before, state.fluid.velocity);
     if (const auto *geometry = fluid_side.geometry())
       {
         SurfaceExchange<dim> exchange;
         exchange.by_fluid        = geometry->pressure_forces(state.fluid.pressure);
         exchange.by_surface_flux = exchange.by_fluid;
         exchange.velocities      = geometry->surface_velocities();
-        budget.add(exchange, dt);
+        budget.add(exchange);
       }
   }
 

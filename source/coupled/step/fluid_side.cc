@@ -168,20 +168,17 @@ namespace undine
   }
 
 
-  /// `act` on every effect, and add what each has done to the budget.
+  /// `act` on every effect, then `book` what each, by its number, has done.
   template <int dim>
-  template <class Action>
+  template <class Action, class Book>
   void
-  FluidSide<dim>::run_phase(FluidStage<dim>                  &fluid,
-                            const typename Budget<dim>::Phase phase,
-                            const Action                     &act)
+  FluidSide<dim>::run_phase(FluidStage<dim> &fluid, const Action &act, const Book &book)
   {
     for (unsigned int e = 0; e < models.effects.size(); ++e)
       {
         fluid.work.reset();
         act(*models.effects[e]);
-        if (fluid.stage.is_last)
-          budget.add(phase, e, fluid.state.velocity, fluid.work);
+        book(e);
       }
   }
 
@@ -201,37 +198,48 @@ namespace undine
   std::unique_ptr<FluidStage<dim>>
   FluidSide<dim>::predict(State<dim> &state, const Stage &stage)
   {
-    if (stage.is_first)
-      budget.start(state.fluid.velocity);
+    std::optional<Velocity<dim>> begin;
+    if (budget.is_on())
+      begin = state.fluid.velocity;
     place_surfaces(state, stage);
     if (cut && !cut->has_fluid())
       throw SolveError("bodies and obstacles have filled the domain: there is no fluid left in it. "
                        "Try: a smaller step, or obstacles that leave some.");
     share_parts(state.fluid);
-    auto fluid = std::make_unique<FluidStage<dim>>(model,
+    auto        fluid    = std::make_unique<FluidStage<dim>>(model,
                                                    state.fluid,
                                                    environment.gravity,
                                                    state.clock.time,
                                                    stage,
                                                    timing,
                                                    no_slip_bodies(state, stage));
+    const auto &velocity = state.fluid.velocity;
+    if (begin)
+      budget.go_on(*begin, velocity);
+    const auto book_transport = [&](const unsigned int effect) {
+      budget.transport(effect, velocity, fluid->work);
+    };
+    const auto book = [&](const BudgetTerm term) {
+      return [this, &velocity, &fluid, term](const unsigned int effect) {
+        budget.accelerate(term, effect, velocity, fluid->work);
+      };
+    };
     {
       const auto phase = timing.section("transport");
       run_phase(
-        *fluid, Budget<dim>::transport, [&](const auto &effect) { effect.transport(*fluid); });
+        *fluid, [&](const auto &effect) { effect.transport(*fluid); }, book_transport);
       fluid->remap();
-      if (stage.is_last)
-        budget.add(Budget<dim>::transport, state.fluid.velocity);
+      budget.transport(velocity);
     }
     {
       const auto phase = timing.section("accelerate");
       run_phase(
-        *fluid, Budget<dim>::forces, [&](const auto &effect) { effect.accelerate(*fluid); });
+        *fluid, [&](const auto &effect) { effect.accelerate(*fluid); }, book(BudgetTerm::forces));
     }
     {
       const auto phase = timing.section("diffuse");
       run_phase(
-        *fluid, Budget<dim>::diffusion, [&](const auto &effect) { effect.diffuse(*fluid); });
+        *fluid, [&](const auto &effect) { effect.diffuse(*fluid); }, book(BudgetTerm::diffusion));
     }
     return fluid;
   }
@@ -244,6 +252,9 @@ namespace undine
                          Report          &report,
                          const double     divergence)
   {
+    budget.end_fluid(state.fluid.velocity,
+                     fluid.by_contact ? &*fluid.by_contact : nullptr,
+                     fluid.carried_from_begin());
     fluid.finish();
     if (fluid.friction)
       surface_friction.end(state, fluid);

@@ -37,12 +37,14 @@ namespace undine
   void
   OneWay<dim>::solve_stage(State<dim> &state, const Stage &stage, Report &report)
   {
+    budget.begin_stage(stage);
     Half half = models.direction == Direction::fluid_to_body ? fluid_then_body(state, stage)
                                                              : body_then_fluid(state, stage);
-    if (budget.is_on() && stage.is_last)
+    if (budget.is_on())
       book(half, state);
     report.linear_iterations += half.projected.iterations;
     fluid_side.finish(*half.fluid, state, report, half.projected.divergence);
+    budget.end_stage();
     solid_side.finish(state, stage, half.solid, report);
   }
 
@@ -151,9 +153,11 @@ namespace undine
     const auto phase              = timing.section("measure");
     half.exchange.by_fluid        = fluid_side.geometry()->pressure_forces(state.fluid.pressure);
     half.exchange.by_surface_flux = half.exchange.by_fluid;
-    budget.add(half.projected.balance(*models.fluid, state.fluid), half.fluid->dt);
-    budget.add(half.exchange, half.fluid->dt);
-    budget.add(*half.solid.balance, half.fluid->dt);
+    budget.add(half.projected.balance(*models.fluid, state.fluid),
+               half.projected.before,
+               state.fluid.velocity);
+    budget.add(half.exchange);
+    budget.add(*half.solid.balance);
   }
 
 

@@ -25,11 +25,13 @@ namespace undine
   void
   SolidAlone<dim>::solve_stage(State<dim> &state, const Stage &stage, Report &report)
   {
+    budget.begin_stage(stage);
     solid_side.start(state, stage);
     const auto solid = solid_side.advance(state, stage);
     solid_side.end(state, stage);
-    if (solid.balance && stage.is_last)
-      budget.add(*solid.balance, stage.length);
+    if (solid.balance)
+      budget.add(*solid.balance);
+    budget.end_stage();
     solid_side.finish(state, stage, solid, report);
   }
 

@@ -46,10 +46,6 @@ namespace undine
     contact.time        = state.clock.time + stage.begin;
     contact.weight      = stage.duration() / stage.length;
     contact.keeps_rates = true;
-    if (stage.is_first)
-      contact.old_energy.reset();
-    if (stage.is_first && budget.is_on())
-      contact.old_energy = surroundings.contact->energy(contact.place, contact.time);
   }
 
 
@@ -60,8 +56,6 @@ namespace undine
     if (!stage.keeps_rates())
       return;
     start_contact(state, stage);
-    if (budget.is_on() && stage.is_first)
-      budget.start(solid_stepper.amounts(state.solid));
     state.stage_begin = state.solid;
     if (stage.is_first)
       state.mean_velocity = state.solid.velocity;
@@ -70,8 +64,14 @@ namespace undine
         state.solid.displacement.add(stage.going_on(), state.mean_velocity);
         state.solid.velocity.add(stage.going_on(), state.stage_begin.acceleration);
       }
-    if (budget.is_on() && stage.is_last)
-      budget.add(solid_stepper.amounts(state.solid));
+    if (!budget.is_on())
+      return;
+    Vector jump = state.solid.velocity, momenta = model.vector();
+    jump.add(-1., state.stage_begin.velocity);
+    solid_stepper.mass().vmult(momenta, jump);
+    budget.go_on(solid_stepper.amounts(state.stage_begin),
+                 solid_stepper.amounts(state.solid),
+                 {(jump * momenta) / 2, state.stage_begin.velocity * momenta});
   }
 
 
@@ -90,12 +90,26 @@ namespace undine
   }
 
 
+  /// (u - u^b).M a^b, with which the stage has gone on [W].
+  template <int dim>
+  double
+  SolidSide<dim>::work_of_kept_rate(const State<dim> &state) const
+  {
+    Vector change = state.solid.velocity, force = model.vector();
+    change.add(-1., state.stage_begin.velocity);
+    solid_stepper.mass().vmult(force, state.stage_begin.acceleration);
+    return change * force;
+  }
+
+
   template <int dim>
   void
   SolidSide<dim>::end(State<dim> &state, const Stage &stage) const
   {
     if (!stage.keeps_rates())
       return;
+    if (budget.is_on())
+      budget.end_bodies(stage.going_on() * work_of_kept_rate(state));
     if (stage.kept == KeptRate::mean)
       {
         const double of_begin = stage.going_on() / stage.duration();

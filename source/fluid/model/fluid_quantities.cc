@@ -31,10 +31,14 @@ namespace undine
     }
 
 
-    /// action(axis, rho V_f, v_f) for all owned faces and pieces.
+    /// action(axis, rho V_f, v_f, w_f) for all owned faces and pieces, v and w being on the same
+    /// topology.
     template <int dim, class Action>
     void
-    for_each_mass(const FluidModel<dim> &model, const Velocity<dim> &velocity, const Action &action)
+    for_each_mass(const FluidModel<dim> &model,
+                  const Velocity<dim>   &velocity,
+                  const Velocity<dim>   &other,
+                  const Action          &action)
     {
       const auto *open = velocity.topology();
       for (unsigned int axis = 0; axis < dim; ++axis)
@@ -43,12 +47,32 @@ namespace undine
           const auto *divided   = component.divided();
           for_each(component.owned(), [&](const GridIndex<dim> &face) {
             if (!divided || divided->kind(face) == SubLattice<dim>::Kind::whole)
-              action(axis, model.density() * model.grid().dual_volume(axis, face), component(face));
+              action(axis,
+                     model.density() * model.grid().dual_volume(axis, face),
+                     component(face),
+                     other[axis](face));
           });
           for (std::size_t k = 0; k < component.parts().size(); ++k)
             if (divided->owns(k))
-              action(axis, model.density() * open->pieces[axis][k].volume, component.parts()[k]);
+              action(axis,
+                     model.density() * open->pieces[axis][k].volume,
+                     component.parts()[k],
+                     other[axis].parts()[k]);
         }
+    }
+
+
+    /// action(axis, rho V_f, v_f).
+    template <int dim, class Action>
+    void
+    for_each_mass(const FluidModel<dim> &model, const Velocity<dim> &velocity, const Action &action)
+    {
+      for_each_mass(model,
+                    velocity,
+                    velocity,
+                    [&](const unsigned int axis, const double mass, const double v, const double) {
+                      action(axis, mass, v);
+                    });
     }
 
   } // namespace
@@ -72,6 +96,19 @@ namespace undine
       energy += mass * v * v / 2;
     });
     return dealii::Utilities::MPI::sum(energy, model.grid().communicator());
+  }
+
+
+  template <int dim>
+  double
+  inner_product(const FluidModel<dim> &model, const Velocity<dim> &v, const Velocity<dim> &w)
+  {
+    double product = 0;
+    for_each_mass(
+      model, v, w, [&](const unsigned int, const double mass, const double a, const double b) {
+        product += mass * a * b;
+      });
+    return dealii::Utilities::MPI::sum(product, model.grid().communicator());
   }
 
 
@@ -169,7 +206,9 @@ namespace undine
 
 
 #define INSTANTIATE(dim)                                                                           \
-  template double                 kinetic_energy(const FluidModel<dim> &, const Velocity<dim> &);  \
+  template double kinetic_energy(const FluidModel<dim> &, const Velocity<dim> &);                  \
+  template double inner_product(                                                                   \
+    const FluidModel<dim> &, const Velocity<dim> &, const Velocity<dim> &);                        \
   template dealii::Tensor<1, dim> linear_momentum(const FluidModel<dim> &, const Velocity<dim> &); \
   template dealii::Tensor<1, dim> largest_components(const FluidModel<dim> &,                      \
                                                      const Velocity<dim> &);                       \

@@ -49,7 +49,7 @@ namespace undine
   PressureBalance<dim>
   Projection<dim>::Report::balance(const FluidModel<dim> &model, const FluidState<dim> &state) const
   {
-    return pressure_balance(model, before, state.velocity, state.pressure, openings);
+    return pressure_balance(model, state.velocity, state.pressure, openings);
   }
 
 

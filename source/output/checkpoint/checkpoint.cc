@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/checkpoint/budget_array.h>
 #include <undine/output/checkpoint/checkpoint.h>
 #include <undine/output/checkpoint/geometry_arrays.h>
 #include <undine/output/checkpoint/particle_arrays.h>
@@ -204,6 +205,9 @@ namespace undine
         state.history = {}; // written by a run of constant steps: the scheme starts a new one
       if (!file.contains("sleep"))
         state.sleep = {}; // written by a run in which bodies did not sleep: all are awake
+      const auto n_rates = pack_budget(state.budget_rates, communicator).selection.size[0];
+      if (!file.contains(budget_array) || file.size(budget_array)[0] != n_rates)
+        state.budget_rates = {}; // of a run without a budget, or with other effects
       auto arrays = pack(models, state);
       read_arrays(arrays, file, slot, communicator);
       unpack(state, models, arrays);

@@ -76,10 +76,11 @@ namespace undine
     const auto &old_state = motion.old_state();
     result.elastic = elastic_energy(model, end) - elastic_energy(model, old_state.displacement);
     for (const auto &level : motion.coefficients().levels)
-      result.elastic_loss +=
+      result.elastic_work +=
         level.weight * internal_work(model,
                                      motion.level_displacement(end, level.position),
                                      displacement_increment);
+    result.elastic_loss = result.elastic_work;
     try
       {
         // Finer only where the increment is so large that the rule does not resolve the integral.

@@ -288,7 +288,9 @@ namespace undine
 
   template <int dim>
   SolidBalance<dim>
-  SolidEquations<dim>::balance(const Vector &velocity, const Vector &reactions) const
+  SolidEquations<dim>::balance(const Vector &velocity,
+                               const Vector &reactions,
+                               const Vector &by_contact) const
   {
     const Vector end                    = displacement(velocity);
     const Vector displacement_increment = increment(velocity);
@@ -324,8 +326,9 @@ namespace undine
     contact.balance(result, end, displacement_increment);
 
     // What it takes is its own; that its path may differ from the bodies' is the integrator's.
-    result.damping = dt * rayleigh_damping.power(velocity);
-    result.inertia_loss += damping * displacement_increment / weight - result.damping;
+    result.damping         = dt * rayleigh_damping.power(velocity);
+    result.damping_on_path = damping * displacement_increment / weight - result.damping;
+    result.inertia_loss += result.damping_on_path;
     result.loads         = loads * displacement_increment / weight;
     result.damping_force = -resultant(model, damping) / weight;
     result.loads_force   = resultant(model, loads) / weight;
@@ -335,6 +338,15 @@ namespace undine
     rest.add(1 - 1 / weight, damping);
     result.inertia_loss += rest * displacement_increment;
     result.inertia_gap += dt * resultant(model, rest);
+    if (by_contact.size() > 0)
+      {
+        Vector impulse = model.vector();
+        mass.vmult(impulse, by_contact);
+        result.contact_handed_on = velocity * impulse;
+        result.contact_impulse   = resultant(model, impulse);
+      }
+    result.force_rounding  = own_rounding;
+    result.energy_rounding = own_rounding * displacement_increment.l2_norm();
     return result;
   }
 

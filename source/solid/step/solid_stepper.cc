@@ -180,7 +180,8 @@ namespace undine
     auto momenta = model.vector();
     mass_matrix.vmult(momenta, state.velocity);
     SolidAmounts<dim> result;
-    result.energy = (momenta * state.velocity) / 2 + elastic_energy(model, state.displacement);
+    result.kinetic = (momenta * state.velocity) / 2;
+    result.elastic = elastic_energy(model, state.displacement);
     for (const auto &of_body : sums_by_body(model, momenta))
       result.momentum += of_body;
     return result;
@@ -263,9 +264,10 @@ namespace undine
     report.reactions          = equations.reactions(velocity);
     report.note               = solver.note();
     report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
+    const auto by_contact     = equations.contact_velocity(velocity);
     if (keeps_balance)
-      report.balance = equations.balance(velocity, report.reactions);
-    state = equations.end_state(velocity, equations.contact_velocity(velocity));
+      report.balance = equations.balance(velocity, report.reactions, by_contact);
+    state = equations.end_state(velocity, by_contact);
     return report;
   }
 

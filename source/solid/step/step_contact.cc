@@ -126,10 +126,9 @@ namespace undine
   {
     if (!contact)
       return;
-    const auto   timed = timing.section("contact");
-    const double before =
-      start.old_energy ? *start.old_energy : contact->energy(last_place(), last_time());
-    result.contact_energy  = contact->energy(end, time + dt) - before;
+    const auto timed = timing.section("contact");
+    result.contact_energy =
+      contact->energy(end, time + dt) - contact->energy(last_place(), last_time());
     const Vector repulsion = forces(end);
     if (repulsion.size() == 0)
       return;

@@ -34,7 +34,7 @@ namespace undine_tests
       : options(
           read_scene_text(fluid + section("Obstacles", obstacles) + section("Effects", effects)))
       , models(make_models<dim>(options))
-      , budget(models, BudgetOf::nothing)
+      , budget(models, KeepBudget::no)
       , scheme(models, budget, timing)
       , dt(dt)
     {

@@ -39,6 +39,44 @@ namespace
   }
 
 
+  /// What is wrong with the budget of a step: its sum must be what fluid and bodies have gained, as
+  /// the states show it.
+  std::vector<std::string>
+  complaints_about_budget(const SampleRun &before, const SampleRun &after)
+  {
+    double gain = 0, size = 0, by_terms = 0;
+    for (const std::string name :
+         {"Fluid kinetic energy", "solid kinetic energy", "solid elastic energy", "contact energy"})
+      if (after.has(name))
+        {
+          gain += after.column(name) - before.column(name);
+          size = std::max({size, after.column(name), before.column(name)});
+        }
+    for (const auto &term : {"transport",
+                             "forces",
+                             "diffusion",
+                             "boundary values",
+                             "sides",
+                             "openings",
+                             "loads",
+                             "supports",
+                             "damping",
+                             "contact",
+                             "integrator",
+                             "sleep"})
+      if (const std::string name = std::string("energy by ") + term; after.has(name))
+        by_terms += after.column(name);
+    if (!(std::abs(gain - by_terms) <= 1e-9 * size))
+      return {fmt::format(
+        "leaves the budget open: {:.12g} J gained, {:.12g} J by all terms", gain, by_terms)};
+    if (!(after.column("energy closure") <= 1e-9 && after.column("momentum closure") <= 1e-9))
+      return {fmt::format("leaves the budget open: closures {:.3g} and {:.3g}",
+                          after.column("energy closure"),
+                          after.column("momentum closure"))};
+    return {};
+  }
+
+
   /// What is wrong with what an effect that is on shows of its work.
   std::vector<std::string>
   complaints_when_on(const std::string &name, const EffectSample &sample)
@@ -46,14 +84,18 @@ namespace
     std::vector<std::string> complaints;
     const std::string        text = scene_with(sample, section(name, sample.keys));
     SampleRun                run(text), last(text), without(scene_with(sample, ""));
+    const bool               on_particles = run.scene.models.particles != nullptr;
     for (unsigned int n = 0; n < n_steps; ++n)
       {
         if (n > 0)
           last.step();
         run.step();
         without.step();
+        if (on_particles)
+          continue;
+        for (const auto &complaint : complaints_about_budget(last, run))
+          complaints.push_back(complaint);
       }
-    const bool on_particles = run.scene.models.particles != nullptr;
     if (!sample.moves_nothing && numbers_of(run.state) == numbers_of(without.state))
       complaints.push_back("is on, but the state is that without it");
     if (!on_particles && run.timing.work_of(name).calls == 0)

@@ -29,7 +29,7 @@ namespace undine_tests
   inline std::string
   sample_steps(const double dt)
   {
-    return section("Time", fmt::format("set End = 10\nset Step = {}\nset Integrator = theta", dt)) +
+    return section("Time", fmt::format("set End = 10\nset Step = {}", dt)) +
            section("Output", "set Budget = true\nset Parts = ");
   }
 
@@ -93,13 +93,50 @@ namespace undine_tests
   }
 
 
-  /// Of a uniform acceleration of the open column, which hinders nothing.
-  inline double
-  work_on_column(const SampleRun &before, const SampleRun &after, const double acceleration)
+  /// The default integrator's step (T9).
+  struct DefaultStep
   {
-    const double mass = 2, gain = after.report.dt * acceleration;
-    const double speed = std::sqrt(2 * before.column("Fluid kinetic energy") / mass);
-    return mass * gain * (speed + gain / 2);
+    explicit DefaultStep(const SampleRun &after)
+      : length(after.report.dt)
+      , g((1 - std::sqrt(.5)) * length)
+      , w(std::sqrt(2.) / 4 * length)
+    {
+    }
+
+    /// The integral over the step of what has these values where it begins, between its stages and
+    /// where it ends.
+    double
+    integral(const double begin, const double middle, const double end) const
+    {
+      return w * (begin + middle) + g * end;
+    }
+
+    /// What is between the stages of a quantity that decays with the rate `rate` [1/s].
+    double
+    decayed(const double begin, const double rate) const
+    {
+      return begin * (1 - g * rate) / (1 + g * rate);
+    }
+
+    double length, g, w; ///< [s]
+  };
+
+
+  /// Of a uniform acceleration of the open column, which hinders nothing, as a function of time.
+  template <class Acceleration>
+  double
+  work_on_column(const SampleRun &before, const SampleRun &after, const Acceleration &acceleration)
+  {
+    const DefaultStep step(after);
+    const double      mass = 2, end = after.state.clock.time, begin = end - step.length;
+    const double      middle = begin + 2 * step.g;
+    const auto        speed  = [&](const SampleRun &run) {
+      return std::sqrt(2 * run.column("Fluid kinetic energy") / mass);
+    };
+    const double between = speed(before) + step.g * (acceleration(begin) + acceleration(middle));
+    return mass * step.integral(acceleration(begin) * speed(before),
+                                acceleration(middle) * between,
+                                acceleration(end) * speed(after));
   }
 
 
@@ -117,11 +154,14 @@ namespace undine_tests
   inline double
   loss_by_friction(const SampleRun &before, const SampleRun &after)
   {
-    // v* = v / (1 + h nu k^2) with the k^2 of the grid's own Laplacian.
-    const double width  = 1. / 16;
+    // v decays with the rate nu k^2, with the k^2 of the grid's own Laplacian.
+    const DefaultStep step(after);
+    const double      width = 1. / 16;
     const double square = 2 * (2 - 2 * std::cos(2 * dealii::numbers::PI * width)) / (width * width);
-    const double share  = 1 / (1 + after.report.dt * 0.05 * square);
-    return before.column("Fluid kinetic energy") * (share * share - 1);
+    const double rate   = 0.05 * square;
+    const auto   energy = [](const SampleRun &run) { return run.column("Fluid kinetic energy"); };
+    const double speed  = step.decayed(std::sqrt(2 * energy(before)), rate);
+    return -2 * rate * step.integral(energy(before), speed * speed / 2, energy(after));
   }
 
 
@@ -161,20 +201,23 @@ namespace undine_tests
                             const auto path = displacement_of_block(before, after);
                             return 0.5 * (3 * path[0] - 10 * path[1]);
                           }};
-    samples["damping"] = {flying_block(),
-                          "",
-                          "set Mass coefficient = 2",
-                          "",
-                          [](const auto &before, const auto &after) {
-                            return -2 * 0.5 * displacement_of_block(before, after).norm_square() /
-                                   after.report.dt;
-                          }};
-    samples["sleep"]   = {
-        flying_block(),
-        "",
-        "set Speed = 10\nset Time = 0.02",
-        "",
-        [](const auto &before, const auto &) { return -before.column("solid kinetic energy"); }};
+    samples["damping"] = {
+      flying_block(),
+      "",
+      "set Mass coefficient = 2",
+      "",
+      [](const auto &before, const auto &after) {
+        const DefaultStep step(after);
+        const auto   energy = [](const auto &run) { return run.column("solid kinetic energy"); };
+        const double speed  = step.decayed(std::sqrt(energy(before)), 2);
+        return -2 * 2 * step.integral(energy(before), speed * speed, energy(after));
+      }};
+    samples["sleep"] = {
+      flying_block(),
+      "",
+      "set Speed = 10\nset Time = 0.02",
+      "",
+      [](const auto &before, const auto &) { return -before.column("solid kinetic energy"); }};
     samples["contact"] = {
       flying_block(),
       "",
@@ -182,7 +225,7 @@ namespace undine_tests
         section("Walls", section("right", "set Point = 1.04, 0\nset Normal = -1, 0")),
       "",
       [](const auto &, const auto &after) {
-        return rest_of_gain(after, {"inertia", "elasticity", "loads", "supports"});
+        return rest_of_gain(after, {"integrator", "loads", "supports"});
       }};
   }
 
@@ -198,14 +241,17 @@ namespace undine_tests
                              section("Fluid", "set Force per volume = 0; 6*t"),
                              "",
                              [](const auto &before, const auto &after) {
-                               return work_on_column(before, after, 3 * after.state.clock.time);
+                               return work_on_column(
+                                 before, after, [](const double time) { return 3 * time; });
                              }};
     samples["buoyancy"]   = {
         open_column(),
         gravity + heat,
         section("heat", "set Expansion coefficient = 0.05\nset Reference value = 1"),
         "",
-        [](const auto &before, const auto &after) { return work_on_column(before, after, 0.5); }};
+        [](const auto &before, const auto &after) {
+        return work_on_column(before, after, [](const double) { return 0.5; });
+      }};
     samples["scalar transport"] = {
       open_column(),
       "",
@@ -223,11 +269,11 @@ namespace undine_tests
     samples["viscosity"] = {
       vortices(0.02), "", "set Dynamic viscosity = 0.05", "", loss_by_friction};
     samples["convection"] = {vortices(0.05), "", "", "", [](const auto &, const auto &after) {
-                               return rest_of_gain(after, {"projection"});
+                               return rest_of_gain(after, {"integrator"});
                              }};
     samples["vorticity confinement"] = {
       vortices(0.05), convection(), "set Strength = 2", "", [](const auto &, const auto &after) {
-        return rest_of_gain(after, {"projection", "convection"});
+        return rest_of_gain(after, {"integrator", "convection"});
       }};
   }
 

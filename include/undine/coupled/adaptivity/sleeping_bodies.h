@@ -71,8 +71,8 @@ namespace undine
     keep_still(const State<dim> &state);
     std::shared_ptr<const SolidMeasures<dim>>
     measure_asleep(const State<dim> &state) const;
-    SolidAmounts<dim>
-    take_rest(State<dim> &state) const;
+    void
+    take_rest(State<dim> &state);
     Vectors
     loads_on_bodies(const State<dim> &state, double time) const;
     void
@@ -101,8 +101,7 @@ namespace undine
     std::vector<std::pair<std::string, std::string>> names;    ///< of its columns, with units
 
     /// Within a step. @{
-    SolidState        whole; ///< all bodies at t^n
-    SolidAmounts<dim> rest;  ///< taken from those that have fallen asleep
+    SolidState whole; ///< all bodies at t^n
     /// @}
   };
 } // namespace undine

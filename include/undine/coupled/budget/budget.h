@@ -3,18 +3,19 @@
 #define undine_coupled_budget_budget_h
 
 #include <undine/base/core/column.h>
+#include <undine/base/core/stage.h>
 #include <undine/coupled/model/models.h>
+#include <undine/coupled/state/budget_amounts.h>
 #include <undine/fluid/grid/fluid_state.h>
 #include <undine/fluid/pressure/pressure_balance.h>
 #include <undine/solid/step/solid_balance.h>
 
-#include <array>
 #include <optional>
 #include <vector>
 
 namespace undine
 {
-  /// Forces and velocities that fluid and surfaces exchanged in a step, [nodes of all surfaces],
+  /// Forces and velocities that fluid and surfaces exchanged in a stage, [nodes of all surfaces],
   /// those of bodies first.
   template <int dim>
   struct SurfaceExchange
@@ -31,39 +32,37 @@ namespace undine
   };
 
 
-  /// The steps of which a budget is kept. Those of several stages keep rates (Stage): what earlier
-  /// stages do is a term of their budget.
-  enum class BudgetOf
+  enum class KeepBudget
   {
-    nothing,
-    steps_of_one_stage,
-    steps_of_several_stages
+    no,
+    yes
   };
 
 
   /// Where energy and momentum of a step come from and go to, each term from its own formula, and
-  /// what is missing in the sum. A budget of nothing does nothing and costs nothing.
+  /// what is missing in the sum. A budget that is not kept does nothing and costs nothing.
+  ///
+  /// Stages (T10) go on with the rates of earlier times, for a length l_j with that of time j, and
+  /// then with the rate at their end for the length g. So does the work of every force: that of the
+  /// power P_j = F_j.v_j [W] is
+  ///
+  ///     sum_j l_j P_j + g P                                                               [J]
+  ///
+  /// over the stage, which is a quadrature of the order of the method. What the sum of it over all
+  /// forces differs from the change of energy is quadratic in the rates; it is the integrator's,
+  /// computed from them.
   template <int dim>
   class Budget
   {
   public:
-    /// The phases of a stage that change the fluid's velocity before the pressures.
-    enum Phase
-    {
-      transport, ///< also to the new topology of the fluid
-      forces,
-      diffusion,
-      boundary_values ///< velocities given on inflows and walls
-    };
-
     /// `models` must outlive it.
-    Budget(const Models<dim> &models, BudgetOf kept);
+    Budget(const Models<dim> &models, KeepBudget kept);
 
-    /// False if the budget is kept of nothing: all functions do nothing and there are no columns.
+    /// False if the budget is not kept: all functions do nothing and there are no columns.
     bool
     is_on() const
     {
-      return kept != BudgetOf::nothing;
+      return kept == KeepBudget::yes;
     }
 
     /// From now on bodies that sleep count as obstacles; `surface`: that in which only the others
@@ -71,43 +70,80 @@ namespace undine
     void
     follow(const ImmersedSurface<dim> *surface);
 
-    /// A step begins; with a fluid: with v^n, collective. @{
+    /// A step begins, with the rates (as returned by rates()) of the time at which it begins.
     void
-    start();
+    start(const BudgetAmounts<dim> &rates);
+
+    /// Bodies fell asleep where the step begins: their energy and momentum, and the power and force
+    /// by which these would have gone on to change, are taken from them.
     void
-    start(const Velocity<dim> &velocity);
+    add_rest(const SolidAmounts<dim> &rest, const SolidAmounts<dim> &rates);
+
+    /// The step's stages, one after the other; between begin and end of a stage what has happened
+    /// in it is added. @{
+    void
+    begin_stage(const Stage &stage);
+    void
+    end_stage();
     /// @}
 
-    /// Stages that keep rates (Stage): the budget of the last one is that of a step from its start.
-    /// What leads to that start, by the rates of earlier stages, is a term of its own for bodies,
-    /// and included in `transport` for the fluid. To be called with the bodies at t^n, then with
-    /// those at the last stage's start. @{
+    /// The fluid goes on from `begin` at the begin of the stage to `start`, its implicit step
+    /// begins. Collective.
     void
-    start(const SolidAmounts<dim> &bodies);
-    void
-    add(const SolidAmounts<dim> &bodies);
-    /// @}
+    go_on(const Velocity<dim> &begin, const Velocity<dim> &start);
 
-    /// A phase has led to `velocity`, or effect number `effect` of `models` in that phase has; its
+    /// Bodies do. `jump` holds |u^0 - u^b|^2/2 and u^b.(u^0 - u^b), both with M [J].
+    struct Jump
+    {
+      double half_square = 0;
+      double along       = 0;
+    };
+    void
+    go_on(const SolidAmounts<dim> &begin, const SolidAmounts<dim> &start, const Jump &jump);
+
+    /// The bodies' stage has ended; `along`: (u - u^b).(u^0 - u^b) with M [J].
+    void
+    end_bodies(double along);
+
+    /// The flow has carried the fluid to `velocity`, or effect number `effect` of `models` has; its
     /// energy is `work` [J], of this rank, by the effect's own formula, or if that is empty the
     /// change of the kinetic energy. Collective. @{
     void
-    add(Phase phase, const Velocity<dim> &velocity);
+    transport(const Velocity<dim> &velocity);
     void
-    add(Phase                        phase,
-        unsigned int                 effect,
-        const Velocity<dim>         &velocity,
-        const std::optional<double> &work);
+    transport(unsigned int                 effect,
+              const Velocity<dim>         &velocity,
+              const std::optional<double> &work);
     /// @}
 
-    /// What followed in a step of `dt` [s]; boundary_values are what pressures found changed.
-    /// @{
+    /// The effect of that number has accelerated the fluid to `velocity`: `term` is forces or
+    /// diffusion; `work` as above, with the mean of the velocities before and after. Collective.
     void
-    add(const PressureBalance<dim> &pressures, double dt);
+    accelerate(BudgetTerm                   term,
+               unsigned int                 effect,
+               const Velocity<dim>         &velocity,
+               const std::optional<double> &work);
+
+    /// Pressures have led from `before`, with velocities on inflows and walls in place, to `after`.
+    /// Collective.
     void
-    add(const SurfaceExchange<dim> &surfaces, double dt);
+    add(const PressureBalance<dim> &pressures,
+        const Velocity<dim>        &before,
+        const Velocity<dim>        &after);
+
+    /// The fluid's stage has ended with `velocity`, of which `by_contact` (or none, nullptr) is no
+    /// rate that the next stage goes on with; `begin` is what the velocity at the begin of the
+    /// stage has been carried to if a mean rate is kept, else nullptr. Collective.
     void
-    add(const SolidBalance<dim> &solid, double dt);
+    end_fluid(const Velocity<dim> &velocity,
+              const Velocity<dim> *by_contact,
+              const Velocity<dim> *begin);
+
+    /// What followed in the implicit step. @{
+    void
+    add(const SurfaceExchange<dim> &surfaces);
+    void
+    add(const SolidBalance<dim> &solid);
     /// @}
 
     /// Forget what has been added since `earlier` was copied from this: a part of the step is
@@ -115,77 +151,89 @@ namespace undine
     void
     go_back_to(const Budget &earlier);
 
-    /// Energy and momentum taken from bodies that fell asleep.
-    void
-    add_rest(const SolidAmounts<dim> &rest);
+    /// The power and force of every term at the end of the step, for the next one. Empty if no
+    /// rates are kept.
+    BudgetAmounts<dim>
+    rates() const;
+
+    /// Of a state at rest.
+    BudgetAmounts<dim>
+    rates_at_start() const;
 
     /// The terms as gains of fluid and bodies, energies in J, momenta in kg m/s (in 2D per metre).
     /// After them "energy by NAME" for every effect that is on: what of the terms is due to it.
     /// "energy closure": |gain - sum of terms| over energy and |terms|. "momentum closure": the
-    /// same over h sum_i |(B^T p)_i| or, where no surface feels the fluid, over |terms|. None if
-    /// off.
+    /// same over the sizes of impulses, in the fluid, on surfaces and of all terms. None if off.
     Columns
     columns() const;
 
   private:
-    enum Term
+    using Amounts = BudgetAmounts<dim>;
+    using Amount  = typename Amounts::Amount;
+
+    /// The sum of the powers of all rates that are kept differs from that of the rate itself: with
+    /// u, the power of a rate r is u.M r [W].
+    struct Kept
     {
-      // fluid
-      by_transport,
-      by_forces,
-      by_diffusion,
-      by_boundary_values,
-      by_sides,    ///< where the velocity is given
-      by_openings, ///< where the pressure is given
-      by_projection,
-      // surfaces
-      by_obstacles,
-      by_interface, ///< what bodies get less what the fluid gives
-      by_fluid_at_rest,
-      by_friction, ///< what bodies get; the fluid gives it by diffusion
-                   // bodies
-      by_loads,
-      by_supports,
-      by_damping,
-      by_contact,    ///< in energy the integrator's: work and gain of the potential
-      by_inertia,    ///< of the integrator
-      by_elasticity, ///< of the integrator
-      by_stages,     ///< the earlier ones
-      by_sleep,      ///< taken from bodies that fall asleep
-      n_terms
+      double                 by_integrator = 0; ///< it belongs to another velocity [W]
+      double                 by_transport  = 0; ///< rate and velocity have been carried [W]
+      dealii::Tensor<1, dim> momentum;          ///< by transport [N]
     };
 
-    static_assert(int(by_boundary_values) == int(boundary_values), "phases are the first terms");
-
-    struct Amount
+    /// A change of the fluid's velocity whose work is known when the stage's end is.
+    struct Change
     {
-      double                 energy = 0;
-      dealii::Tensor<1, dim> momentum;
+      BudgetTerm    term;
+      int           effect; ///< -1: none
+      Velocity<dim> velocity;
+      double        own_work; ///< the formula's less the measured one [J]
     };
 
-    static const char *const names[n_terms];
+    /// All that changes in a step.
+    struct Books
+    {
+      Amounts              amounts; ///< of the step
+      Amounts              acting;  ///< of the implicit step of the stage
+      std::vector<Amounts> rates;   ///< at the begin of the step and the ends of its stages
+      Amount               gain;
+      double               energy           = 0; ///< sum of the sizes of what there is [J]
+      double               impulse_of_fluid = 0; ///< sum of the sizes of impulses on it [N s]
+      double               energy_rounding  = 0; ///< what rounding may leave [J]
+      double               impulse_rounding = 0; ///< [N s]
+      Stage                stage;
+      bool                 knows_rates = false;
+      Kept                 fluid, bodies;
+      // Of the fluid in this stage.
+      int                 carrier = -1;       ///< the effect that has carried the fluid, if any
+      Amount              at_begin, at_start; ///< v^b and v^0
+      double              begin_along = 0;    ///< v^b.(v^0 - v^b) [J]
+      Velocity<dim>       carried;            ///< what v^0 has been carried to
+      Velocity<dim>       last;
+      double              last_energy = 0;
+      std::vector<Change> changes;
+    };
 
+    static const char *
+    name(BudgetTerm term);
     bool
-    concerns(unsigned int term) const;
+    concerns(BudgetTerm term) const;
     Amount
     missing() const;
     Amount
     amount(const Velocity<dim> &velocity) const;
+    double
+    duration_of_kept() const;
+    double
+    mass_of_fluid() const;
     void
     add_effects(Columns &columns) const;
 
     const Models<dim>          &models;
-    const BudgetOf              kept;
+    const KeepBudget            kept;
     const bool                  has_contact;
     const bool                  has_sleep;
     const ImmersedSurface<dim> *surface; ///< nullptr: none
-    Amount                      fluid;   ///< what it has, as far as the step has come
-    Amount                      bodies;  ///< what they had at t^n
-    Amount                      gain;
-    std::array<Amount, n_terms> terms;
-    std::vector<double>         by_effect;            ///< [J]
-    double                      energy           = 0; ///< of fluid and bodies
-    double                      impulse_of_fluid = 0; ///< h sum_i |(B^T p)_i|
+    Books                       books;
   };
 } // namespace undine
 

@@ -3,6 +3,7 @@
 #define undine_coupled_state_state_h
 
 #include <undine/base/core/clock.h>
+#include <undine/coupled/state/budget_amounts.h>
 #include <undine/coupled/state/sleep_state.h>
 #include <undine/coupled/state/step_history.h>
 #include <undine/fluid/grid/fluid_state.h>
@@ -39,6 +40,9 @@ namespace undine
 
     /// Forces other than friction on the nodes of bodies in the last stage (SurfaceFriction) [N].
     std::vector<dealii::Tensor<1, dim>> other_forces;
+
+    /// Of the time that the state is at, for the budget of the next step, if it is kept.
+    BudgetAmounts<dim> budget_rates;
 
     StepHistory<dim> history;
     SleepState<dim>  sleep;

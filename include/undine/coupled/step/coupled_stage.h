@@ -56,6 +56,13 @@ namespace undine
       return fluid_by_contact;
     }
 
+    /// v* with the velocities of inflows and walls [m/s].
+    const Velocity<dim> &
+    velocity_before_pressures() const
+    {
+      return predicted;
+    }
+
     /// max |D v + B u| per face of a cell and speed after solve() [1].
     double
     divergence() const;
@@ -94,6 +101,7 @@ namespace undine
     BlockSystem::BlockVector                x;         ///< u^{n+1}, p
     Velocity<dim>                           predicted; ///< v*
     std::optional<Velocity<dim>>            fluid_by_contact;
+    Vector                                  bodies_by_contact;
     double                                  divergence_left = 0;
   };
 } // namespace undine

@@ -28,7 +28,7 @@ namespace undine
 
   private:
     void
-    balance(const State<dim> &state, const typename Projection<dim>::Report &projected, double dt);
+    balance(const State<dim> &state, const typename Projection<dim>::Report &projected);
 
     const FluidModel<dim> &model;
     Budget<dim>           &budget;

@@ -72,9 +72,9 @@ namespace undine
     }
 
   private:
-    template <class Action>
+    template <class Action, class Book>
     void
-    run_phase(FluidStage<dim> &fluid, typename Budget<dim>::Phase phase, const Action &act);
+    run_phase(FluidStage<dim> &fluid, const Action &act, const Book &book);
     void
     count_memory(const FluidState<dim> &state);
     SolidState

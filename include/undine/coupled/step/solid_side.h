@@ -79,6 +79,8 @@ namespace undine
     }
 
   private:
+    double
+    work_of_kept_rate(const State<dim> &state) const;
     void
     start_contact(State<dim> &state, const Stage &stage) const;
 

@@ -20,6 +20,11 @@ namespace undine
   double
   kinetic_energy(const FluidModel<dim> &model, const Velocity<dim> &velocity);
 
+  /// sum_f rho V_f v_f w_f over faces, of velocities on the same topology [J] (per metre in 2D).
+  template <int dim>
+  double
+  inner_product(const FluidModel<dim> &model, const Velocity<dim> &v, const Velocity<dim> &w);
+
   /// sum_f rho V_f v_f of the faces normal to each axis, [kg m/s] (per metre in 2D).
   template <int dim>
   dealii::Tensor<1, dim>

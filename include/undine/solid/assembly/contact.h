@@ -5,7 +5,6 @@
 #include <undine/base/core/column.h>
 #include <undine/solid/mesh/solid_model.h>
 
-#include <optional>
 #include <vector>
 
 namespace undine
@@ -78,9 +77,6 @@ namespace undine
     double                                time   = 0; ///< of that [s]
     double                                weight = 1; ///< duration over length of the stage [1]
     bool                                  keeps_rates = false;
-
-    /// E at t^n [J], if the budget needs it.
-    std::optional<double> old_energy;
   };
 } // namespace undine
 

@@ -26,8 +26,8 @@ namespace undine
                   const typename SolidModel<dim>::Vector &velocity,
                   const typename SolidModel<dim>::Vector &displacement_increment);
 
-  /// Set elastic and elastic_loss. `end` is d^{n+1} [m], `rounding` what rounding leaves of forces
-  /// [N]. Costs several evaluations of internal forces.
+  /// Set elastic, elastic_work and elastic_loss. `end` is d^{n+1} [m], `rounding` what rounding
+  /// leaves of forces [N]. Costs several evaluations of internal forces.
   template <int dim>
   void
   balance_elasticity(SolidBalance<dim>                      &result,

@@ -36,22 +36,36 @@ namespace undine
     /// The contribution of each effect to the loads, by its own force [J].
     std::map<std::string, double> loads_by_effect;
 
-    double contact_energy = 0; ///< gain of the potential of contact, over all stages [J]
+    double contact_energy = 0; ///< gain of the potential of contact, from the stage's begin [J]
+
+    double elastic_work      = 0; ///< sum_e w_e K(d_e).dd [J]
+    double damping_on_path   = 0; ///< in inertia_loss: forces of damping times dd / W - damping [J]
+    double contact_handed_on = 0; ///< u.M u_c, u_c being no rate that later stages use [J]
+    double energy_rounding   = 0; ///< what rounding leaves of energies [J]
+    double force_rounding    = 0; ///< and of forces [N]
 
     dealii::Tensor<1, dim> momentum;    ///< gain of sum M u [kg m/s]
     dealii::Tensor<1, dim> inertia_gap; ///< h sum M (m u + ...) - momentum, and the rest [kg m/s]
     dealii::Tensor<1, dim> loads_force; ///< [N]
-    dealii::Tensor<1, dim> supports_force; ///< [N]
-    dealii::Tensor<1, dim> damping_force;  ///< [N]
-    dealii::Tensor<1, dim> contact_force;  ///< [N]
+    dealii::Tensor<1, dim> supports_force;  ///< [N]
+    dealii::Tensor<1, dim> damping_force;   ///< [N]
+    dealii::Tensor<1, dim> contact_force;   ///< [N]
+    dealii::Tensor<1, dim> contact_impulse; ///< sum M u_c [kg m/s]
   };
 
   /// Energy and momentum of all bodies.
   template <int dim>
   struct SolidAmounts
   {
-    double                 energy = 0; ///< u.M u/2 + int W dX [J]
-    dealii::Tensor<1, dim> momentum;   ///< sum M u [kg m/s]
+    double                 kinetic = 0; ///< u.M u/2 [J]
+    double                 elastic = 0; ///< int W dX [J]
+    dealii::Tensor<1, dim> momentum;    ///< sum M u [kg m/s]
+
+    double
+    energy() const
+    {
+      return kinetic + elastic;
+    }
   };
 } // namespace undine
 

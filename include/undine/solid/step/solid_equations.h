@@ -117,7 +117,7 @@ namespace undine
     /// Energy and momentum of the step that ends with `velocity`, for the `reactions` of the same.
     /// Costs several evaluations of internal forces. Collective.
     SolidBalance<dim>
-    balance(const Vector &velocity, const Vector &reactions) const;
+    balance(const Vector &velocity, const Vector &reactions, const Vector &by_contact) const;
 
     /// d residual / du [kg/s], with a diagonal of its own size at fixed degrees of freedom.
     Matrix

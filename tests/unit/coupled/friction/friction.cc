@@ -41,7 +41,7 @@ namespace
     const Options options(read_scene_text(swirl_among_bodies<dim>() + section("Obstacles", bodies) +
                                           section("Effects", viscosity(30))));
     const auto    models = make_models<dim>(options);
-    Budget<dim>   budget(models, BudgetOf::steps_of_one_stage);
+    Budget<dim>   budget(models, KeepBudget::yes);
     TimingTree    timing;
     FluidAlone<dim> scheme(models, budget, timing);
     State<dim>      state;
@@ -49,13 +49,17 @@ namespace
     const double    dt = .01;
     scheme.initialize(state, dt, report);
     FluidSide<dim> side(models, budget, timing);
-    const auto     fluid = side.predict(state, single_stage(dt));
+    const Stage    stage = single_stage(dt);
+    budget.begin_stage(stage);
+    const auto fluid = side.predict(state, stage);
     REQUIRE(fluid->friction);
     dealii::Tensor<1, dim> on_nodes, on_sides;
     for (const auto &force : fluid->friction->on_nodes)
       on_nodes += force;
     for (const auto &force : fluid->friction->on_boundaries)
       on_sides += force;
+    budget.add(PressureBalance<dim>(), state.fluid.velocity, state.fluid.velocity);
+    budget.end_stage();
     const auto   columns   = budget.columns();
     unsigned int n_columns = 0;
     for (unsigned int axis = 0; axis < dim; ++axis)
