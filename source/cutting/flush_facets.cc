@@ -49,9 +49,10 @@ namespace undine
         auto result = positions;
         for (const auto &[key, plane] : all)
           {
-            const auto [axis, number] = key;
-            const auto   held         = nodes_of_facing(plane, axis);
-            const double place        = planes.position(axis, number);
+            const unsigned int axis   = std::get<0>(key);
+            const int          number = std::get<1>(key);
+            const auto         held   = nodes_of_facing(plane, axis);
+            const double       place  = planes.position(axis, number);
             // A few units of what rounding may do to lengths there.
             const double beyond =
               4 * planes.rounding(axis, number - 1) * planes.width(axis, number - 1);

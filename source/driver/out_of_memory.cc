@@ -46,8 +46,8 @@ namespace undine
     }
 
 
-    /// What was allocated; ends the run if that is nothing.
-    void *
+    /// What was allocated; ends the run if that is nothing. Sanitizers allocate without it.
+    [[maybe_unused]] void *
     checked(void *memory, const std::size_t size)
     {
       if (memory == nullptr && size > 0)
@@ -90,11 +90,13 @@ namespace undine
 #if defined(__GLIBC__) && !defined(UNDINE_SANITIZED)
 extern "C"
 {
+  // NOLINTBEGIN(bugprone-reserved-identifier): names of glibc
   void *__libc_malloc(std::size_t);
   void *__libc_calloc(std::size_t, std::size_t);
   void       *
   __libc_realloc(void *, std::size_t);
   void *__libc_memalign(std::size_t, std::size_t);
+  // NOLINTEND(bugprone-reserved-identifier)
 
 
   void *

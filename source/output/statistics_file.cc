@@ -74,7 +74,7 @@ namespace undine
       Kept               kept;
       std::istringstream lines(text);
       for (std::string line; std::getline(lines, line) && !lines.eof();)
-        if (line.rfind("#", 0) == 0)
+        if (line.rfind('#', 0) == 0)
           kept.header += line + "\n";
         else if (leading_number(line, path) <= last_step)
           kept.rows += line + "\n";

@@ -261,20 +261,20 @@ namespace undine
     for (int &index : last.values)
       --index;
     const auto lowest = lattice.point(box.lower), highest = lattice.point(last);
-    for (const auto &[swept_box, facet] : swept_boxes)
+    for (const auto &leaf : swept_boxes)
       for_each_image<dim>(
-        lowest, highest, swept_box, periods, thickness, [&](const auto &image, const auto &) {
+        lowest, highest, leaf.first, periods, thickness, [&](const auto &image, const auto &) {
           const dealii::Tensor<1, dim> shift = image - lowest;
           IndexBox<dim>                points;
           for (unsigned int d = 0; d < dim; ++d)
             {
               const auto &row = lattice.row(d);
-              points.lower[d] = row.locate(swept_box.lower_bound(d) - shift[d]).lower;
-              points.upper[d] = row.locate(swept_box.upper_bound(d) - shift[d]).lower + 2;
+              points.lower[d] = row.locate(leaf.first.lower_bound(d) - shift[d]).lower;
+              points.upper[d] = row.locate(leaf.first.upper_bound(d) - shift[d]).lower + 2;
             }
           for_each(points.intersection(box), [&](const GridIndex<dim> &index) {
             const dealii::Point<dim> place = lattice.point(index) + shift;
-            if (swept_box.point_inside(place) && passes_over(facet, place))
+            if (leaf.first.point_inside(place) && passes_over(leaf.second, place))
               action(index);
           });
         });

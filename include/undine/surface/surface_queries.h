@@ -31,7 +31,7 @@ namespace undine
     /// Keeps the positions and a pointer to the surface, which must outlive it.
     SurfaceQueries(const MacGrid<dim> &grid, MovedSurface<dim> moved);
 
-    ~SurfaceQueries();
+    ~SurfaceQueries() override;
 
     using FacetImage = typename Obstruction<dim>::FacetImage;
 

@@ -124,10 +124,10 @@ namespace undine
 
   template <int dim>
   void
-  ParticleScheme<dim>::follow(typename Scheme<dim>::Follower new_follower)
+  ParticleScheme<dim>::follow(const typename Scheme<dim>::Follower &new_follower)
   {
     constexpr double pause = 1; // [s]
-    follower               = std::move(new_follower);
+    follower               = new_follower;
     if (follower)
       engine->watch([this](const particles::StepControl &control) { return tell(control); }, pause);
     else

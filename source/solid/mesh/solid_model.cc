@@ -130,6 +130,7 @@ namespace undine
             all.insert({dof, {dof, face.body, face.boundary, axes[dof]}});
       }
     std::vector<FixedDof> result;
+    result.reserve(all.size());
     for (const auto &entry : all)
       result.push_back(entry.second);
     return result;

@@ -124,8 +124,11 @@ namespace undine
       if (const auto *text = assigned_text(key); text != nullptr && *text != name)
         leave_unjudged(); // which keys the part would have is not known
       if (is_reference())
-        for (const auto &other : registry.names())
-          registry.make(other)->add_options(under_condition(key + " = " + other));
+        {
+          const std::string assignment = key + " = ";
+          for (const auto &other : registry.names())
+            registry.make(other)->add_options(under_condition(assignment + other));
+        }
       auto part = registry.make(name);
       if (!is_reference())
         part->add_options(*this);

@@ -33,7 +33,7 @@ namespace undine
     choose_dt(const State<dim> &state) const override;
 
     void
-    follow(typename Scheme<dim>::Follower follower) override;
+    follow(const typename Scheme<dim>::Follower &follower) override;
 
     /// Throws Interruption or particles::FrameAbandoned if the follower wants that.
     Report

@@ -54,7 +54,7 @@ namespace undine
     /// From now on tell `follower` of steps that take longer than a second, about every second.
     /// Schemes that do not know how far a step is tell nothing.
     virtual void
-    follow(Follower)
+    follow(const Follower &)
     {
     }
 
