@@ -88,8 +88,8 @@ namespace undine
     , surfaces(given, solid, fluid, obstacles)
     , pattern(solid, surfaces.bodies())
   {
-    if (settings.gap == 0)
-      settings.gap = share_of_facet * surfaces.facet_size();
+    if (settings.activation_distance == 0)
+      settings.activation_distance = share_of_facet * surfaces.facet_size();
     if (settings.stiffness == 0)
       settings.stiffness = least_modulus(solid);
   }
@@ -112,7 +112,7 @@ namespace undine
   typename BodyContact<dim>::Terms
   BodyContact<dim>::terms(const Places &places) const
   {
-    const auto result = find_contact_terms(surfaces, places, settings.gap);
+    const auto result = find_contact_terms(surfaces, places, settings.activation_distance);
     for (const auto &term : result)
       if (!(term.distance > 0))
         throw SolveError(fmt::format(
@@ -128,7 +128,7 @@ namespace undine
   ContactPotential<dim>
   BodyContact<dim>::potential() const
   {
-    return {settings.gap, settings.stiffness};
+    return {settings.activation_distance, settings.stiffness};
   }
 
 
@@ -228,7 +228,7 @@ namespace undine
   {
     const auto places_from = surfaces.places(from.displacement, from.time);
     const auto places_to   = surfaces.places(to.displacement, to.time);
-    return free_part_of_paths(surfaces, places_from, places_to, settings.gap / 2);
+    return free_part_of_paths(surfaces, places_from, places_to, settings.activation_distance / 2);
   }
 
 
@@ -252,7 +252,7 @@ namespace undine
   {
     const auto             places = surfaces.places(displacement, time);
     const auto             found  = terms(places);
-    double                 least  = settings.gap;
+    double                 least  = settings.activation_distance;
     Forces                 forces(surfaces.n_bodies());
     std::set<unsigned int> nodes;
     for (const auto &term : found)

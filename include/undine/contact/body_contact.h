@@ -15,11 +15,11 @@ namespace undine
   ///
   ///     E = k A D b(d / D),   b(s) = -(s - 1)^2 ln s for s < 1, else 0                     (S16)
   ///
-  /// with the gap D and the stiffness k of the scene [after Li, Ferguson, Schneider, Langlois,
-  /// Zorin, Panozzo, Jiang, Kaufman, ACM Trans. Graph. 39 (2020)]. d is the distance to the nearest
-  /// point of a facet, on whose nodes the opposite force is distributed by that point's weights:
-  /// forces and moments between bodies cancel, whatever the step. In 3D sharp edges meet sharp
-  /// edges too (SharpEdge), by (S17). A body does not meet itself.
+  /// with the activation distance D and the stiffness k of the scene [after Li, Ferguson,
+  /// Schneider, Langlois, Zorin, Panozzo, Jiang, Kaufman, ACM Trans. Graph. 39 (2020)]. d is the
+  /// distance to the nearest point of a facet, on whose nodes the opposite force is distributed by
+  /// that point's weights: forces and moments between bodies cancel, whatever the step. In 3D sharp
+  /// edges meet sharp edges too (SharpEdge), by (S17). A body does not meet itself.
   template <int dim>
   class BodyContact : public Contact<dim>
   {
@@ -43,9 +43,9 @@ namespace undine
 
     /// D [m].
     double
-    gap() const
+    activation_distance() const
     {
-      return settings.gap;
+      return settings.activation_distance;
     }
 
     double

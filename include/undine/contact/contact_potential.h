@@ -25,8 +25,8 @@ namespace undine
     using Places = typename ContactSurfaces<dim>::Places;
 
     /// D [m] and k [Pa].
-    ContactPotential(const double gap, const double stiffness)
-      : gap(gap)
+    ContactPotential(const double activation_distance, const double stiffness)
+      : activation_distance(activation_distance)
       , stiffness(stiffness)
     {
     }
@@ -44,7 +44,7 @@ namespace undine
     second_derivatives(const Term &term, const Places &places) const;
 
   private:
-    double gap;
+    double activation_distance;
     double stiffness;
   };
 } // namespace undine

@@ -17,8 +17,9 @@ namespace undine
       const char *key;      ///< what the last part is called today
     };
 
-    constexpr std::array<Renaming, 3> renamed_keys{
+    constexpr std::array<Renaming, 4> renamed_keys{
       {{"Output/Ledger", "Budget"},
+       {"Effects/contact/Gap", "Activation distance"},
        {"Effects/scalar transport/<field>/Held boundaries", "Dirichlet boundaries"},
        {"Effects/scalar transport/<field>/Held value", "Dirichlet value"}}};
 

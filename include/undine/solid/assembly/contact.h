@@ -11,10 +11,10 @@
 namespace undine
 {
   /// Contact of bodies with each other and with walls: a potential E(d, t) [J] of the positions of
-  /// their surfaces, zero where everything is further apart than a given gap, unbounded where a gap
-  /// closes, and the paths on which no gap closes. All functions are collective; they give the same
-  /// on any number of ranks, up to rounding of the displacement. BodyContact implements (S16) and
-  /// (S17).
+  /// their surfaces, zero where everything is further apart than a given distance, unbounded where
+  /// a gap closes, and the paths on which no gap closes. All functions are collective; they give
+  /// the same on any number of ranks, up to rounding of the displacement. BodyContact implements
+  /// (S16) and (S17).
   template <int dim>
   class Contact
   {
@@ -54,7 +54,7 @@ namespace undine
 
     /// The largest part of the straight path of all nodes on which no gap closes to less than a
     /// fifth of what it was at `from` or, if that is less, a length of the implementation
-    /// (BodyContact: half of the gap D) [1]; 1 if no gap does.
+    /// (BodyContact: half of the activation distance D) [1]; 1 if no gap does.
     virtual double
     free_part(const Place &from, const Place &to) const = 0;
 
