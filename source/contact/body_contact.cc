@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/contact/body_contact.h>
+#include <undine/contact/collision_free_fraction.h>
 #include <undine/contact/find_overlap.h>
-#include <undine/contact/free_part_of_paths.h>
 #include <undine/contact/make_contact.h>
 
 #include <fmt/format.h>
@@ -224,11 +224,12 @@ namespace undine
 
   template <int dim>
   double
-  BodyContact<dim>::free_part(const Place &from, const Place &to) const
+  BodyContact<dim>::collision_free_fraction(const Place &from, const Place &to) const
   {
     const auto places_from = surfaces.places(from.displacement, from.time);
     const auto places_to   = surfaces.places(to.displacement, to.time);
-    return free_part_of_paths(surfaces, places_from, places_to, settings.activation_distance / 2);
+    return undine::collision_free_fraction(
+      surfaces, places_from, places_to, settings.activation_distance / 2);
   }
 
 

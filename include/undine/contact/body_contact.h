@@ -59,7 +59,7 @@ namespace undine
     void
     begin_stage() const override;
     double
-    free_part(const Place &from, const Place &to) const override;
+    collision_free_fraction(const Place &from, const Place &to) const override;
     void
     check_start(const Vector &displacement, double time) const override;
     Columns

@@ -64,8 +64,8 @@ namespace undine
     const auto &contact = state.contact;
     if (!environment.contact || contact.place.size() == 0)
       return bodies;
-    const double part =
-      environment.contact->free_part({contact.place, contact.time}, {bodies.displacement, time});
+    const double part = environment.contact->collision_free_fraction({contact.place, contact.time},
+                                                                     {bodies.displacement, time});
     if (part < 1)
       bodies.displacement.sadd(part, 1 - part, contact.place);
     bodies.velocity = bodies.displacement;

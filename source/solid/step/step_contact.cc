@@ -80,12 +80,12 @@ namespace undine
     still.add(1 / motion.coefficients().displacement, last_place());
     still.add(-1 / motion.coefficients().displacement, old_state.displacement);
     const Vector place = motion.displacement(still);
-    if (contact->free_part({last_place(), last_time()}, {place, time + dt}) < 1)
+    if (contact->collision_free_fraction({last_place(), last_time()}, {place, time + dt}) < 1)
       throw SolveError("supports or obstacles that move as prescribed run into a body within the "
                        "step. Try: a smaller step, or another motion.");
     Vector       displacement_increment = guess;
     const double part =
-      contact->free_part({place, time + dt}, {motion.displacement(guess), time + dt});
+      contact->collision_free_fraction({place, time + dt}, {motion.displacement(guess), time + dt});
     if (part == 1)
       return guess;
     displacement_increment.add(-1., still);
@@ -96,17 +96,17 @@ namespace undine
 
   template <int dim>
   double
-  StepContact<dim>::free_part(const Vector          &velocity,
-                              const Vector          &correction,
-                              const StepMotion<dim> &motion) const
+  StepContact<dim>::collision_free_fraction(const Vector          &velocity,
+                                            const Vector          &correction,
+                                            const StepMotion<dim> &motion) const
   {
     if (!contact)
       return 1;
     const auto timed = timing.section("contact");
     Vector     end   = velocity;
     end.add(1., correction);
-    return contact->free_part({motion.displacement(velocity), time + dt},
-                              {motion.displacement(end), time + dt});
+    return contact->collision_free_fraction({motion.displacement(velocity), time + dt},
+                                            {motion.displacement(end), time + dt});
   }
 
 

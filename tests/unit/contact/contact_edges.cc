@@ -104,7 +104,7 @@ TEST_CASE("edges that cross push each other and do not pass", "[contact][mpi]")
         if (scene.model.axis(dof) == 2 && scene.model.rest_position(dof)[2] > std::sqrt(2.))
           fall(dof) = -length;
       fall.compress(dealii::VectorOperation::insert);
-      const double path = scene.contact.free_part({start, 0.}, {fall, 0.}) * length;
+      const double path = scene.contact.collision_free_fraction({start, 0.}, {fall, 0.}) * length;
       CHECK(path < .8 * gap * (1 + 1e-12));
       CHECK(path > .79 * gap);
     }

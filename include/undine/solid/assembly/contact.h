@@ -52,11 +52,11 @@ namespace undine
     virtual void
     begin_stage() const = 0;
 
-    /// The largest part of the straight path of all nodes on which no gap closes to less than a
+    /// The largest fraction of the straight path of all nodes on which no gap closes to less than a
     /// fifth of what it was at `from` or, if that is less, a length of the implementation
     /// (BodyContact: half of the activation distance D) [1]; 1 if no gap does.
     virtual double
-    free_part(const Place &from, const Place &to) const = 0;
+    collision_free_fraction(const Place &from, const Place &to) const = 0;
 
     /// Throws InputError, with a hint, if something overlaps.
     virtual void

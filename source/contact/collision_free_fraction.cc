@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/contact/collision_free_fraction.h>
 #include <undine/contact/contact_boxes.h>
-#include <undine/contact/free_part_of_paths.h>
 #include <undine/surface/nearest_in_simplex.h>
 #include <undine/surface/nearest_of_edges.h>
 
@@ -133,10 +133,10 @@ namespace undine
 
   template <int dim>
   double
-  free_part_of_paths(const ContactSurfaces<dim>                  &surfaces,
-                     const typename ContactSurfaces<dim>::Places &from,
-                     const typename ContactSurfaces<dim>::Places &to,
-                     const double                                 closest)
+  collision_free_fraction(const ContactSurfaces<dim>                  &surfaces,
+                          const typename ContactSurfaces<dim>::Places &from,
+                          const typename ContactSurfaces<dim>::Places &to,
+                          const double                                 closest)
   {
     double part = 1;
     for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
@@ -166,13 +166,13 @@ namespace undine
 
 
   template double
-  free_part_of_paths(const ContactSurfaces<2> &,
-                     const ContactSurfaces<2>::Places &,
-                     const ContactSurfaces<2>::Places &,
-                     double);
+  collision_free_fraction(const ContactSurfaces<2> &,
+                          const ContactSurfaces<2>::Places &,
+                          const ContactSurfaces<2>::Places &,
+                          double);
   template double
-  free_part_of_paths(const ContactSurfaces<3> &,
-                     const ContactSurfaces<3>::Places &,
-                     const ContactSurfaces<3>::Places &,
-                     double);
+  collision_free_fraction(const ContactSurfaces<3> &,
+                          const ContactSurfaces<3>::Places &,
+                          const ContactSurfaces<3>::Places &,
+                          double);
 } // namespace undine
