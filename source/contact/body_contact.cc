@@ -224,7 +224,8 @@ namespace undine
 
   template <int dim>
   double
-  BodyContact<dim>::collision_free_fraction(const Place &from, const Place &to) const
+  BodyContact<dim>::collision_free_fraction(const Configuration &from,
+                                            const Configuration &to) const
   {
     const auto places_from = surfaces.places(from.displacement, from.time);
     const auto places_to   = surfaces.places(to.displacement, to.time);

@@ -24,9 +24,9 @@ namespace undine
   class BodyContact : public Contact<dim>
   {
   public:
-    using Vector = typename Contact<dim>::Vector;
-    using Matrix = typename Contact<dim>::Matrix;
-    using Place  = typename Contact<dim>::Place;
+    using Vector        = typename Contact<dim>::Vector;
+    using Matrix        = typename Contact<dim>::Matrix;
+    using Configuration = typename Contact<dim>::Configuration;
 
     /// `fluid` and `obstacles`: nullptr if there are none. All references must outlive it.
     /// Collective. Throws InputError.
@@ -59,7 +59,7 @@ namespace undine
     void
     begin_stage() const override;
     double
-    collision_free_fraction(const Place &from, const Place &to) const override;
+    collision_free_fraction(const Configuration &from, const Configuration &to) const override;
     void
     check_start(const Vector &displacement, double time) const override;
     Columns

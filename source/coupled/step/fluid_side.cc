@@ -62,14 +62,14 @@ namespace undine
     if (stage.ahead() != 0)
       bodies.displacement.add(stage.ahead(), state.solid.velocity);
     const auto &contact = state.contact;
-    if (!environment.contact || contact.place.size() == 0)
+    if (!environment.contact || contact.displacement.size() == 0)
       return bodies;
-    const double part = environment.contact->collision_free_fraction({contact.place, contact.time},
-                                                                     {bodies.displacement, time});
+    const double part = environment.contact->collision_free_fraction(
+      {contact.displacement, contact.time}, {bodies.displacement, time});
     if (part < 1)
-      bodies.displacement.sadd(part, 1 - part, contact.place);
+      bodies.displacement.sadd(part, 1 - part, contact.displacement);
     bodies.velocity = bodies.displacement;
-    bodies.velocity.add(-1., contact.place);
+    bodies.velocity.add(-1., contact.displacement);
     bodies.velocity *= 1 / stage.duration();
     return bodies;
   }

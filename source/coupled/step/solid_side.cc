@@ -41,15 +41,15 @@ namespace undine
   {
     if (!surroundings.contact)
       return;
-    auto &contact       = state.contact;
-    contact.place       = state.solid.displacement;
-    contact.time        = state.clock.time + stage.begin;
-    contact.weight      = stage.duration() / stage.length;
-    contact.keeps_rates = true;
+    auto &contact        = state.contact;
+    contact.displacement = state.solid.displacement;
+    contact.time         = state.clock.time + stage.begin;
+    contact.weight       = stage.duration() / stage.length;
+    contact.keeps_rates  = true;
     if (stage.is_first)
       contact.old_energy.reset();
     if (stage.is_first && budget.is_on())
-      contact.old_energy = surroundings.contact->energy(contact.place, contact.time);
+      contact.old_energy = surroundings.contact->energy(contact.displacement, contact.time);
   }
 
 
@@ -104,7 +104,7 @@ namespace undine
         state.solid.acceleration.sadd(of_end, of_begin, state.stage_begin.acceleration);
       }
     state.stage_begin = {};
-    state.contact.place.clear();
+    state.contact.displacement.clear();
     if (!stage.is_last)
       return;
     state.mean_velocity.clear();

@@ -40,8 +40,8 @@ namespace undine
     virtual void
     add_stiffness(Matrix &A, double factor, const Vector &displacement, double time) const = 0;
 
-    /// A place of all bodies at a time.
-    struct Place
+    /// A configuration of all bodies at a time.
+    struct Configuration
     {
       const Vector &displacement; ///< [m]
       double        time;         ///< [s]
@@ -56,7 +56,7 @@ namespace undine
     /// fifth of what it was at `from` or, if that is less, a length of the implementation
     /// (BodyContact: half of the activation distance D) [1]; 1 if no gap does.
     virtual double
-    collision_free_fraction(const Place &from, const Place &to) const = 0;
+    collision_free_fraction(const Configuration &from, const Configuration &to) const = 0;
 
     /// Throws InputError, with a hint, if something overlaps.
     virtual void
@@ -74,7 +74,7 @@ namespace undine
   struct ContactStart
   {
     /// The last displacement at which no gap was closed [m]; empty: that at which the stage starts.
-    dealii::TrilinosWrappers::MPI::Vector place;
+    dealii::TrilinosWrappers::MPI::Vector displacement;
     double                                time   = 0; ///< of that [s]
     double                                weight = 1; ///< duration over length of the stage [1]
     bool                                  keeps_rates = false;

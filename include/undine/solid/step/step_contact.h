@@ -30,7 +30,7 @@ namespace undine
 
     /// The last displacement at which no gap was closed [m].
     const Vector &
-    last_place() const;
+    last_displacement() const;
 
     /// weight (-dE/dd) at the end of the step [N]; empty if nothing touches.
     Vector
