@@ -31,13 +31,13 @@ namespace undine
   template <int dim>
   void
   PressureEquations<dim>::start(Velocity<dim>         &velocity,
-                                const Velocity<dim>   &carrying,
+                                const Velocity<dim>   &advecting,
                                 const double           time,
                                 const SweptVolumeFlux &swept)
   {
     set_boundary_velocity(velocity, model.boundaries(), time);
     regions.balanced_fluxes(velocity, swept, time);
-    openings = undine::open_faces(model, carrying, all_numbers.topology().get(), time);
+    openings = undine::open_faces(model, advecting, all_numbers.topology().get(), time);
   }
 
 

@@ -7,7 +7,7 @@
 
 namespace undine
 {
-  /// The boundary condition of a field that is carried and diffused: it is held at a value, or its
+  /// The boundary condition of a field that is advected and diffused: it is held at a value, or its
   /// normal derivative vanishes. Where fluid enters through an opening, it brings a value with it.
   template <int dim>
   class BoundaryCondition
@@ -31,12 +31,12 @@ namespace undine
     virtual double
     entering_value(const dealii::Point<dim> &place, const double time) const = 0;
 
-    /// True if the flow never carries a value beyond those around it, so that an advection must not
+    /// True if the flow never advects a value beyond those around it, so that an advection must not
     /// create new extrema. That costs accuracy at smooth ones.
     virtual bool
     obeys_maximum_principle() const = 0;
 
-    /// Differences between neighbours that need not be carried, as a share of the field's range
+    /// Differences between neighbours that need not be advected, as a share of the field's range
     /// (UniformRegions); 0: all are.
     virtual double
     neglected_variation() const

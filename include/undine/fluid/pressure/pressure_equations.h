@@ -32,13 +32,13 @@ namespace undine
                       const double                dt);
 
     /// Begin with v* in `velocity`, which gets the velocity on walls and inflows at `time` [s], the
-    /// end of the step. `carrying` = v^n is a first guess of the backflow through outflows.
+    /// end of the step. `advecting` = v^n is a first guess of the backflow through outflows.
     /// `swept`: the swept-volume flux of all surfaces, of which those that do not yield must
     /// conserve the volume of closed regions. Collective. Throws InputError if a closed region has
     /// a net inflow.
     void
     start(Velocity<dim>         &velocity,
-          const Velocity<dim>   &carrying,
+          const Velocity<dim>   &advecting,
           const double           time,
           const SweptVolumeFlux &swept);
 
