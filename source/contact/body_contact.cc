@@ -243,8 +243,8 @@ namespace undine
       throw settings.options.error(
         "",
         overlap + " at the start",
-        "Try: leave a gap, or hold the body there by a support that reaches to the wall or into "
-        "the other surface: what is held so is not in contact.");
+        "Try: leave a gap, or fix the body there by a support that reaches to the wall or into "
+        "the other surface: what is fixed so is not in contact.");
   }
 
 

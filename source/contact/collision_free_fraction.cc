@@ -142,7 +142,7 @@ namespace undine
     for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
       for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
         {
-          if (surfaces.is_held_at(surfaces.surface_of_node(node), wall))
+          if (surfaces.is_fixed_at(surfaces.surface_of_node(node), wall))
             continue;
           const auto  &plane  = surfaces.walls()[wall];
           const double before = (from[node] - plane.point) * plane.normal;

@@ -127,7 +127,7 @@ namespace undine
     const auto rest = places(solid.vector(), 0);
     measure(solid, rest);
     all_edges = find_sharp_edges(all_facets, rest);
-    find_held(solid, rest);
+    find_fixed(solid, rest);
   }
 
 
@@ -140,7 +140,7 @@ namespace undine
     , surfaces_of_nodes(all.surfaces_of_nodes)
     , areas(all.areas)
     , all_edges(all.all_edges)
-    , held(all.held)
+    , fixed(all.fixed)
     , grown_together(all.grown_together)
     , least_size(all.least_size)
   {
@@ -192,7 +192,7 @@ namespace undine
 
   template <int dim>
   void
-  ContactSurfaces<dim>::find_held(const SolidModel<dim> &solid, const Places &rest)
+  ContactSurfaces<dim>::find_fixed(const SolidModel<dim> &solid, const Places &rest)
   {
     // Gaps that are nothing but rounding of places.
     const double              rounding = 1e-9 * least_size;
@@ -205,11 +205,11 @@ namespace undine
             }))
           fixed_nodes.push_back(node);
       }
-    held.assign(n_bodies(), std::vector<bool>(all_walls.size()));
+    fixed.assign(n_bodies(), std::vector<bool>(all_walls.size()));
     for (const unsigned int node : fixed_nodes)
       for (unsigned int wall = 0; wall < all_walls.size(); ++wall)
         if ((rest[node] - all_walls[wall].point) * all_walls[wall].normal <= rounding)
-          held[surfaces_of_nodes[node]][wall] = true;
+          fixed[surfaces_of_nodes[node]][wall] = true;
     find_grown_together(fixed_nodes, rest);
   }
 

@@ -29,7 +29,7 @@ namespace undine
             const auto  &plane    = surfaces.walls()[wall];
             const double distance = (places[node] - plane.point) * plane.normal;
             if (distance >= activation_distance ||
-                surfaces.is_held_at(surfaces.surface_of_node(node), wall))
+                surfaces.is_fixed_at(surfaces.surface_of_node(node), wall))
               continue;
             ContactTerm<dim> term;
             term.nodes[0]  = node;

@@ -27,7 +27,7 @@ namespace undine
           {
             const auto        &plane = surfaces.walls()[wall];
             const unsigned int body  = surfaces.surface_of_node(node);
-            if (!surfaces.is_held_at(body, wall) &&
+            if (!surfaces.is_fixed_at(body, wall) &&
                 !((places[node] - plane.point) * plane.normal > 0))
               return fmt::format("body '{}' is not on the free side of wall '{}' at {}",
                                  surfaces.surface().body_names()[body],

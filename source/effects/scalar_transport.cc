@@ -14,7 +14,8 @@ namespace undine
 {
   namespace
   {
-    /// An advected field, held at inflows and where the scene says so, without flux elsewhere.
+    /// An advected field, prescribed at inflows and where the scene says so, without flux
+    /// elsewhere.
     template <int dim>
     class TransportedScalar : public BoundaryCondition<dim>
     {
@@ -51,31 +52,35 @@ namespace undine
           "everything is advected.");
         options.add("Diffusivity", diffusivity, "m^2/s", Allowed::not_negative(), "Its own.");
         options.add("Dirichlet boundaries",
-                    held_boundaries,
+                    dirichlet_boundaries,
                     "",
                     Allowed::anything(),
-                    "Names of boundaries on which the value is held, such as heated walls.");
-        options.add(
-          "Dirichlet value", held, "", Allowed::anything(), "On the boundaries where it is held.");
-        if (!options.is_reference() && options.given("Dirichlet value") && held_boundaries.empty())
+                    "Names of boundaries on which the value is prescribed, such as heated walls.");
+        options.add("Dirichlet value",
+                    prescribed,
+                    "",
+                    Allowed::anything(),
+                    "On the boundaries where it is prescribed.");
+        if (!options.is_reference() && options.given("Dirichlet value") &&
+            dirichlet_boundaries.empty())
           throw options.error("Dirichlet value",
                               "is given, but no boundary to hold it",
                               "Name boundaries of the fluid in 'Dirichlet boundaries'.");
       }
 
       bool
-      holds(const Boundary<dim> &boundary) const override
+      is_dirichlet(const Boundary<dim> &boundary) const override
       {
         return boundary.kind == BoundaryKind::inflow || is_listed(boundary);
       }
 
       double
-      held_value(const Boundary<dim> &boundary,
-                 const unsigned int,
-                 const dealii::Point<dim> &place,
-                 const double              time) const override
+      dirichlet_value(const Boundary<dim> &boundary,
+                      const unsigned int,
+                      const dealii::Point<dim> &place,
+                      const double              time) const override
       {
-        return is_listed(boundary) ? held.value(place, time) : inflow.value(place, time);
+        return is_listed(boundary) ? prescribed.value(place, time) : inflow.value(place, time);
       }
 
       double
@@ -124,8 +129,8 @@ namespace undine
       }
 
       std::string              name;
-      Expression<dim>          initial, source, inflow, held;
-      std::vector<std::string> held_boundaries;
+      Expression<dim>          initial, source, inflow, prescribed;
+      std::vector<std::string> dirichlet_boundaries;
       double                   diffusivity = 0;
       double                   neglected   = 1e-6;
 
@@ -157,8 +162,8 @@ namespace undine
       bool
       is_listed(const Boundary<dim> &boundary) const
       {
-        return std::find(held_boundaries.begin(), held_boundaries.end(), boundary.name) !=
-               held_boundaries.end();
+        return std::find(dirichlet_boundaries.begin(), dirichlet_boundaries.end(), boundary.name) !=
+               dirichlet_boundaries.end();
       }
     };
   } // namespace
@@ -355,7 +360,7 @@ namespace undine
       std::string known;
       for (const auto &boundary : boundaries)
         known += (known.empty() ? "'" : ", '") + boundary.name + "'";
-      for (const auto &name : field.held_boundaries)
+      for (const auto &name : field.dirichlet_boundaries)
         if (std::none_of(boundaries.begin(), boundaries.end(), [&](const auto &boundary) {
               return boundary.name == name;
             }))

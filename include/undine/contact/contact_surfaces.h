@@ -106,12 +106,12 @@ namespace undine
       return all_edges;
     }
 
-    /// Is the body held by a support where it rests on the wall or reaches through it? Then there
+    /// Is the body fixed by a support where it rests on the wall or reaches through it? Then there
     /// is no contact between them.
     bool
-    is_held_at(const unsigned int body, const unsigned int wall) const
+    is_fixed_at(const unsigned int body, const unsigned int wall) const
     {
-      return held[body][wall];
+      return fixed[body][wall];
     }
 
     /// Is there contact between these surfaces? Not if both are obstacles, or if a support of one
@@ -135,7 +135,7 @@ namespace undine
     void
     measure(const SolidModel<dim> &solid, const Places &rest);
     void
-    find_held(const SolidModel<dim> &solid, const Places &rest);
+    find_fixed(const SolidModel<dim> &solid, const Places &rest);
     void
     find_grown_together(const std::vector<unsigned int> &fixed_nodes, const Places &rest);
 
@@ -146,7 +146,7 @@ namespace undine
     std::vector<unsigned int>      surfaces_of_nodes;
     std::vector<double>            areas;
     std::vector<SharpEdge>         all_edges;
-    std::vector<std::vector<bool>> held;           ///< [body][wall]
+    std::vector<std::vector<bool>> fixed;          ///< [body][wall]
     std::vector<std::vector<bool>> grown_together; ///< [surface][surface]
     double                         least_size = 0;
   };

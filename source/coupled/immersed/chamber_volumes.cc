@@ -28,7 +28,7 @@ namespace undine
     for (const auto &part : stage.earlier)
       if (part.length != 0)
         {
-          const auto outflow = chambers.held_outflow(time + part.at);
+          const auto outflow = chambers.prescribed_outflow(time + part.at);
           for (std::size_t region = 0; region < earlier.size(); ++region)
             earlier[region] += part.length * outflow[region];
         }

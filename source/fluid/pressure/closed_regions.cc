@@ -251,25 +251,25 @@ namespace undine
 
 
   /// What leaves each cell through walls and inflows. Faces between cells cancel in the sum over a
-  /// region; only what is held counts.
+  /// region; only what is prescribed counts.
   template <int dim>
   Field<dim>
-  ClosedRegions<dim>::held_fluxes(const double time) const
+  ClosedRegions<dim>::prescribed_fluxes(const double time) const
   {
-    Velocity<dim> held;
+    Velocity<dim> prescribed;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      held[axis] = Field<dim>(model.grid().faces(axis), numbers.topology());
-    set_boundary_velocity(held, model.boundaries(), time);
-    exchange(held);
-    return divergence(model, held);
+      prescribed[axis] = Field<dim>(model.grid().faces(axis), numbers.topology());
+    set_boundary_velocity(prescribed, model.boundaries(), time);
+    exchange(prescribed);
+    return divergence(model, prescribed);
   }
 
 
   template <int dim>
   std::vector<double>
-  ClosedRegions<dim>::held_outflow(const double time) const
+  ClosedRegions<dim>::prescribed_outflow(const double time) const
   {
-    return sums_of(held_fluxes(time), [](const double flux) { return flux; });
+    return sums_of(prescribed_fluxes(time), [](const double flux) { return flux; });
   }
 
 
@@ -300,7 +300,7 @@ namespace undine
                                        complaint));
         return swept.fluxes;
       }
-    const auto fluxes      = held_fluxes(time);
+    const auto fluxes      = prescribed_fluxes(time);
     const auto boundaries  = sums_of(fluxes, [](const double flux) { return flux; });
     const auto sizes       = sums_of(fluxes, [](const double flux) { return std::abs(flux); });
     const auto bodies      = sums_on_components(swept.fluxes);

@@ -35,7 +35,7 @@ namespace undine::particles
       if (state.velocities.size() != n || state.pressures.size() != n || state.tags.size() != n ||
           state.identities.size() != n)
         throw InputError("the arrays of the particles differ in length.");
-      if (setup.body_of.size() != n_solid || setup.held.size() != n_solid)
+      if (setup.body_of.size() != n_solid || setup.clamped.size() != n_solid)
         throw InputError("the arrays of the bodies' particles differ in length.");
       std::vector<int> sorted = state.identities;
       std::sort(sorted.begin(), sorted.end());

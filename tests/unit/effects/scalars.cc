@@ -54,7 +54,7 @@ TEST_CASE("inflow brings its value in, and it leaves through the outflow", "[sca
 }
 
 
-TEST_CASE("held walls conduct heat linearly through still fluid", "[scalars][mpi]")
+TEST_CASE("Dirichlet walls conduct heat linearly through still fluid", "[scalars][mpi]")
 {
   FlowRun<2> run(
     FluidText{"9, 5",

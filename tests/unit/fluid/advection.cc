@@ -18,16 +18,16 @@ namespace
   {
   public:
     bool
-    holds(const Boundary<dim> &boundary) const override
+    is_dirichlet(const Boundary<dim> &boundary) const override
     {
       return boundary.kind == BoundaryKind::inflow;
     }
 
     double
-    held_value(const Boundary<dim> &,
-               const unsigned int,
-               const dealii::Point<dim> &,
-               const double) const override
+    dirichlet_value(const Boundary<dim> &,
+                    const unsigned int,
+                    const dealii::Point<dim> &,
+                    const double) const override
     {
       return 1;
     }

@@ -90,7 +90,7 @@ namespace undine
     /// The volume flux out of each closed region through walls and inflows at `time` [s],
     /// [m^dim/s]. Collective.
     std::vector<double>
-    held_outflow(const double time) const;
+    prescribed_outflow(const double time) const;
 
     /// Sums over each closed region of `values` [FluidTopology::cells]. Collective.
     std::vector<double>
@@ -103,7 +103,7 @@ namespace undine
 
   private:
     Field<dim>
-    held_fluxes(const double time) const;
+    prescribed_fluxes(const double time) const;
 
     static constexpr int open_region = -1;
 

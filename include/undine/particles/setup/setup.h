@@ -112,7 +112,7 @@ namespace undine::particles
     std::vector<BodySetup>           bodies;
     std::vector<Vector<dim, double>> reference; ///< X [m]
     std::vector<int>                 body_of;   ///< entry of `bodies`
-    std::vector<unsigned char>       held;      ///< does not move
+    std::vector<unsigned char>       clamped;   ///< does not move
 
     Numerics numerics;
   };
