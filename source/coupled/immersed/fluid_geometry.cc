@@ -157,9 +157,9 @@ namespace undine
   SweptVolumeFlux
   FluidGeometry<dim>::initial_swept_volume_flux(const double dt) const
   {
-    auto       result     = swept_volume_flux(dt);
-    const auto areas      = wetted_areas(cells, surface.surface(), surface.n_body_nodes());
-    result.yielding_areas = parts.of_fluid_topology(areas);
+    auto       result      = swept_volume_flux(dt);
+    const auto areas       = wetted_areas(cells, surface.surface(), surface.n_body_nodes());
+    result.compliant_areas = parts.of_fluid_topology(areas);
     return result;
   }
 

@@ -15,12 +15,12 @@ namespace undine
   template <int dim>
   PressureEquations<dim>::PressureEquations(const FluidModel<dim>      &model,
                                             const PressureNumbers<dim> &numbers,
-                                            const std::vector<Number>  &yielding,
+                                            const std::vector<Number>  &compliant,
                                             const double                dt)
     : model(model)
     , dt(dt)
     , all_numbers(numbers)
-    , regions(model, all_numbers, yielding)
+    , regions(model, all_numbers, compliant)
     , flux(all_numbers.owned(), model.grid().communicator())
   {
     build_pressure_matrix(L, model, all_numbers, regions.pinned());

@@ -22,7 +22,7 @@ namespace undine::particles
       constants.densities[0] = static_cast<Real>(setup.fluid_density);
       constants.compressibilities[0] =
         setup.fluid_bulk_modulus > 0 ? static_cast<Real>(1 / setup.fluid_bulk_modulus) : Real(0);
-      for (const int material : {inflow_material, moving_material, yielding_material})
+      for (const int material : {inflow_material, moving_material, inactive_material})
         {
           constants.densities[material]         = constants.densities[0];
           constants.compressibilities[material] = constants.compressibilities[0];
