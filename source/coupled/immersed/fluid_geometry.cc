@@ -2,7 +2,7 @@
 #include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/cutting/flush_facets.h>
 #include <undine/operators/body_forces.h>
-#include <undine/operators/sampled_pockets.h>
+#include <undine/operators/sampled_regions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -40,7 +40,7 @@ namespace undine
 
 
   /// Where facets lie in planes of the grid it is cut a little beyond them, with the volumes of the
-  /// surfaces as they are: else those of chambers would jump when a piston passes a plane.
+  /// surfaces as they are: else those of closed regions would jump when a piston passes a plane.
   template <int dim>
   void
   FluidGeometry<dim>::cut_beyond_planes()
@@ -75,7 +75,7 @@ namespace undine
       }
     if (last_report.sampled_cells > 0)
       {
-        close_sampled_pockets(voids, grid, cells, parts);
+        close_sampled_regions(voids, grid, cells, parts);
         parts = make_cut_topology(grid, cells, voids);
       }
     fluid_is_left = undine::has_fluid(grid, parts.open->cells);

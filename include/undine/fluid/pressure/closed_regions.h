@@ -22,9 +22,8 @@ namespace undine
   };
 
 
-  /// The closed regions of the fluid: on their boundary neither the pressure is given nor is a
-  /// surface compliant; there the pressure is known up to a constant, and what flows in must flow
-  /// out.
+  /// The closed regions of the fluid, which have no opening, but for those with compliant surfaces:
+  /// there the pressure is known up to a constant, and what flows in must flow out.
   template <int dim>
   class ClosedRegions
   {
