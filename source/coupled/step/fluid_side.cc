@@ -17,7 +17,7 @@ namespace undine
     , budget(budget)
     , timing(timing)
     , environment(models.environment())
-    , surface_friction(models)
+    , viscous_coupling(models)
   {
     if (models.surface)
       cut = std::make_unique<FluidGeometry<dim>>(models);
@@ -41,8 +41,8 @@ namespace undine
     if (cut && models.has_friction())
       {
         const auto phase       = timing.section("cut cells");
-        result.walls           = surface_friction.walls(*cut);
-        result.wall_velocities = surface_friction.start(state, *cut, stage.length);
+        result.walls           = viscous_coupling.walls(*cut);
+        result.wall_velocities = viscous_coupling.start(state, *cut, stage.length);
       }
     return result;
   }
@@ -246,7 +246,7 @@ namespace undine
   {
     fluid.finish();
     if (fluid.friction)
-      surface_friction.end(state, fluid);
+      viscous_coupling.end(state, fluid);
     if (cut)
       {
         report.warn(cut->cut_report().subject, cut->cut_report().message);
@@ -273,7 +273,7 @@ namespace undine
         result[node] += more[node];
     };
     add(cut->other_forces(environment.gravity, time));
-    add(surface_friction.forces());
+    add(viscous_coupling.forces());
     return result;
   }
 
@@ -290,7 +290,7 @@ namespace undine
       append(report.columns, effect->columns(model, state, time));
     if (cut)
       append(report.columns,
-             cut->columns(state.pressure, environment.gravity, time, surface_friction.forces()));
+             cut->columns(state.pressure, environment.gravity, time, viscous_coupling.forces()));
   }
 
 
