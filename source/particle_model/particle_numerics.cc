@@ -94,7 +94,7 @@ namespace undine
   void
   ParticleNumerics::read_sub_steps(const Options &options)
   {
-    using particles::Places;
+    using particles::PositionUpdate;
     options.add("Largest",
                 numerics.largest_sub_step,
                 "s",
@@ -132,11 +132,12 @@ namespace undine
       "step instead: faster for stiff bodies, and without their fast vibrations. 0: "
       "always explicit.");
     numerics.most_elastic_steps = most;
-    add_choice<Places>(
+    add_choice<PositionUpdate>(
       options,
-      "Places",
-      numerics.places,
-      {{"end velocity", Places::end_velocity}, {"mean velocity", Places::mean_velocity}},
+      "Position update",
+      numerics.position_update,
+      {{"end velocity", PositionUpdate::end_velocity},
+       {"mean velocity", PositionUpdate::mean_velocity}},
       "With what velocity fluid goes through a sub-step. end velocity: that at its end, which "
       "dampens swinging and impacts. mean velocity: the mean of those at its start and end, more "
       "accurate where motion is smooth; first peaks of impacts are higher and scatter more.");
