@@ -39,11 +39,12 @@ namespace undine
       "m",
       Allowed::positive(),
       "Between particles at the start, l0; a particle stands for a cube of this edge.");
-    options.add("Reach",
-                numerics.reach,
-                "spacings",
-                Allowed::between(1.5, 4.5),
-                "Of the weight r_e / r - 1 with which neighbours count.");
+    options.add(
+      "Reach",
+      numerics.reach,
+      "spacings",
+      Allowed::between(1.5, 4.5),
+      "Effective radius r_e of the weight r_e / r - 1: particles are neighbours within it.");
     read_machine(options);
     read_sub_steps(options.section("Sub-steps"));
     read_pressure(options.section("Pressure"));

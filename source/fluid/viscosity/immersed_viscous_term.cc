@@ -166,12 +166,13 @@ namespace undine
     });
     matrix.compress(dealii::VectorOperation::add);
 
-    double reach = 0;
+    double diffusion_number = 0;
     for_each(model.grid().cells()->owned(), [&](const GridIndex<dim> &cell) {
       for (unsigned int d = 0; d < dim; ++d)
-        reach = std::max(reach, dt * kinematic / std::pow(model.grid().cell_width(d, cell[d]), 2));
+        diffusion_number = std::max(
+          diffusion_number, dt * kinematic / std::pow(model.grid().cell_width(d, cell[d]), 2));
     });
-    solver.set_up(dealii::Utilities::MPI::max(reach, communicator));
+    solver.set_up(dealii::Utilities::MPI::max(diffusion_number, communicator));
     assembled_dt = dt;
   }
 

@@ -178,14 +178,14 @@ namespace undine
       matrix.add(row.columns[0], row.columns.size(), row.columns.data(), row.values.data(), false);
     });
     matrix.compress(dealii::VectorOperation::add);
-    solver.set_up(reach(dt));
+    solver.set_up(diffusion_number(dt));
     assembled_dt = dt;
   }
 
 
   template <int dim>
   double
-  ImplicitDiffusion<dim>::reach(const double dt) const
+  ImplicitDiffusion<dim>::diffusion_number(const double dt) const
   {
     double result = 0;
     for_each(lattice->owned(), [&](const GridIndex<dim> &index) {

@@ -55,7 +55,7 @@ namespace undine
 
     /// Largest h nu / dx^2.
     double
-    reach(const double dt) const;
+    diffusion_number(const double dt) const;
 
     /// V s* + h nu k_b s_b, in the order of Field::owned_values(). One ghost layer must be up to
     /// date.

@@ -49,7 +49,7 @@ namespace undine::particles
 
     CellGrid<dim, Real> grid;
     Real                spacing;        ///< l0 [m]
-    Real                reach;          ///< r_e [m]
+    Real                reach;          ///< effective radius r_e [m]
     Real                volume;         ///< of a particle, l0^dim [m^dim]
     Real                number_density; ///< n0 [1]
     Real                spread;         ///< lambda [m^2]

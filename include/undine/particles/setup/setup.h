@@ -11,7 +11,7 @@ namespace undine::particles
   /// How the particle method computes; every value has a measured default, see doc/particles.md.
   struct Numerics
   {
-    double reach = 2.1; ///< r_e [spacings]
+    double reach = 2.1; ///< effective radius r_e [spacings]
 
     double largest_sub_step = 0;   ///< [s]; 0: a frame
     double speed_share      = 0.2; ///< of the spacing that a particle may cross in a sub-step [1]
