@@ -110,7 +110,7 @@ namespace undine
   /// Throws SolveError where a gap is closed.
   template <int dim>
   typename BodyContact<dim>::Terms
-  BodyContact<dim>::terms(const Places &places) const
+  BodyContact<dim>::terms(const Positions &places) const
   {
     const auto result = find_contact_terms(surfaces, places, settings.activation_distance);
     for (const auto &term : result)
@@ -134,7 +134,7 @@ namespace undine
 
   template <int dim>
   double
-  BodyContact<dim>::energy(const Terms &terms, const Places &places) const
+  BodyContact<dim>::energy(const Terms &terms, const Positions &places) const
   {
     double result = 0;
     for (const auto &term : terms)
@@ -147,14 +147,14 @@ namespace undine
   double
   BodyContact<dim>::energy(const Vector &displacement, const double time) const
   {
-    const auto places = surfaces.places(displacement, time);
+    const auto places = surfaces.positions(displacement, time);
     return energy(terms(places), places);
   }
 
 
   template <int dim>
   typename BodyContact<dim>::Forces
-  BodyContact<dim>::nodal_forces(const Terms &terms, const Places &places) const
+  BodyContact<dim>::nodal_forces(const Terms &terms, const Positions &places) const
   {
     Forces result(surfaces.bodies().n_nodes());
     for (const auto &term : terms)
@@ -172,7 +172,7 @@ namespace undine
   typename BodyContact<dim>::Vector
   BodyContact<dim>::forces(const Vector &displacement, const double time) const
   {
-    const auto places = surfaces.places(displacement, time);
+    const auto places = surfaces.positions(displacement, time);
     const auto found  = terms(places);
     if (found.empty())
       return {};
@@ -186,7 +186,7 @@ namespace undine
   std::vector<dealii::Tensor<1, dim>>
   BodyContact<dim>::nodal_forces(const Vector &displacement, const double time) const
   {
-    const auto places = surfaces.places(displacement, time);
+    const auto places = surfaces.positions(displacement, time);
     return nodal_forces(terms(places), places);
   }
 
@@ -198,7 +198,7 @@ namespace undine
                                   const Vector &displacement,
                                   const double  time) const
   {
-    const auto places = surfaces.places(displacement, time);
+    const auto places = surfaces.positions(displacement, time);
     const auto found  = terms(places);
     if (found.empty())
       return;
@@ -227,8 +227,8 @@ namespace undine
   BodyContact<dim>::collision_free_fraction(const Configuration &from,
                                             const Configuration &to) const
   {
-    const auto places_from = surfaces.places(from.displacement, from.time);
-    const auto places_to   = surfaces.places(to.displacement, to.time);
+    const auto places_from = surfaces.positions(from.displacement, from.time);
+    const auto places_to   = surfaces.positions(to.displacement, to.time);
     return undine::collision_free_fraction(
       surfaces, places_from, places_to, settings.activation_distance / 2);
   }
@@ -238,7 +238,7 @@ namespace undine
   void
   BodyContact<dim>::check_start(const Vector &displacement, const double time) const
   {
-    const std::string overlap = find_overlap(surfaces, surfaces.places(displacement, time));
+    const std::string overlap = find_overlap(surfaces, surfaces.positions(displacement, time));
     if (!overlap.empty())
       throw settings.options.error(
         "",
@@ -252,7 +252,7 @@ namespace undine
   Columns
   BodyContact<dim>::columns(const Vector &displacement, const double time) const
   {
-    const auto             places = surfaces.places(displacement, time);
+    const auto             places = surfaces.positions(displacement, time);
     const auto             found  = terms(places);
     double                 least  = settings.activation_distance;
     Forces                 forces(surfaces.n_bodies());

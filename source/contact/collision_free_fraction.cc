@@ -133,10 +133,10 @@ namespace undine
 
   template <int dim>
   double
-  collision_free_fraction(const ContactSurfaces<dim>                  &surfaces,
-                          const typename ContactSurfaces<dim>::Places &from,
-                          const typename ContactSurfaces<dim>::Places &to,
-                          const double                                 closest)
+  collision_free_fraction(const ContactSurfaces<dim>                     &surfaces,
+                          const typename ContactSurfaces<dim>::Positions &from,
+                          const typename ContactSurfaces<dim>::Positions &to,
+                          const double                                    closest)
   {
     double part = 1;
     for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
@@ -167,12 +167,12 @@ namespace undine
 
   template double
   collision_free_fraction(const ContactSurfaces<2> &,
-                          const ContactSurfaces<2>::Places &,
-                          const ContactSurfaces<2>::Places &,
+                          const ContactSurfaces<2>::Positions &,
+                          const ContactSurfaces<2>::Positions &,
                           double);
   template double
   collision_free_fraction(const ContactSurfaces<3> &,
-                          const ContactSurfaces<3>::Places &,
-                          const ContactSurfaces<3>::Places &,
+                          const ContactSurfaces<3>::Positions &,
+                          const ContactSurfaces<3>::Positions &,
                           double);
 } // namespace undine

@@ -14,7 +14,7 @@ namespace undine
     using Vectors = std::array<dealii::Tensor<1, dim>, dim + 1>;
 
     template <int dim>
-    using Places = typename ContactSurfaces<dim>::Places;
+    using Positions = typename ContactSurfaces<dim>::Positions;
 
 
     template <int dim>
@@ -31,7 +31,7 @@ namespace undine
     template <int dim>
     struct Crossing
     {
-      Crossing(const ContactTerm<dim> &term, const Places<dim> &places)
+      Crossing(const ContactTerm<dim> &term, const Positions<dim> &places)
       {
         if (term.crossing == 0)
           return;
@@ -85,7 +85,7 @@ namespace undine
     template <int dim>
     NodeMatrices<dim>
     by_distance(const ContactTerm<dim> &term,
-                const Places<dim>      &places,
+                const Positions<dim>   &places,
                 const double            slope,
                 const double            curvature)
     {
@@ -127,7 +127,7 @@ namespace undine
 
   template <int dim>
   double
-  ContactPotential<dim>::energy(const Term &term, const Places &places) const
+  ContactPotential<dim>::energy(const Term &term, const Positions &places) const
   {
     return stiffness * term.area * activation_distance * Crossing<dim>(term, places).value *
            barrier(term.distance / activation_distance);
@@ -136,7 +136,7 @@ namespace undine
 
   template <int dim>
   Vectors<dim>
-  ContactPotential<dim>::forces(const Term &term, const Places &places) const
+  ContactPotential<dim>::forces(const Term &term, const Positions &places) const
   {
     const Crossing<dim> crossing(term, places);
     const double        s       = term.distance / activation_distance;
@@ -152,7 +152,7 @@ namespace undine
 
   template <int dim>
   NodeMatrices<dim>
-  ContactPotential<dim>::second_derivatives(const Term &term, const Places &places) const
+  ContactPotential<dim>::second_derivatives(const Term &term, const Positions &places) const
   {
     const Crossing<dim> crossing(term, places);
     const double        s    = term.distance / activation_distance;

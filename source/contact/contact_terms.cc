@@ -13,14 +13,14 @@ namespace undine
   namespace
   {
     template <int dim>
-    using Places = typename ContactSurfaces<dim>::Places;
+    using Positions = typename ContactSurfaces<dim>::Positions;
 
 
     template <int dim>
     void
     add_walls(std::vector<ContactTerm<dim>> &terms,
               const ContactSurfaces<dim>    &surfaces,
-              const Places<dim>             &places,
+              const Positions<dim>          &places,
               const double                   activation_distance)
     {
       for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
@@ -62,7 +62,7 @@ namespace undine
 
     template <int dim>
     std::array<dealii::Point<dim>, dim>
-    places_of(const Simplex<dim> &simplex, const Places<dim> &places)
+    places_of(const Simplex<dim> &simplex, const Positions<dim> &places)
     {
       std::array<dealii::Point<dim>, dim> result;
       for (unsigned int k = 0; k < simplex.n; ++k)
@@ -86,7 +86,7 @@ namespace undine
     add_node(std::vector<ContactTerm<dim>> &terms,
              const std::set<Simplex<dim>>  &parts,
              const unsigned int             node,
-             const Places<dim>             &places,
+             const Positions<dim>          &places,
              const double                   area,
              const double                   activation_distance)
     {
@@ -134,7 +134,7 @@ namespace undine
     add_edges(std::vector<ContactTerm<dim>> &terms,
               const SharpEdge               &one,
               const SharpEdge               &other,
-              const Places<dim>             &places,
+              const Positions<dim>          &places,
               const double                   activation_distance)
     {
       const std::array<unsigned int, 4> nodes{
@@ -171,7 +171,7 @@ namespace undine
   template <int dim>
   std::vector<ContactTerm<dim>>
   find_contact_terms(const ContactSurfaces<dim> &surfaces,
-                     const Places<dim>          &places,
+                     const Positions<dim>       &places,
                      const double                activation_distance)
   {
     std::vector<ContactTerm<dim>> terms;

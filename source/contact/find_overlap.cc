@@ -19,8 +19,8 @@ namespace undine
 
     template <int dim>
     std::string
-    wall_complaint(const ContactSurfaces<dim>                  &surfaces,
-                   const typename ContactSurfaces<dim>::Places &places)
+    wall_complaint(const ContactSurfaces<dim>                     &surfaces,
+                   const typename ContactSurfaces<dim>::Positions &places)
     {
       for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
         for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
@@ -41,9 +41,9 @@ namespace undine
     /// Whether a node of another surface is in this one.
     template <int dim>
     std::string
-    surface_complaint(const ContactSurfaces<dim>                  &surfaces,
-                      const typename ContactSurfaces<dim>::Places &places,
-                      const unsigned int                           surface)
+    surface_complaint(const ContactSurfaces<dim>                     &surfaces,
+                      const typename ContactSurfaces<dim>::Positions &places,
+                      const unsigned int                              surface)
     {
       const SurfaceDistance<dim> distance(one_surface(surfaces.surface(), surface), places);
       const auto                 box = distance.box();
@@ -64,8 +64,8 @@ namespace undine
 
   template <int dim>
   std::string
-  find_overlap(const ContactSurfaces<dim>                  &surfaces,
-               const typename ContactSurfaces<dim>::Places &places)
+  find_overlap(const ContactSurfaces<dim>                     &surfaces,
+               const typename ContactSurfaces<dim>::Positions &places)
   {
     std::string complaint = wall_complaint(surfaces, places);
     for (unsigned int s = 0; s < surfaces.surface().body_names().size() && complaint.empty(); ++s)
@@ -75,7 +75,7 @@ namespace undine
 
 
   template std::string
-  find_overlap(const ContactSurfaces<2> &, const ContactSurfaces<2>::Places &);
+  find_overlap(const ContactSurfaces<2> &, const ContactSurfaces<2>::Positions &);
   template std::string
-  find_overlap(const ContactSurfaces<3> &, const ContactSurfaces<3>::Places &);
+  find_overlap(const ContactSurfaces<3> &, const ContactSurfaces<3>::Positions &);
 } // namespace undine

@@ -66,16 +66,16 @@ namespace undine
     columns(const Vector &displacement, double time) const override;
 
   private:
-    using Places = typename ContactSurfaces<dim>::Places;
-    using Terms  = std::vector<ContactTerm<dim>>;
-    using Forces = std::vector<dealii::Tensor<1, dim>>;
+    using Positions = typename ContactSurfaces<dim>::Positions;
+    using Terms     = std::vector<ContactTerm<dim>>;
+    using Forces    = std::vector<dealii::Tensor<1, dim>>;
 
     Terms
-    terms(const Places &places) const;
+    terms(const Positions &places) const;
     double
-    energy(const Terms &terms, const Places &places) const;
+    energy(const Terms &terms, const Positions &places) const;
     Forces
-    nodal_forces(const Terms &terms, const Places &places) const;
+    nodal_forces(const Terms &terms, const Positions &places) const;
     ContactPotential<dim>
     potential() const;
 

@@ -11,10 +11,10 @@ namespace undine
   /// `closest` [m]; between 0 and 1 [1].
   template <int dim>
   double
-  collision_free_fraction(const ContactSurfaces<dim>                  &surfaces,
-                          const typename ContactSurfaces<dim>::Places &from,
-                          const typename ContactSurfaces<dim>::Places &to,
-                          double                                       closest);
+  collision_free_fraction(const ContactSurfaces<dim>                     &surfaces,
+                          const typename ContactSurfaces<dim>::Positions &from,
+                          const typename ContactSurfaces<dim>::Positions &to,
+                          double                                          closest);
 } // namespace undine
 
 #endif

@@ -25,8 +25,8 @@ namespace undine
   class ContactSurfaces
   {
   public:
-    using Places = std::vector<dealii::Point<dim>>;
-    using Vector = typename SolidModel<dim>::Vector;
+    using Positions = std::vector<dealii::Point<dim>>;
+    using Vector    = typename SolidModel<dim>::Vector;
 
     /// `fluid` and `obstacles`: nullptr if there are none. Collective. Throws InputError.
     ContactSurfaces(const ContactSettings<dim> &settings,
@@ -39,8 +39,8 @@ namespace undine
     ContactSurfaces(const ContactSurfaces &all, const BodySurface<dim> &bodies);
 
     /// Positions of all nodes [m] at `time` [s]. Collective.
-    Places
-    places(const Vector &displacement, double time) const;
+    Positions
+    positions(const Vector &displacement, double time) const;
 
     /// The surfaces of bodies.
     const BodySurface<dim> &
@@ -133,11 +133,11 @@ namespace undine
     void
     add_domain_walls(const FluidModel<dim> &fluid);
     void
-    measure(const SolidModel<dim> &solid, const Places &rest);
+    measure(const SolidModel<dim> &solid, const Positions &rest);
     void
-    find_fixed(const SolidModel<dim> &solid, const Places &rest);
+    find_fixed(const SolidModel<dim> &solid, const Positions &rest);
     void
-    find_grown_together(const std::vector<unsigned int> &fixed_nodes, const Places &rest);
+    find_grown_together(const std::vector<unsigned int> &fixed_nodes, const Positions &rest);
 
     const BodySurface<dim>         body_surface;
     const Obstacles<dim> *const    obstacles;

@@ -46,9 +46,9 @@ namespace undine
   /// collective.
   template <int dim>
   std::vector<ContactTerm<dim>>
-  find_contact_terms(const ContactSurfaces<dim>                  &surfaces,
-                     const typename ContactSurfaces<dim>::Places &places,
-                     double                                       activation_distance);
+  find_contact_terms(const ContactSurfaces<dim>                     &surfaces,
+                     const typename ContactSurfaces<dim>::Positions &places,
+                     double                                          activation_distance);
 } // namespace undine
 
 #endif

@@ -89,7 +89,7 @@ namespace
         path[0] = distance - 1;
         for (unsigned int axis = 1; axis < dim; ++axis)
           path[axis] = aside;
-        const auto   places = surfaces.places(scene.shift(path), 0);
+        const auto   places = surfaces.positions(scene.shift(path), 0);
         unsigned int found  = 0;
         for (const auto &term : find_contact_terms(surfaces, places, .2))
           if (const auto node = term.nodes[0]; surfaces.surface_of_node(node) == 1)

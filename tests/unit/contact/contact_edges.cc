@@ -86,7 +86,7 @@ TEST_CASE("edges that cross push each other and do not pass", "[contact][mpi]")
   const Scene<3>            scene(cubes_on_edges(gap), .1);
   const ContactSurfaces<3>  surfaces(scene.settings(.1, -10), scene.model, nullptr, nullptr);
   const Vector              start  = scene.model.vector();
-  const auto                places = surfaces.places(start, 0);
+  const auto                places = surfaces.positions(start, 0);
   const auto                terms  = find_contact_terms(surfaces, places, .1);
   const ContactPotential<3> potential(.1, 3);
   REQUIRE(terms.size() == 1);
