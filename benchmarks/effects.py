@@ -4,7 +4,7 @@
 one machine):
 
 - each effect's share of a step of the jet against two sheets in 3D;
-- smoke carried only where there is any, for plumes that fill a part of the domain;
+- smoke advected only where there is any, for plumes that fill a part of the domain;
 - with --without, two programs in turns on the jet: PROGRAM, and one built without the files of effects that the
   scene does not call for (source/effects/NAME.cc).
 
@@ -95,7 +95,7 @@ def cost_of_smoke(program, fill, grid, neglected):
 
 def plumes(program):
     print("\n## Smoke where there is any\n\nA plume in a box of 1 m x 2 m x 1 m, two scalars: seconds of their transport in "
-          f"a step ({STEPS_OF_PLUME} steps), and the share of those that carrying them everywhere takes (`Neglected variation = 0`).\n")
+          f"a step ({STEPS_OF_PLUME} steps), and the share of those that advecting them everywhere takes (`Neglected variation = 0`).\n")
     print("| cells | everywhere | " + " | ".join(f"{100 * fill:g} % filled" for fill in FILLS) + " |")
     print("|---" * (len(FILLS) + 2) + "|")
     for grid in GRIDS:

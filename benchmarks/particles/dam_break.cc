@@ -100,7 +100,7 @@ namespace undine::particles
             add(x, Tag::of(Kind::solid, 1));
             setup.reference.push_back(x);
             setup.body_of.push_back(0);
-            setup.held.push_back(0);
+            setup.clamped.push_back(0);
           }
   }
 

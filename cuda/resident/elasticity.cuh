@@ -106,7 +106,7 @@ namespace undine::particles
             choose_step();
           __syncthreads();
           if (is_worker)
-            point = step.moved(point, is_held, shared.h, a);
+            point = step.moved(point, is_clamped, shared.h, a);
         }
       while (shared.goes_on);
       if (is_owner && WarpLanes::rank() == 0)
@@ -144,7 +144,7 @@ namespace undine::particles
       const auto &bodies = step.elasticity.bodies;
 
       own      = step.elasticity.particle(i);
-      is_held  = bodies.held[i];
+      is_clamped  = bodies.clamped[i];
       pressure = step.pressure_acceleration(i);
       now.R    = bodies.rotations[i];
       point    = step.start_of(i);
@@ -320,7 +320,7 @@ namespace undine::particles
     typename Contact<dim, float>::Response touch;
     ElasticPoint<dim, float>               point;
     Vector<dim, float>                     pressure; ///< acceleration by it
-    bool                                   is_held;
+    bool                                   is_clamped;
     int                                    n_bonds, n_partners;
   };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/contact/body_contact.h>
+#include <undine/contact/collision_free_fraction.h>
 #include <undine/contact/find_overlap.h>
-#include <undine/contact/free_part_of_paths.h>
 #include <undine/contact/make_contact.h>
 
 #include <fmt/format.h>
@@ -88,8 +88,8 @@ namespace undine
     , surfaces(given, solid, fluid, obstacles)
     , pattern(solid, surfaces.bodies())
   {
-    if (settings.gap == 0)
-      settings.gap = share_of_facet * surfaces.facet_size();
+    if (settings.activation_distance == 0)
+      settings.activation_distance = share_of_facet * surfaces.facet_size();
     if (settings.stiffness == 0)
       settings.stiffness = least_modulus(solid);
   }
@@ -110,9 +110,9 @@ namespace undine
   /// Throws SolveError where a gap is closed.
   template <int dim>
   typename BodyContact<dim>::Terms
-  BodyContact<dim>::terms(const Places &places) const
+  BodyContact<dim>::terms(const Positions &places) const
   {
-    const auto result = find_contact_terms(surfaces, places, settings.gap);
+    const auto result = find_contact_terms(surfaces, places, settings.activation_distance);
     for (const auto &term : result)
       if (!(term.distance > 0))
         throw SolveError(fmt::format(
@@ -128,13 +128,13 @@ namespace undine
   ContactPotential<dim>
   BodyContact<dim>::potential() const
   {
-    return {settings.gap, settings.stiffness};
+    return {settings.activation_distance, settings.stiffness};
   }
 
 
   template <int dim>
   double
-  BodyContact<dim>::energy(const Terms &terms, const Places &places) const
+  BodyContact<dim>::energy(const Terms &terms, const Positions &places) const
   {
     double result = 0;
     for (const auto &term : terms)
@@ -147,14 +147,14 @@ namespace undine
   double
   BodyContact<dim>::energy(const Vector &displacement, const double time) const
   {
-    const auto places = surfaces.places(displacement, time);
+    const auto places = surfaces.positions(displacement, time);
     return energy(terms(places), places);
   }
 
 
   template <int dim>
   typename BodyContact<dim>::Forces
-  BodyContact<dim>::nodal_forces(const Terms &terms, const Places &places) const
+  BodyContact<dim>::nodal_forces(const Terms &terms, const Positions &places) const
   {
     Forces result(surfaces.bodies().n_nodes());
     for (const auto &term : terms)
@@ -172,7 +172,7 @@ namespace undine
   typename BodyContact<dim>::Vector
   BodyContact<dim>::forces(const Vector &displacement, const double time) const
   {
-    const auto places = surfaces.places(displacement, time);
+    const auto places = surfaces.positions(displacement, time);
     const auto found  = terms(places);
     if (found.empty())
       return {};
@@ -186,7 +186,7 @@ namespace undine
   std::vector<dealii::Tensor<1, dim>>
   BodyContact<dim>::nodal_forces(const Vector &displacement, const double time) const
   {
-    const auto places = surfaces.places(displacement, time);
+    const auto places = surfaces.positions(displacement, time);
     return nodal_forces(terms(places), places);
   }
 
@@ -198,7 +198,7 @@ namespace undine
                                   const Vector &displacement,
                                   const double  time) const
   {
-    const auto places = surfaces.places(displacement, time);
+    const auto places = surfaces.positions(displacement, time);
     const auto found  = terms(places);
     if (found.empty())
       return;
@@ -224,11 +224,13 @@ namespace undine
 
   template <int dim>
   double
-  BodyContact<dim>::free_part(const Place &from, const Place &to) const
+  BodyContact<dim>::collision_free_fraction(const Configuration &from,
+                                            const Configuration &to) const
   {
-    const auto places_from = surfaces.places(from.displacement, from.time);
-    const auto places_to   = surfaces.places(to.displacement, to.time);
-    return free_part_of_paths(surfaces, places_from, places_to, settings.gap / 2);
+    const auto places_from = surfaces.positions(from.displacement, from.time);
+    const auto places_to   = surfaces.positions(to.displacement, to.time);
+    return undine::collision_free_fraction(
+      surfaces, places_from, places_to, settings.activation_distance / 2);
   }
 
 
@@ -236,13 +238,13 @@ namespace undine
   void
   BodyContact<dim>::check_start(const Vector &displacement, const double time) const
   {
-    const std::string overlap = find_overlap(surfaces, surfaces.places(displacement, time));
+    const std::string overlap = find_overlap(surfaces, surfaces.positions(displacement, time));
     if (!overlap.empty())
       throw settings.options.error(
         "",
         overlap + " at the start",
-        "Try: leave a gap, or hold the body there by a support that reaches to the wall or into "
-        "the other surface: what is held so is not in contact.");
+        "Try: leave a gap, or fix the body there by a support that reaches to the wall or into "
+        "the other surface: what is fixed so is not in contact.");
   }
 
 
@@ -250,9 +252,9 @@ namespace undine
   Columns
   BodyContact<dim>::columns(const Vector &displacement, const double time) const
   {
-    const auto             places = surfaces.places(displacement, time);
+    const auto             places = surfaces.positions(displacement, time);
     const auto             found  = terms(places);
-    double                 least  = settings.gap;
+    double                 least  = settings.activation_distance;
     Forces                 forces(surfaces.n_bodies());
     std::set<unsigned int> nodes;
     for (const auto &term : found)

@@ -74,9 +74,9 @@ namespace undine
     /// Boxes around the paths of all nodes of each surface.
     template <int dim>
     std::vector<Ends<dim>>
-    boxes_of_surfaces(const ContactSurfaces<dim>                  &surfaces,
-                      const typename ContactSurfaces<dim>::Places &from,
-                      const typename ContactSurfaces<dim>::Places &to)
+    boxes_of_surfaces(const ContactSurfaces<dim>                     &surfaces,
+                      const typename ContactSurfaces<dim>::Positions &from,
+                      const typename ContactSurfaces<dim>::Positions &to)
     {
       std::vector<Ends<dim>> result(surfaces.surface().body_names().size(), nothing<dim>());
       for (unsigned int node = 0; node < from.size(); ++node)
@@ -91,9 +91,9 @@ namespace undine
     /// The box around the paths of some nodes.
     template <int dim, class Nodes>
     Ends<dim>
-    ends_of(const Nodes                                 &nodes,
-            const typename ContactSurfaces<dim>::Places &from,
-            const typename ContactSurfaces<dim>::Places &to)
+    ends_of(const Nodes                                    &nodes,
+            const typename ContactSurfaces<dim>::Positions &from,
+            const typename ContactSurfaces<dim>::Positions &to)
     {
       auto result = nothing<dim>();
       for (const unsigned int node : nodes)
@@ -167,8 +167,8 @@ namespace undine
   template <int dim>
   void
   for_each_near_pair(const ContactSurfaces<dim>                            &surfaces,
-                     const typename ContactSurfaces<dim>::Places           &from,
-                     const typename ContactSurfaces<dim>::Places           &to,
+                     const typename ContactSurfaces<dim>::Positions        &from,
+                     const typename ContactSurfaces<dim>::Positions        &to,
                      const double                                           distance,
                      const std::function<void(unsigned int, unsigned int)> &action)
   {
@@ -207,8 +207,8 @@ namespace undine
   template <int dim>
   void
   for_each_near_edges(const ContactSurfaces<dim>                            &surfaces,
-                      const typename ContactSurfaces<dim>::Places           &from,
-                      const typename ContactSurfaces<dim>::Places           &to,
+                      const typename ContactSurfaces<dim>::Positions        &from,
+                      const typename ContactSurfaces<dim>::Positions        &to,
                       const double                                           distance,
                       const std::function<void(unsigned int, unsigned int)> &action)
   {

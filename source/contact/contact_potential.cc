@@ -14,7 +14,7 @@ namespace undine
     using Vectors = std::array<dealii::Tensor<1, dim>, dim + 1>;
 
     template <int dim>
-    using Places = typename ContactSurfaces<dim>::Places;
+    using Positions = typename ContactSurfaces<dim>::Positions;
 
 
     template <int dim>
@@ -31,7 +31,7 @@ namespace undine
     template <int dim>
     struct Crossing
     {
-      Crossing(const ContactTerm<dim> &term, const Places<dim> &places)
+      Crossing(const ContactTerm<dim> &term, const Positions<dim> &places)
       {
         if (term.crossing == 0)
           return;
@@ -85,7 +85,7 @@ namespace undine
     template <int dim>
     NodeMatrices<dim>
     by_distance(const ContactTerm<dim> &term,
-                const Places<dim>      &places,
+                const Positions<dim>   &places,
                 const double            slope,
                 const double            curvature)
     {
@@ -127,22 +127,22 @@ namespace undine
 
   template <int dim>
   double
-  ContactPotential<dim>::energy(const Term &term, const Places &places) const
+  ContactPotential<dim>::energy(const Term &term, const Positions &places) const
   {
-    return stiffness * term.area * gap * Crossing<dim>(term, places).value *
-           barrier(term.distance / gap);
+    return stiffness * term.area * activation_distance * Crossing<dim>(term, places).value *
+           barrier(term.distance / activation_distance);
   }
 
 
   template <int dim>
   Vectors<dim>
-  ContactPotential<dim>::forces(const Term &term, const Places &places) const
+  ContactPotential<dim>::forces(const Term &term, const Positions &places) const
   {
     const Crossing<dim> crossing(term, places);
-    const double        s       = term.distance / gap;
+    const double        s       = term.distance / activation_distance;
     const double        size    = stiffness * term.area;
     const double        slope   = size * crossing.value * barrier_slope(s);
-    const double        turning = size * gap * crossing.slope * barrier(s);
+    const double        turning = size * activation_distance * crossing.slope * barrier(s);
     Vectors<dim>        result;
     for (unsigned int i = 0; i < term.n; ++i)
       result[i] = -(slope * term.shares[i]) * term.direction - turning * crossing.gradient[i];
@@ -152,18 +152,19 @@ namespace undine
 
   template <int dim>
   NodeMatrices<dim>
-  ContactPotential<dim>::second_derivatives(const Term &term, const Places &places) const
+  ContactPotential<dim>::second_derivatives(const Term &term, const Positions &places) const
   {
     const Crossing<dim> crossing(term, places);
-    const double        s      = term.distance / gap;
-    const double        size   = stiffness * term.area;
-    auto                result = by_distance<dim>(term,
-                                   places,
-                                   size * crossing.value * barrier_slope(s),
-                                   size * crossing.value / gap * barrier_curvature(s));
+    const double        s    = term.distance / activation_distance;
+    const double        size = stiffness * term.area;
+    auto                result =
+      by_distance<dim>(term,
+                       places,
+                       size * crossing.value * barrier_slope(s),
+                       size * crossing.value / activation_distance * barrier_curvature(s));
     if (crossing.slope == 0)
       return result;
-    const double energy = size * gap * barrier(s);
+    const double energy = size * activation_distance * barrier(s);
     const double mixed  = size * barrier_slope(s) * crossing.slope;
     for (unsigned int i = 0; i < term.n; ++i)
       for (unsigned int j = 0; j < term.n; ++j)

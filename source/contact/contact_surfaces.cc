@@ -124,10 +124,10 @@ namespace undine
     for (unsigned int facet = 0; facet < all_facets.facets().size(); ++facet)
       for (const unsigned int node : all_facets.facets()[facet])
         surfaces_of_nodes[node] = all_facets.body(facet);
-    const auto rest = places(solid.vector(), 0);
+    const auto rest = positions(solid.vector(), 0);
     measure(solid, rest);
     all_edges = find_sharp_edges(all_facets, rest);
-    find_held(solid, rest);
+    find_fixed(solid, rest);
   }
 
 
@@ -140,7 +140,7 @@ namespace undine
     , surfaces_of_nodes(all.surfaces_of_nodes)
     , areas(all.areas)
     , all_edges(all.all_edges)
-    , held(all.held)
+    , fixed(all.fixed)
     , grown_together(all.grown_together)
     , least_size(all.least_size)
   {
@@ -166,7 +166,7 @@ namespace undine
 
   template <int dim>
   void
-  ContactSurfaces<dim>::measure(const SolidModel<dim> &solid, const Places &rest)
+  ContactSurfaces<dim>::measure(const SolidModel<dim> &solid, const Positions &rest)
   {
     std::vector<double>       sums(all_facets.body_names().size());
     std::vector<unsigned int> counts(sums.size());
@@ -192,7 +192,7 @@ namespace undine
 
   template <int dim>
   void
-  ContactSurfaces<dim>::find_held(const SolidModel<dim> &solid, const Places &rest)
+  ContactSurfaces<dim>::find_fixed(const SolidModel<dim> &solid, const Positions &rest)
   {
     // Gaps that are nothing but rounding of places.
     const double              rounding = 1e-9 * least_size;
@@ -205,11 +205,11 @@ namespace undine
             }))
           fixed_nodes.push_back(node);
       }
-    held.assign(n_bodies(), std::vector<bool>(all_walls.size()));
+    fixed.assign(n_bodies(), std::vector<bool>(all_walls.size()));
     for (const unsigned int node : fixed_nodes)
       for (unsigned int wall = 0; wall < all_walls.size(); ++wall)
         if ((rest[node] - all_walls[wall].point) * all_walls[wall].normal <= rounding)
-          held[surfaces_of_nodes[node]][wall] = true;
+          fixed[surfaces_of_nodes[node]][wall] = true;
     find_grown_together(fixed_nodes, rest);
   }
 
@@ -217,7 +217,7 @@ namespace undine
   template <int dim>
   void
   ContactSurfaces<dim>::find_grown_together(const std::vector<unsigned int> &fixed_nodes,
-                                            const Places                    &rest)
+                                            const Positions                 &rest)
   {
     const unsigned int n_surfaces = all_facets.body_names().size();
     grown_together.assign(n_surfaces, std::vector<bool>(n_surfaces));
@@ -239,8 +239,8 @@ namespace undine
 
 
   template <int dim>
-  typename ContactSurfaces<dim>::Places
-  ContactSurfaces<dim>::places(const Vector &displacement, const double time) const
+  typename ContactSurfaces<dim>::Positions
+  ContactSurfaces<dim>::positions(const Vector &displacement, const double time) const
   {
     auto result = body_surface.positions(displacement);
     if (obstacles)

@@ -13,22 +13,23 @@ namespace undine
   namespace
   {
     template <int dim>
-    using Places = typename ContactSurfaces<dim>::Places;
+    using Positions = typename ContactSurfaces<dim>::Positions;
 
 
     template <int dim>
     void
     add_walls(std::vector<ContactTerm<dim>> &terms,
               const ContactSurfaces<dim>    &surfaces,
-              const Places<dim>             &places,
-              const double                   gap)
+              const Positions<dim>          &places,
+              const double                   activation_distance)
     {
       for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
         for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
           {
             const auto  &plane    = surfaces.walls()[wall];
             const double distance = (places[node] - plane.point) * plane.normal;
-            if (distance >= gap || surfaces.is_held_at(surfaces.surface_of_node(node), wall))
+            if (distance >= activation_distance ||
+                surfaces.is_fixed_at(surfaces.surface_of_node(node), wall))
               continue;
             ContactTerm<dim> term;
             term.nodes[0]  = node;
@@ -61,7 +62,7 @@ namespace undine
 
     template <int dim>
     std::array<dealii::Point<dim>, dim>
-    places_of(const Simplex<dim> &simplex, const Places<dim> &places)
+    places_of(const Simplex<dim> &simplex, const Positions<dim> &places)
     {
       std::array<dealii::Point<dim>, dim> result;
       for (unsigned int k = 0; k < simplex.n; ++k)
@@ -85,15 +86,15 @@ namespace undine
     add_node(std::vector<ContactTerm<dim>> &terms,
              const std::set<Simplex<dim>>  &parts,
              const unsigned int             node,
-             const Places<dim>             &places,
+             const Positions<dim>          &places,
              const double                   area,
-             const double                   gap)
+             const double                   activation_distance)
     {
       std::map<Simplex<dim>, Count<dim>> counts;
       for (const auto &part : parts)
         {
           const auto nearest = nearest_in_simplex<dim>(part, places_of(part, places), places[node]);
-          if (nearest.distance >= gap)
+          if (nearest.distance >= activation_distance)
             continue;
           auto &count   = counts[nearest.inside];
           count.nearest = nearest;
@@ -133,8 +134,8 @@ namespace undine
     add_edges(std::vector<ContactTerm<dim>> &terms,
               const SharpEdge               &one,
               const SharpEdge               &other,
-              const Places<dim>             &places,
-              const double                   gap)
+              const Positions<dim>          &places,
+              const double                   activation_distance)
     {
       const std::array<unsigned int, 4> nodes{
         {one.nodes[0], one.nodes[1], other.nodes[0], other.nodes[1]}};
@@ -142,7 +143,7 @@ namespace undine
       for (unsigned int i = 0; i < 4; ++i)
         x[i] = places[nodes[i]];
       const auto nearest = nearest_of_edges<dim>(x);
-      if (nearest.distance >= gap)
+      if (nearest.distance >= activation_distance)
         return;
       ContactTerm<dim> term;
       term.n = 4;
@@ -170,31 +171,40 @@ namespace undine
   template <int dim>
   std::vector<ContactTerm<dim>>
   find_contact_terms(const ContactSurfaces<dim> &surfaces,
-                     const Places<dim>          &places,
-                     const double                gap)
+                     const Positions<dim>       &places,
+                     const double                activation_distance)
   {
     std::vector<ContactTerm<dim>> terms;
-    add_walls(terms, surfaces, places, gap);
+    add_walls(terms, surfaces, places, activation_distance);
     std::map<unsigned int, std::set<Simplex<dim>>> parts; // by surface, of one node
     unsigned int                                   last        = 0;
     const auto                                     finish_node = [&] {
       for (const auto &of_surface : parts)
-        add_node<dim>(terms, of_surface.second, last, places, surfaces.area(last) / 2, gap);
+        add_node<dim>(
+          terms, of_surface.second, last, places, surfaces.area(last) / 2, activation_distance);
       parts.clear();
     };
-    for_each_near_pair(
-      surfaces, places, places, gap, [&](const unsigned int node, const unsigned int facet) {
-        if (node != last)
-          finish_node();
-        last = node;
-        add_parts<dim>(parts[surfaces.surface().body(facet)], surfaces.surface().facets()[facet]);
-      });
+    for_each_near_pair(surfaces,
+                       places,
+                       places,
+                       activation_distance,
+                       [&](const unsigned int node, const unsigned int facet) {
+                         if (node != last)
+                           finish_node();
+                         last = node;
+                         add_parts<dim>(parts[surfaces.surface().body(facet)],
+                                        surfaces.surface().facets()[facet]);
+                       });
     finish_node();
-    for_each_near_edges<dim>(
-      surfaces, places, places, gap, [&](const unsigned int one, const unsigned int other) {
-        const auto &edges = surfaces.sharp_edges();
-        add_edges<dim>(terms, edges[one], edges[other], places, gap);
-      });
+    for_each_near_edges<dim>(surfaces,
+                             places,
+                             places,
+                             activation_distance,
+                             [&](const unsigned int one, const unsigned int other) {
+                               const auto &edges = surfaces.sharp_edges();
+                               add_edges<dim>(
+                                 terms, edges[one], edges[other], places, activation_distance);
+                             });
     return terms;
   }
 

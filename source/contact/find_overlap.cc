@@ -19,15 +19,15 @@ namespace undine
 
     template <int dim>
     std::string
-    wall_complaint(const ContactSurfaces<dim>                  &surfaces,
-                   const typename ContactSurfaces<dim>::Places &places)
+    wall_complaint(const ContactSurfaces<dim>                     &surfaces,
+                   const typename ContactSurfaces<dim>::Positions &places)
     {
       for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
         for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
           {
             const auto        &plane = surfaces.walls()[wall];
             const unsigned int body  = surfaces.surface_of_node(node);
-            if (!surfaces.is_held_at(body, wall) &&
+            if (!surfaces.is_fixed_at(body, wall) &&
                 !((places[node] - plane.point) * plane.normal > 0))
               return fmt::format("body '{}' is not on the free side of wall '{}' at {}",
                                  surfaces.surface().body_names()[body],
@@ -41,9 +41,9 @@ namespace undine
     /// Whether a node of another surface is in this one.
     template <int dim>
     std::string
-    surface_complaint(const ContactSurfaces<dim>                  &surfaces,
-                      const typename ContactSurfaces<dim>::Places &places,
-                      const unsigned int                           surface)
+    surface_complaint(const ContactSurfaces<dim>                     &surfaces,
+                      const typename ContactSurfaces<dim>::Positions &places,
+                      const unsigned int                              surface)
     {
       const SurfaceDistance<dim> distance(one_surface(surfaces.surface(), surface), places);
       const auto                 box = distance.box();
@@ -64,8 +64,8 @@ namespace undine
 
   template <int dim>
   std::string
-  find_overlap(const ContactSurfaces<dim>                  &surfaces,
-               const typename ContactSurfaces<dim>::Places &places)
+  find_overlap(const ContactSurfaces<dim>                     &surfaces,
+               const typename ContactSurfaces<dim>::Positions &places)
   {
     std::string complaint = wall_complaint(surfaces, places);
     for (unsigned int s = 0; s < surfaces.surface().body_names().size() && complaint.empty(); ++s)
@@ -75,7 +75,7 @@ namespace undine
 
 
   template std::string
-  find_overlap(const ContactSurfaces<2> &, const ContactSurfaces<2>::Places &);
+  find_overlap(const ContactSurfaces<2> &, const ContactSurfaces<2>::Positions &);
   template std::string
-  find_overlap(const ContactSurfaces<3> &, const ContactSurfaces<3>::Places &);
+  find_overlap(const ContactSurfaces<3> &, const ContactSurfaces<3>::Positions &);
 } // namespace undine

@@ -87,16 +87,16 @@ namespace undine
       judge_flow()
       {
         const double U = largest.speed, L = largest.length, density = models.fluid->density();
-        const bool   carries = is_on("convection");
+        const bool   advects = is_on("convection");
         if (largest.viscosity > 0)
           {
             const double reynolds =
               add("Reynolds number", density * U * L / largest.viscosity, "rho U L / mu");
             const std::string rule =
               "friction outweighs inertia where Re < 0.01, inertia counts where Re > 1";
-            if (carries && reynolds < 0.01)
+            if (advects && reynolds < 0.01)
               call_idle("convection", rule);
-            if (!carries && reynolds > 1)
+            if (!advects && reynolds > 1)
               call_missing("convection", rule);
             const double layer = add("friction layer over cell width",
                                      L / std::sqrt(reynolds) / narrowest_cell(),
@@ -109,11 +109,11 @@ namespace undine
           {
             const double way = add("way of the fluid over length", U * largest.time / L, "U T / L");
             const std::string rule =
-              "without friction a fluid that moves by a tenth of a length carries its "
-              "velocity along, by less than a thousandth not";
-            if (carries && way < 1e-3)
+              "without friction a fluid that moves by a tenth of a length advects its "
+              "velocity, by less than a thousandth not";
+            if (advects && way < 1e-3)
               call_idle("convection", rule);
-            if (!carries && way > 0.1)
+            if (!advects && way > 0.1)
               call_missing("convection", rule);
           }
         if (gravity > 0 && is_on("buoyancy"))

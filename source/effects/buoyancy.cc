@@ -49,7 +49,7 @@ namespace undine
       if (lifts.empty())
         throw options.error("",
                             "names no field that makes the fluid lighter or heavier",
-                            "Add a subsection with the name of a carried field.");
+                            "Add a subsection with the name of an advected field.");
       if (!contains(around.effects, "gravity"))
         throw options.error("",
                             "buoyancy needs gravity, which the scene does not call for",
@@ -58,7 +58,7 @@ namespace undine
         if (!contains(around.scalars, lift.scalar))
           throw options.section(lift.scalar)
             .error("",
-                   "no field named '" + lift.scalar + "' is carried",
+                   "no field named '" + lift.scalar + "' is advected",
                    "Add it to 'Effects/scalar transport' as a subsection of that name.");
     }
 
@@ -173,6 +173,6 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, Buoyancy>
-      registered("buoyancy", "Lift by a carried field, such as heat or smoke.");
+      registered("buoyancy", "Lift by an advected field, such as heat or smoke.");
   }
 } // namespace undine

@@ -7,7 +7,7 @@
 namespace undine
 {
   /// Bodies repel each other, walls and obstacles without friction, by a barrier that begins at a
-  /// small gap (BodyContact), and never overlap.
+  /// small distance (BodyContact), and never overlap.
   template <int dim>
   class ContactEffect : public Effect<dim>
   {
@@ -17,17 +17,18 @@ namespace undine
     {
       settings.emplace(ContactSettings<dim>{options});
       options.add(
-        "Gap",
-        settings->gap,
+        "Activation distance",
+        settings->activation_distance,
         "m",
         Allowed::not_negative(),
-        "Distance at which contact begins, kept open by forces that grow without bound as "
-        "it closes. 0: a tenth of the size of the bodies' facets, where that is least.");
-      options.add("Stiffness",
-                  settings->stiffness,
-                  "Pa",
-                  Allowed::not_negative(),
-                  "Pressure at 0.53 of the gap. 0: the P-wave modulus of the softest body.");
+        "Distance below which contact acts, by forces that grow without bound as surfaces "
+        "approach each other. 0: a tenth of the size of the bodies' facets, where that is least.");
+      options.add(
+        "Stiffness",
+        settings->stiffness,
+        "Pa",
+        Allowed::not_negative(),
+        "Pressure at 0.53 of the activation distance. 0: the P-wave modulus of the softest body.");
       options.add("Domain walls",
                   settings->at_domain,
                   "",
@@ -60,8 +61,8 @@ namespace undine
       };
       if (!settings)
         return "";
-      return fmt::format("without friction, gap {}, {} walls of the scene",
-                         given(settings->gap, "m"),
+      return fmt::format("without friction, activation distance {}, {} walls of the scene",
+                         given(settings->activation_distance, "m"),
                          settings->walls.size());
     }
 

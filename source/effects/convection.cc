@@ -7,8 +7,8 @@
 
 namespace undine
 {
-  /// The fluid carries its own momentum: dv/dt + (v.grad) v = a for one step, where in steps of one
-  /// stage a share of the acceleration a by forces is carried along (see FluidStage). Without
+  /// The fluid advects its own momentum: dv/dt + (v.grad) v = a for one step, where in steps of one
+  /// stage a share of the acceleration a by forces is advected (see FluidStage). Without
   /// convection the flow is a Stokes flow.
   template <int dim>
   class Convection : public Effect<dim>
@@ -18,7 +18,7 @@ namespace undine
     add_options(const Options &options) override
     {
       method =
-        options.template choose<Advection<dim>>("Method", "cubic", "How the velocity is carried.");
+        options.template choose<Advection<dim>>("Method", "cubic", "How the velocity is advected.");
     }
 
     void
@@ -47,14 +47,14 @@ namespace undine
     {
       const auto timed = step.timing.section(this->name);
       if (step.stage.keeps_rates())
-        carry(step.to_carry(), step);
+        advect(step.advected_velocities(), step);
       else
-        carry_with_acceleration(step);
+        advect_with_acceleration(step);
     }
 
   private:
     void
-    carry(const std::vector<Velocity<dim> *> &velocities, FluidStage<dim> &step) const
+    advect(const std::vector<Velocity<dim> *> &velocities, FluidStage<dim> &step) const
     {
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
@@ -74,17 +74,17 @@ namespace undine
     }
 
     void
-    carry_with_acceleration(FluidStage<dim> &step) const
+    advect_with_acceleration(FluidStage<dim> &step) const
     {
       auto        &velocity = step.state.velocity;
       const auto  &now      = step.state.acceleration;
-      const double share    = FluidStage<dim>::carried_share * step.dt;
+      const double share    = FluidStage<dim>::advected_share * step.dt;
       for (unsigned int axis = 0; axis < dim; ++axis)
         add_to_whole_faces(velocity[axis], share, now[axis]);
-      carry({&velocity}, step);
+      advect({&velocity}, step);
       for (unsigned int axis = 0; axis < dim; ++axis)
         add_to_whole_faces(velocity[axis], -share, now[axis]);
-      step.carried = velocity;
+      step.advected = velocity;
       step.timing.memory.hold_briefly(this->name, 2 * undine::memory_consumption(velocity));
     }
 
@@ -106,6 +106,6 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, Convection>
-      registered("convection", "The flow carries its own momentum.");
+      registered("convection", "The flow advects its own momentum.");
   }
 } // namespace undine

@@ -14,12 +14,13 @@ namespace undine
 {
   namespace
   {
-    /// A carried field, held at inflows and where the scene says so, without flux elsewhere.
+    /// An advected field, prescribed at inflows and where the scene says so, without flux
+    /// elsewhere.
     template <int dim>
-    class CarriedScalar : public BoundaryCondition<dim>
+    class TransportedScalar : public BoundaryCondition<dim>
     {
     public:
-      explicit CarriedScalar(const std::string &name_)
+      explicit TransportedScalar(const std::string &name_)
         : name(name_)
       {
       }
@@ -47,35 +48,39 @@ namespace undine
           "1",
           Allowed::between(0, 0.01),
           "Where within reach of the flow values differ by no more than this share of the "
-          "field's range, nothing is carried: what holds no smoke costs nothing. 0: "
-          "everything is carried.");
+          "field's range, nothing is advected: what holds no smoke costs nothing. 0: "
+          "everything is advected.");
         options.add("Diffusivity", diffusivity, "m^2/s", Allowed::not_negative(), "Its own.");
         options.add("Dirichlet boundaries",
-                    held_boundaries,
+                    dirichlet_boundaries,
                     "",
                     Allowed::anything(),
-                    "Names of boundaries on which the value is held, such as heated walls.");
-        options.add(
-          "Dirichlet value", held, "", Allowed::anything(), "On the boundaries where it is held.");
-        if (!options.is_reference() && options.given("Dirichlet value") && held_boundaries.empty())
+                    "Names of boundaries on which the value is prescribed, such as heated walls.");
+        options.add("Dirichlet value",
+                    prescribed,
+                    "",
+                    Allowed::anything(),
+                    "On the boundaries where it is prescribed.");
+        if (!options.is_reference() && options.given("Dirichlet value") &&
+            dirichlet_boundaries.empty())
           throw options.error("Dirichlet value",
                               "is given, but no boundary to hold it",
                               "Name boundaries of the fluid in 'Dirichlet boundaries'.");
       }
 
       bool
-      holds(const Boundary<dim> &boundary) const override
+      is_dirichlet(const Boundary<dim> &boundary) const override
       {
         return boundary.kind == BoundaryKind::inflow || is_listed(boundary);
       }
 
       double
-      held_value(const Boundary<dim> &boundary,
-                 const unsigned int,
-                 const dealii::Point<dim> &place,
-                 const double              time) const override
+      dirichlet_value(const Boundary<dim> &boundary,
+                      const unsigned int,
+                      const dealii::Point<dim> &place,
+                      const double              time) const override
       {
-        return is_listed(boundary) ? held.value(place, time) : inflow.value(place, time);
+        return is_listed(boundary) ? prescribed.value(place, time) : inflow.value(place, time);
       }
 
       double
@@ -124,8 +129,8 @@ namespace undine
       }
 
       std::string              name;
-      Expression<dim>          initial, source, inflow, held;
-      std::vector<std::string> held_boundaries;
+      Expression<dim>          initial, source, inflow, prescribed;
+      std::vector<std::string> dirichlet_boundaries;
       double                   diffusivity = 0;
       double                   neglected   = 1e-6;
 
@@ -157,14 +162,14 @@ namespace undine
       bool
       is_listed(const Boundary<dim> &boundary) const
       {
-        return std::find(held_boundaries.begin(), held_boundaries.end(), boundary.name) !=
-               held_boundaries.end();
+        return std::find(dirichlet_boundaries.begin(), dirichlet_boundaries.end(), boundary.name) !=
+               dirichlet_boundaries.end();
       }
     };
   } // namespace
 
 
-  /// Fields that the flow carries, such as smoke or temperature:
+  /// Fields that the flow advects, such as smoke or temperature:
   ///
   ///     ds/dt + v.grad s = D Laplace(s) + q                                               (E4)
   ///
@@ -180,10 +185,10 @@ namespace undine
     add_options(const Options &options) override
     {
       method =
-        options.template choose<Advection<dim>>("Method", "cubic", "How the fields are carried.");
+        options.template choose<Advection<dim>>("Method", "cubic", "How the fields are advected.");
       for (const auto &name : options.named_sections("field"))
         {
-          fields.push_back(std::make_unique<CarriedScalar<dim>>(name));
+          fields.push_back(std::make_unique<TransportedScalar<dim>>(name));
           fields.back()->add_options(options.section(name));
         }
     }
@@ -197,7 +202,7 @@ namespace undine
                             "Remove the section or add a section 'Fluid'.");
       if (fields.empty())
         throw options.error("",
-                            "names no field to carry",
+                            "names no field to advect",
                             "Add a subsection with the field's name, such as 'subsection smoke'.");
       for (const auto &field : fields)
         if (around.has_immersed_surfaces && field->diffusivity > 0)
@@ -252,25 +257,25 @@ namespace undine
       for (const auto &field : fields)
         {
           auto                   &values = step.state.scalars.at(field->name);
-          std::vector<Field<dim>> fields_to_carry;
+          std::vector<Field<dim>> fields_to_advect;
           if (field->changes() && step.keeps_mean())
-            fields_to_carry = {values, values};
+            fields_to_advect = {values, values};
           else
-            fields_to_carry.push_back(std::move(values));
+            fields_to_advect.push_back(std::move(values));
           if (field->changes() && step.stage.going_on() != 0)
-            add(fields_to_carry.front(),
+            add(fields_to_advect.front(),
                 step.stage.going_on(),
                 step.state.scalar_rates.at(field->name));
           step.timing.memory.hold_briefly(
-            this->name, fields_to_carry.size() * fields_to_carry.front().memory_consumption());
-          auto carried = method->advect(step.tracer, std::move(fields_to_carry), *field);
+            this->name, fields_to_advect.size() * fields_to_advect.front().memory_consumption());
+          auto advected = method->advect(step.tracer, std::move(fields_to_advect), *field);
           if (!field->changes())
             {
-              values = std::move(carried.front());
+              values = std::move(advected.front());
               continue;
             }
-          values = carried.front();
-          change(*field, carried, step);
+          values = advected.front();
+          change(*field, advected, step);
         }
     }
 
@@ -314,11 +319,11 @@ namespace undine
     }
 
   private:
-    /// Sources and diffusion, and the rate that is kept. `carried`: s^0 where the stage keeps
+    /// Sources and diffusion, and the rate that is kept. `advected`: s^0 where the stage keeps
     /// rates, and then s^b if that rate is a mean.
     void
-    change(const CarriedScalar<dim>      &field,
-           const std::vector<Field<dim>> &carried,
+    change(const TransportedScalar<dim>  &field,
+           const std::vector<Field<dim>> &advected,
            FluidStage<dim>               &step) const
     {
       auto        &values = step.state.scalars.at(field.name);
@@ -338,13 +343,13 @@ namespace undine
         }
       auto &rate = step.state.scalar_rates.at(field.name);
       rate       = values;
-      add(rate, -1., carried.back());
+      add(rate, -1., advected.back());
       add(rate, 1 / (step.keeps_mean() ? stage.duration() : stage.length) - 1, Field<dim>(rate));
     }
 
     static void
     check_field(const Options                    &options,
-                const CarriedScalar<dim>         &field,
+                const TransportedScalar<dim>     &field,
                 const std::vector<Boundary<dim>> &boundaries)
     {
       static const std::vector<std::string> taken{"velocity", "pressure", "vorticity_magnitude"};
@@ -355,7 +360,7 @@ namespace undine
       std::string known;
       for (const auto &boundary : boundaries)
         known += (known.empty() ? "'" : ", '") + boundary.name + "'";
-      for (const auto &name : field.held_boundaries)
+      for (const auto &name : field.dirichlet_boundaries)
         if (std::none_of(boundaries.begin(), boundaries.end(), [&](const auto &boundary) {
               return boundary.name == name;
             }))
@@ -365,8 +370,8 @@ namespace undine
                    "Allowed: " + known);
     }
 
-    std::unique_ptr<Advection<dim>>                  method;
-    std::vector<std::unique_ptr<CarriedScalar<dim>>> fields;
+    std::unique_ptr<Advection<dim>>                      method;
+    std::vector<std::unique_ptr<TransportedScalar<dim>>> fields;
   };
 
 

@@ -26,7 +26,7 @@ namespace undine
     /// The flow in the middle of the stage.
     template <int dim>
     Velocity<dim>
-    carrying_velocity(const FluidState<dim> &state, const Stage &stage)
+    advecting_velocity(const FluidState<dim> &state, const Stage &stage)
     {
       auto result = state.velocity;
       if (stage.keeps_rates())
@@ -65,7 +65,7 @@ namespace undine
     , end(time_ + stage.end)
     , dt(stage.length)
     , timing(timing_)
-    , tracer(model_, carrying_velocity(state_, stage), time, stage.duration(), bodies)
+    , tracer(model_, advecting_velocity(state_, stage), time, stage.duration(), bodies)
   {
     if (stage.keeps_rates())
       go_on();
@@ -81,7 +81,7 @@ namespace undine
   {
     before = state.velocity;
     if (keeps_mean())
-      carried_begin = before;
+      advected_begin = before;
     if (stage.going_on() != 0)
       add(state.velocity, stage.going_on(), state.acceleration);
   }
@@ -94,14 +94,14 @@ namespace undine
     const auto &now = tracer.bodies().topology;
     state.pressure  = moved_to(state.pressure, now);
     if (stage.keeps_rates())
-      return; // accelerations have been carried as part of velocities
+      return; // accelerations have been advected as part of velocities
     for (auto &component : state.acceleration.components)
       component = moved_to(component, now);
     for (auto &component : state.change.components) // which this integrator does not know
       component = Field<dim>(component.shared_lattice(), now);
     if (!now)
       return;
-    // Pieces have no acceleration to be carried: they may be freshly cleared.
+    // Pieces have no acceleration to be advected: they may be freshly cleared.
     for (auto &component : state.acceleration.components)
       {
         std::fill(component.parts().begin(), component.parts().end(), 0.);
@@ -112,10 +112,10 @@ namespace undine
 
   template <int dim>
   std::vector<Velocity<dim> *>
-  FluidStage<dim>::to_carry()
+  FluidStage<dim>::advected_velocities()
   {
-    if (carried_begin)
-      return {&state.velocity, &*carried_begin};
+    if (advected_begin)
+      return {&state.velocity, &*advected_begin};
     return {&state.velocity};
   }
 
@@ -136,13 +136,13 @@ namespace undine
   void
   FluidStage<dim>::remap()
   {
-    for (auto *velocity : to_carry())
+    for (auto *velocity : advected_velocities())
       if ((*velocity)[0].topology() != tracer.bodies().topology)
         *velocity = remapped_velocity(*velocity);
     if (stage.keeps_rates())
       {
-        carried = state.velocity;
-        before  = remapped_velocity(before);
+        advected = state.velocity;
+        before   = remapped_velocity(before);
       }
   }
 
@@ -153,22 +153,22 @@ namespace undine
   {
     if (stage.keeps_rates())
       {
-        state.acceleration = carried_begin
-                               ? difference(state.velocity, *carried_begin, stage.duration())
-                               : difference(state.velocity, *carried, stage.length);
+        state.acceleration = advected_begin
+                               ? difference(state.velocity, *advected_begin, stage.duration())
+                               : difference(state.velocity, *advected, stage.length);
         if (by_contact)
           add(state.acceleration,
-              -1 / (carried_begin ? stage.duration() : stage.length),
+              -1 / (advected_begin ? stage.duration() : stage.length),
               *by_contact);
         state.change = difference(state.velocity, before, stage.duration());
       }
-    else if (carried)
+    else if (advected)
       for (unsigned int axis = 0; axis < dim; ++axis)
         for_each(state.velocity[axis].owned(), [&](const GridIndex<dim> &face) {
           const auto *divided = state.velocity[axis].divided();
           const bool  whole   = !divided || divided->kind(face) == SubLattice<dim>::Kind::whole;
           state.acceleration[axis](face) =
-            whole ? (state.velocity[axis](face) - (*carried)[axis](face)) / dt : 0.;
+            whole ? (state.velocity[axis](face) - (*advected)[axis](face)) / dt : 0.;
         });
     if (pressure_correction)
       {

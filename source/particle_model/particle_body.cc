@@ -16,7 +16,7 @@ namespace undine
 
     template <int dim>
     std::vector<BodyBoundary<dim>>
-    read_held_parts(const Options &section)
+    read_clamped_parts(const Options &section)
     {
       std::vector<BodyBoundary<dim>> result;
       for (const auto &name : section.named_sections("root"))
@@ -30,7 +30,7 @@ namespace undine
               "Kind", "is not possible for a body of particles", "Allowed: clamp.");
           if (options.given("Components"))
             throw options.error(
-              "Components", "particles are held in all directions or in none", "Remove it.");
+              "Components", "particles are clamped in all directions or in none", "Remove it.");
         }
       return result;
     }
@@ -108,7 +108,7 @@ namespace undine
       Allowed::not_negative(),
       "Stiffness with which other bodies and walls are kept off, as stress per overlap in "
       "spacings; the softer one of two bodies counts. 0: that of pressure waves, lambda + 2 mu.");
-    boundaries = read_held_parts<dim>(options.section("Boundaries"));
+    boundaries = read_clamped_parts<dim>(options.section("Boundaries"));
   }
 
 
@@ -148,7 +148,7 @@ namespace undine
     if (places.empty())
       throw options.error(
         "", "the body is smaller than a particle", "Try: a smaller 'Particles / Spacing'.");
-    held.assign(places.size(), 0);
+    clamped.assign(places.size(), 0);
     for (const auto &boundary : boundaries)
       hold(boundary, shape, spacing);
     for (std::size_t k = 0; k < places.size(); ++k)
@@ -158,7 +158,7 @@ namespace undine
           throw options.error("Initial velocity",
                               "is not a number at (" + write_value(places[k]) + ")",
                               "Try: an expression that is finite in the whole body.");
-        if (held[k])
+        if (clamped[k])
           velocities.back() = 0;
       }
   }
@@ -170,7 +170,8 @@ namespace undine
                           const ShapeBoundary<dim> &shape,
                           const double              spacing)
   {
-    // 'Where' alone speaks of the whole body: what is embedded in a wall is held in all its depth.
+    // 'Where' alone speaks of the whole body: what is embedded in a wall is clamped in all its
+    // depth.
     const bool near_surface = !boundary.sides.empty() || !boundary.options.given("Where");
     const SurfaceDistance<dim> part(named_part(boundary, shape), shape.nodes);
     bool                       any = false;
@@ -184,8 +185,8 @@ namespace undine
         if (where > 0 && (!near_surface ||
                           std::abs(part.nearest(places[k]).distance) < (1 - rounding) * spacing))
           {
-            held[k] = 1;
-            any     = true;
+            clamped[k] = 1;
+            any        = true;
           }
       }
     if (!any)
@@ -193,7 +194,7 @@ namespace undine
         "Where",
         "together with 'Sides' holds no particle of the body",
         "Try: another expression or side; particles within one spacing of "
-        "the sides are held, without sides all at which 'Where' is "
+        "the sides are clamped, without sides all at which 'Where' is "
         "positive.");
   }
 

@@ -50,16 +50,17 @@ namespace undine
     {
       const double outside = box.distance_outside(body.places[k]);
       const auto   place   = "(" + write_value(body.places[k]) + ")";
-      if (outside > (body.held[k] ? box.layers * box.spacing : 0.))
+      if (outside > (body.clamped[k] ? box.layers * box.spacing : 0.))
         throw body.options.error(
           "",
           "the body is outside the domain at " + place,
-          "Try: a larger domain; what is held may reach into walls, at most " +
+          "Try: a larger domain; what is clamped may reach into walls, at most " +
             write_value(box.layers * box.spacing) + " m.");
-      if (!body.held[k] && obstacles.contain(body.places[k]))
-        throw body.options.error("",
-                                 "the body is in an obstacle at " + place,
-                                 "Try: move one of them; only what is held may be in obstacles.");
+      if (!body.clamped[k] && obstacles.contain(body.places[k]))
+        throw body.options.error(
+          "",
+          "the body is in an obstacle at " + place,
+          "Try: move one of them; only what is clamped may be in obstacles.");
     }
 
 
@@ -208,7 +209,7 @@ namespace undine
         occupied.add(body.places[k]);
         constants.reference.push_back(plain<dim>(body.places[k]));
         constants.body_of.push_back(number);
-        constants.held.push_back(body.held[k]);
+        constants.clamped.push_back(body.clamped[k]);
         add(body.places[k],
             body.velocities[k],
             particles::Tag::of(particles::Kind::solid, number + 1));
@@ -252,9 +253,9 @@ namespace undine
     std::vector<WallParticle<dim>> result;
     for (const auto &wall : walls)
       {
-        bool room = true; // what is held in a wall takes its place
+        bool room = true; // what is clamped in a wall takes its place
         occupied.for_each_near(wall.place, apart * box.spacing, [&](const std::size_t k) {
-          room = room && !constants.held[k];
+          room = room && !constants.clamped[k];
         });
         if (!room)
           continue;

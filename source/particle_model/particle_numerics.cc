@@ -39,11 +39,12 @@ namespace undine
       "m",
       Allowed::positive(),
       "Between particles at the start, l0; a particle stands for a cube of this edge.");
-    options.add("Reach",
-                numerics.reach,
-                "spacings",
-                Allowed::between(1.5, 4.5),
-                "Of the weight r_e / r - 1 with which neighbours count.");
+    options.add(
+      "Reach",
+      numerics.reach,
+      "spacings",
+      Allowed::between(1.5, 4.5),
+      "Effective radius r_e of the weight r_e / r - 1: particles are neighbours within it.");
     read_machine(options);
     read_sub_steps(options.section("Sub-steps"));
     read_pressure(options.section("Pressure"));
@@ -94,7 +95,7 @@ namespace undine
   void
   ParticleNumerics::read_sub_steps(const Options &options)
   {
-    using particles::Places;
+    using particles::PositionUpdate;
     options.add("Largest",
                 numerics.largest_sub_step,
                 "s",
@@ -132,11 +133,12 @@ namespace undine
       "step instead: faster for stiff bodies, and without their fast vibrations. 0: "
       "always explicit.");
     numerics.most_elastic_steps = most;
-    add_choice<Places>(
+    add_choice<PositionUpdate>(
       options,
-      "Places",
-      numerics.places,
-      {{"end velocity", Places::end_velocity}, {"mean velocity", Places::mean_velocity}},
+      "Position update",
+      numerics.position_update,
+      {{"end velocity", PositionUpdate::end_velocity},
+       {"mean velocity", PositionUpdate::mean_velocity}},
       "With what velocity fluid goes through a sub-step. end velocity: that at its end, which "
       "dampens swinging and impacts. mean velocity: the mean of those at its start and end, more "
       "accurate where motion is smooth; first peaks of impacts are higher and scatter more.");

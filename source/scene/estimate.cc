@@ -18,15 +18,15 @@ namespace undine
     {
       const auto &grid    = size.grid;
       const auto &figures = cost_figures::grid[size.dimension - 2];
-      result.memory += grid.cells * (figures.bytes + grid.carried * figures.bytes_carried +
+      result.memory += grid.cells * (figures.bytes + grid.advected * figures.bytes_advected +
                                      grid.implicit * figures.bytes_implicit) +
                        grid.cut_cells * figures.bytes_cut +
                        n_ranks * grid.facets * figures.bytes_facet;
       result.seconds +=
         size.stages *
         (grid.cells * (figures.projection + (grid.moves ? figures.moving : 0) +
-                       grid.carried * figures.carried + grid.implicit * figures.implicit) +
-         grid.cut_cells * grid.carried * figures.carried_cut);
+                       grid.advected * figures.advected + grid.implicit * figures.implicit) +
+         grid.cut_cells * grid.advected * figures.advected_cut);
       const double values = size.dimension + 1. + grid.scalars;
       result.picture += grid.cells * values * cost_figures::picture_value;
       // Velocity, its acceleration and change are kept, pressure, scalars and their rates.

@@ -132,7 +132,7 @@ namespace undine
       for (const auto &effect : read_effects<dim>(scene.section("Effects")))
         {
           const auto work = effect->work();
-          grid.carried += work.carried;
+          grid.advected += work.advected;
           grid.implicit += work.implicit;
           grid.scalars += effect->scalars().size();
         }

@@ -112,7 +112,7 @@ def check_obstacles(program, folder):
         expect(f"'{name}' must have calls and memory", effects[name]["calls"] > 0 and
                effects[name]["peak bytes"] >= cells, effects[name])
     smoke = effects["scalar transport"]
-    expect("the smoke is a field of the state from the start, and needs another while carried",
+    expect("the smoke is a field of the state from the start, and needs another while advected",
            cells <= smoke["bytes at start"] < 2 * cells <= smoke["peak bytes"] < 5 * cells, smoke)
 
     moving, _, _, _ = run(program, os.path.join(folder, "moving_paddle.prm"))
@@ -163,7 +163,7 @@ def check_advice(program, folder):
                                                  "Bodies/beam/Material=linear elastic",
                                                  "Effects/gravity/Acceleration=0, -1e5, 0"))
     stiff = advice_of(program, STIFF_PLATE)
-    expect("a fluid without friction that moves carries its velocity",
+    expect("a fluid without friction that moves advects its velocity",
            ("convection", False) in stiff, stiff)
     expect("a plate that stands still does not need to push",
            ("two-way coupling", True) in stiff, stiff)

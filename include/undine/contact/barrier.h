@@ -6,9 +6,9 @@
 
 namespace undine
 {
-  /// b(s) = -(s - 1)^2 ln s of a gap s relative to that where contact begins, 0 < s; zero with two
-  /// continuous derivatives for s >= 1 [Li, Ferguson, Schneider, Langlois, Zorin, Panozzo, Jiang,
-  /// Kaufman, ACM Trans. Graph. 39 (2020), equation 6]. @{
+  /// b(s) = -(s - 1)^2 ln s of a distance s relative to that where contact begins, 0 < s; zero with
+  /// two continuous derivatives for s >= 1 [Li, Ferguson, Schneider, Langlois, Zorin, Panozzo,
+  /// Jiang, Kaufman, ACM Trans. Graph. 39 (2020), equation 6]. @{
   inline double
   barrier(const double s)
   {

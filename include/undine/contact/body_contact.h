@@ -15,18 +15,18 @@ namespace undine
   ///
   ///     E = k A D b(d / D),   b(s) = -(s - 1)^2 ln s for s < 1, else 0                     (S16)
   ///
-  /// with the gap D and the stiffness k of the scene [after Li, Ferguson, Schneider, Langlois,
-  /// Zorin, Panozzo, Jiang, Kaufman, ACM Trans. Graph. 39 (2020)]. d is the distance to the nearest
-  /// point of a facet, on whose nodes the opposite force is distributed by that point's weights:
-  /// forces and moments between bodies cancel, whatever the step. In 3D sharp edges meet sharp
-  /// edges too (SharpEdge), by (S17). A body does not meet itself.
+  /// with the activation distance D and the stiffness k of the scene [after Li, Ferguson,
+  /// Schneider, Langlois, Zorin, Panozzo, Jiang, Kaufman, ACM Trans. Graph. 39 (2020)]. d is the
+  /// distance to the nearest point of a facet, on whose nodes the opposite force is distributed by
+  /// that point's weights: forces and moments between bodies cancel, whatever the step. In 3D sharp
+  /// edges meet sharp edges too (SharpEdge), by (S17). A body does not meet itself.
   template <int dim>
   class BodyContact : public Contact<dim>
   {
   public:
-    using Vector = typename Contact<dim>::Vector;
-    using Matrix = typename Contact<dim>::Matrix;
-    using Place  = typename Contact<dim>::Place;
+    using Vector        = typename Contact<dim>::Vector;
+    using Matrix        = typename Contact<dim>::Matrix;
+    using Configuration = typename Contact<dim>::Configuration;
 
     /// `fluid` and `obstacles`: nullptr if there are none. All references must outlive it.
     /// Collective. Throws InputError.
@@ -43,9 +43,9 @@ namespace undine
 
     /// D [m].
     double
-    gap() const
+    activation_distance() const
     {
-      return settings.gap;
+      return settings.activation_distance;
     }
 
     double
@@ -59,23 +59,23 @@ namespace undine
     void
     begin_stage() const override;
     double
-    free_part(const Place &from, const Place &to) const override;
+    collision_free_fraction(const Configuration &from, const Configuration &to) const override;
     void
     check_start(const Vector &displacement, double time) const override;
     Columns
     columns(const Vector &displacement, double time) const override;
 
   private:
-    using Places = typename ContactSurfaces<dim>::Places;
-    using Terms  = std::vector<ContactTerm<dim>>;
-    using Forces = std::vector<dealii::Tensor<1, dim>>;
+    using Positions = typename ContactSurfaces<dim>::Positions;
+    using Terms     = std::vector<ContactTerm<dim>>;
+    using Forces    = std::vector<dealii::Tensor<1, dim>>;
 
     Terms
-    terms(const Places &places) const;
+    terms(const Positions &places) const;
     double
-    energy(const Terms &terms, const Places &places) const;
+    energy(const Terms &terms, const Positions &places) const;
     Forces
-    nodal_forces(const Terms &terms, const Places &places) const;
+    nodal_forces(const Terms &terms, const Positions &places) const;
     ContactPotential<dim>
     potential() const;
 

@@ -15,8 +15,8 @@ namespace undine
   template <int dim>
   void
   for_each_near_pair(const ContactSurfaces<dim>                            &surfaces,
-                     const typename ContactSurfaces<dim>::Places           &from,
-                     const typename ContactSurfaces<dim>::Places           &to,
+                     const typename ContactSurfaces<dim>::Positions        &from,
+                     const typename ContactSurfaces<dim>::Positions        &to,
                      double                                                 distance,
                      const std::function<void(unsigned int, unsigned int)> &action);
 
@@ -25,8 +25,8 @@ namespace undine
   template <int dim>
   void
   for_each_near_edges(const ContactSurfaces<dim>                            &surfaces,
-                      const typename ContactSurfaces<dim>::Places           &from,
-                      const typename ContactSurfaces<dim>::Places           &to,
+                      const typename ContactSurfaces<dim>::Positions        &from,
+                      const typename ContactSurfaces<dim>::Positions        &to,
                       double                                                 distance,
                       const std::function<void(unsigned int, unsigned int)> &action);
 } // namespace undine

@@ -21,30 +21,30 @@ namespace undine
   class ContactPotential
   {
   public:
-    using Term   = ContactTerm<dim>;
-    using Places = typename ContactSurfaces<dim>::Places;
+    using Term      = ContactTerm<dim>;
+    using Positions = typename ContactSurfaces<dim>::Positions;
 
     /// D [m] and k [Pa].
-    ContactPotential(const double gap, const double stiffness)
-      : gap(gap)
+    ContactPotential(const double activation_distance, const double stiffness)
+      : activation_distance(activation_distance)
       , stiffness(stiffness)
     {
     }
 
     /// E [J].
     double
-    energy(const Term &term, const Places &places) const;
+    energy(const Term &term, const Positions &places) const;
 
     /// -dE/dx_i [N], for each node.
     std::array<dealii::Tensor<1, dim>, dim + 1>
-    forces(const Term &term, const Places &places) const;
+    forces(const Term &term, const Positions &places) const;
 
     /// d^2E / dx_i dx_j [N/m].
     NodeMatrices<dim>
-    second_derivatives(const Term &term, const Places &places) const;
+    second_derivatives(const Term &term, const Positions &places) const;
 
   private:
-    double gap;
+    double activation_distance;
     double stiffness;
   };
 } // namespace undine

@@ -25,8 +25,8 @@ namespace undine
   class ContactSurfaces
   {
   public:
-    using Places = std::vector<dealii::Point<dim>>;
-    using Vector = typename SolidModel<dim>::Vector;
+    using Positions = std::vector<dealii::Point<dim>>;
+    using Vector    = typename SolidModel<dim>::Vector;
 
     /// `fluid` and `obstacles`: nullptr if there are none. Collective. Throws InputError.
     ContactSurfaces(const ContactSettings<dim> &settings,
@@ -39,8 +39,8 @@ namespace undine
     ContactSurfaces(const ContactSurfaces &all, const BodySurface<dim> &bodies);
 
     /// Positions of all nodes [m] at `time` [s]. Collective.
-    Places
-    places(const Vector &displacement, double time) const;
+    Positions
+    positions(const Vector &displacement, double time) const;
 
     /// The surfaces of bodies.
     const BodySurface<dim> &
@@ -106,12 +106,12 @@ namespace undine
       return all_edges;
     }
 
-    /// Is the body held by a support where it rests on the wall or reaches through it? Then there
+    /// Is the body fixed by a support where it rests on the wall or reaches through it? Then there
     /// is no contact between them.
     bool
-    is_held_at(const unsigned int body, const unsigned int wall) const
+    is_fixed_at(const unsigned int body, const unsigned int wall) const
     {
-      return held[body][wall];
+      return fixed[body][wall];
     }
 
     /// Is there contact between these surfaces? Not if both are obstacles, or if a support of one
@@ -133,11 +133,11 @@ namespace undine
     void
     add_domain_walls(const FluidModel<dim> &fluid);
     void
-    measure(const SolidModel<dim> &solid, const Places &rest);
+    measure(const SolidModel<dim> &solid, const Positions &rest);
     void
-    find_held(const SolidModel<dim> &solid, const Places &rest);
+    find_fixed(const SolidModel<dim> &solid, const Positions &rest);
     void
-    find_grown_together(const std::vector<unsigned int> &fixed_nodes, const Places &rest);
+    find_grown_together(const std::vector<unsigned int> &fixed_nodes, const Positions &rest);
 
     const BodySurface<dim>         body_surface;
     const Obstacles<dim> *const    obstacles;
@@ -146,7 +146,7 @@ namespace undine
     std::vector<unsigned int>      surfaces_of_nodes;
     std::vector<double>            areas;
     std::vector<SharpEdge>         all_edges;
-    std::vector<std::vector<bool>> held;           ///< [body][wall]
+    std::vector<std::vector<bool>> fixed;          ///< [body][wall]
     std::vector<std::vector<bool>> grown_together; ///< [surface][surface]
     double                         least_size = 0;
   };

@@ -38,16 +38,17 @@ namespace undine
     unsigned int wall     = no_wall;
   };
 
-  /// All terms with a distance below `gap` [m], in an order that depends on `places` only: for
-  /// every node those with all facets, minus those with ridges, plus those with corners (in 2D
-  /// facets minus ends), so that a flat or convex surface counts once wherever the rims of facets
-  /// are. Where the nodes of both surfaces have terms, each counts half. Then pairs of sharp edges.
-  /// R-trees make the time proportional to the size of the surfaces. Not collective.
+  /// All terms with a distance below `activation_distance` [m], in an order that depends on
+  /// `places` only: for every node those with all facets, minus those with ridges, plus those with
+  /// corners (in 2D facets minus ends), so that a flat or convex surface counts once wherever the
+  /// rims of facets are. Where the nodes of both surfaces have terms, each counts half. Then pairs
+  /// of sharp edges. R-trees make the time proportional to the size of the surfaces. Not
+  /// collective.
   template <int dim>
   std::vector<ContactTerm<dim>>
-  find_contact_terms(const ContactSurfaces<dim>                  &surfaces,
-                     const typename ContactSurfaces<dim>::Places &places,
-                     double                                       gap);
+  find_contact_terms(const ContactSurfaces<dim>                     &surfaces,
+                     const typename ContactSurfaces<dim>::Positions &places,
+                     double                                          activation_distance);
 } // namespace undine
 
 #endif

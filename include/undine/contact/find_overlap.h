@@ -12,8 +12,8 @@ namespace undine
   /// of a wall, or else two surfaces. Empty if nothing does.
   template <int dim>
   std::string
-  find_overlap(const ContactSurfaces<dim>                  &surfaces,
-               const typename ContactSurfaces<dim>::Places &places);
+  find_overlap(const ContactSurfaces<dim>                     &surfaces,
+               const typename ContactSurfaces<dim>::Positions &places);
 } // namespace undine
 
 #endif

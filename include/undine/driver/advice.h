@@ -48,7 +48,7 @@ namespace undine
     double gradient     = 0; ///< |dd/dX| in the bodies [1]
     double length = 0; ///< of a body or obstacle in the fluid along an axis, or of the domain [m]
     double viscosity   = 0; ///< dynamic [Pa s]
-    double lift        = 0; ///< relative change of the fluid's density by carried fields [1]
+    double lift        = 0; ///< relative change of the fluid's density by advected fields [1]
     double damped      = 0; ///< sum of |energy by damping|, where there is a budget [J]
     double body_energy = 0; ///< kinetic and elastic [J]
     double time        = 0; ///< how long it was [s]

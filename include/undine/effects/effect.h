@@ -32,7 +32,7 @@ namespace undine
       const SolidModel<dim>   *solid;                 ///< nullptr: none
       bool                     has_immersed_surfaces; ///< of bodies or obstacles, in the fluid
       std::vector<std::string> effects;               ///< names of those that the scene calls for
-      std::vector<std::string> scalars; ///< names of the scalar fields that are carried
+      std::vector<std::string> scalars; ///< names of the scalar fields that are advected
       bool                     has_fluid_particles = false; ///< a fluid, but not on a grid
     };
 
@@ -60,7 +60,7 @@ namespace undine
 
     /// The fluid step runs these three phases for every effect, in this order. Collective. @{
 
-    /// Carry velocity and scalars with the flow.
+    /// Advect velocity and scalars with the flow.
     virtual void
     transport(FluidStage<dim> &step) const;
 
@@ -76,7 +76,7 @@ namespace undine
     /// What a stage of a step computes for the effect on every cell of the grid.
     struct Work
     {
-      unsigned int carried  = 0; ///< fields that the flow carries
+      unsigned int advected = 0; ///< fields that the flow advects
       unsigned int implicit = 0; ///< fields for which a linear system is solved
     };
 
@@ -110,7 +110,7 @@ namespace undine
     struct Scales
     {
       double viscosity = 0; ///< dynamic [Pa s]
-      double lift      = 0; ///< largest relative change of density by carried fields [1]
+      double lift      = 0; ///< largest relative change of density by advected fields [1]
     };
 
     /// Raise those that the effect knows of, for what this rank has of the state.

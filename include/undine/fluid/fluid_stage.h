@@ -18,7 +18,7 @@ namespace undine
   /// What the effects work on while the fluid goes through a stage (Stage) of a step: they turn
   /// state.velocity from v^0 into v*, which the projection then makes divergence-free:
   ///
-  ///  1. transport:  v' = A(v^0), A: carried along the flow                        (Advection)
+  ///  1. transport:  v' = A(v^0), A: advected by the flow                            (Advection)
   ///  2. accelerate: v'' = v' + g f
   ///  3. diffuse:    (1 - g nu Laplace) w = v'' - g grad q / rho,  v* = w + g grad q / rho
   ///  4. project:    v = v* - g grad p / rho,  div v = 0                          (Projection)
@@ -30,13 +30,13 @@ namespace undine
   ///
   /// Stages that keep rates (T10) start from v^0 = v^b + w a, v^b being the velocity at the stage's
   /// begin and a the acceleration of the fluid's parcels that the stage before has kept; the flow
-  /// that carries is that in the middle of the stage,
+  /// that advects is that in the middle of the stage,
   ///
   ///     v + (duration of the stage) / 2 dv/dt.
   ///
   /// A step of a single stage that keeps none is first order in time: forces act at t^{n+1} as a
   /// whole, which damps. Steady flows, however, hardly depend on h: v' = A(v^n + c h a^n) - c h a^n
-  /// carries the share c of the parcels' acceleration along. In a steady flow c = 1/2 would be the
+  /// advects the share c of the parcels' acceleration too. In a steady flow c = 1/2 would be the
   /// trapezoidal rule along their paths: v + h a / 2 at the foot is v - h a / 2 at the head. A
   /// force -lambda v then multiplies v by (A - (A - 1) c z) / (1 + z) in a step, z = h lambda: up
   /// to 2 c for stiff friction and A = -1. c = 0.45 keeps that below one and takes away nine tenths
@@ -44,11 +44,11 @@ namespace undine
   template <int dim>
   struct FluidStage
   {
-    static constexpr double carried_share = 0.45; ///< c
+    static constexpr double advected_share = 0.45; ///< c
 
     /// A stage of the step that begins at `time` = t^n. `tracer` gets its own copy of the flow,
     /// which later changes of `state` do not reach. The topology of the fluid, `bodies.topology`,
-    /// may differ from that of `state`: velocity and scalars change to it when they are carried,
+    /// may differ from that of `state`: velocity and scalars change to it when they are advected,
     /// the pressure does here. Collective.
     FluidStage(const FluidModel<dim>                            &model,
                FluidState<dim>                                  &state,
@@ -58,11 +58,11 @@ namespace undine
                TimingTree                                       &timing,
                const typename CharacteristicTracer<dim>::Bodies &bodies = {});
 
-    /// The velocities that convection carries.
+    /// The velocities that convection advects.
     std::vector<Velocity<dim> *>
-    to_carry();
+    advected_velocities();
 
-    /// Bring fields that no effect has carried to the present topology of the fluid; their values
+    /// Bring fields that no effect has advected to the present topology of the fluid; their values
     /// stay where they were. Collective.
     void
     remap();
@@ -80,7 +80,7 @@ namespace undine
     const double                 end;   ///< of both [s]
     const double                 dt;    ///< g, the length of the implicit step [s]
     TimingTree                  &timing;
-    const CharacteristicTracer<dim> tracer;                ///< carries everything
+    const CharacteristicTracer<dim> tracer;                ///< advects everything
     unsigned int                    linear_iterations = 0; ///< summed over implicit solves
 
     /// Is the mean rate of the stage kept, and another one than that at its end?
@@ -99,7 +99,7 @@ namespace undine
     }
 
     /// Results of effects for finish(). @{
-    std::optional<Velocity<dim>> carried;             ///< v' [m/s], by convection
+    std::optional<Velocity<dim>> advected;            ///< v' [m/s], by convection
     std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
     std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces
     /// @}
@@ -122,8 +122,8 @@ namespace undine
 
     Velocity<dim> before; ///< velocity where the paths begin, if rates are kept [m/s]
 
-    /// The same, carried, if a mean rate is kept and differs from that at the end [m/s].
-    std::optional<Velocity<dim>> carried_begin;
+    /// The same, advected, if a mean rate is kept and differs from that at the end [m/s].
+    std::optional<Velocity<dim>> advected_begin;
   };
 } // namespace undine
 

@@ -18,12 +18,12 @@ namespace undine
   {
     static constexpr int fluid     = -1;
     static constexpr int not_whole = -2; ///< a cell that is cut or in a body
-    static constexpr int pocket    = -3; ///< a component that counts as part of the bodies
+    static constexpr int solid     = -3; ///< a component that counts as part of the bodies
 
     std::vector<int> components; ///< [CutCells::components]; empty: all fluid
     std::vector<int> cells;      ///< by GridBlock::cells().position(); empty: all fluid
 
-    /// True if it is void or a pocket.
+    /// True if it is void or solid.
     bool
     holds_component(const int component) const
     {

@@ -34,7 +34,7 @@ namespace undine
     std::vector<BodyBoundary<dim>>              boundaries; ///< which hold it
     std::vector<dealii::Point<dim>>             places;     ///< at rest [m]
     std::vector<dealii::Tensor<1, dim>>         velocities; ///< at t = 0 [m/s]
-    std::vector<unsigned char>                  held;       ///< by particle
+    std::vector<unsigned char>                  clamped;    ///< by particle
     double                                      volume = 0; ///< of the shape [m^dim]
     std::unique_ptr<const SurfaceDistance<dim>> surface;
 

@@ -27,14 +27,14 @@ namespace undine
     struct Grid
     {
       double bytes;          ///< of a cell: plume, 64 x 128 x 64; taylor_green, 768^2
-      double bytes_carried;  ///< of a cell for each carried field: the same two
+      double bytes_advected; ///< of a cell for each advected field: the same two
       double bytes_implicit; ///< of a cell for each implicit field: cavity, 400^2
       double bytes_cut;      ///< of a cut cell: ball_in_stream, three sizes
       double bytes_facet;    ///< of a facet, on each rank: the same
       double projection;     ///< a cell: plume's phases but transport; "Projection" there [s]
-      double carried;        ///< a cell and field: plume's transport [s]
+      double advected;       ///< a cell and field: plume's transport [s]
       double implicit;       ///< a cell and field: cavity, CPU time of a run [s]
-      double carried_cut;    ///< a cut cell and field: ball_in_stream's transport less plume's [s]
+      double advected_cut;   ///< a cut cell and field: ball_in_stream's transport less plume's [s]
       double moving; ///< a cell around what moves: the ball that moves less the fixed one [s]
     };
     constexpr std::array<Grid, 2> grid{

@@ -10,7 +10,7 @@ namespace undine
   struct GridSize
   {
     double       cells        = 0;     ///< 0: there is no grid
-    unsigned int carried      = 0;     ///< fields that the flow carries
+    unsigned int advected     = 0;     ///< fields that the flow advects
     unsigned int implicit     = 0;     ///< fields for which a linear system is solved
     unsigned int scalars      = 0;     ///< fields besides velocity and pressure
     double       cut_cells    = 0;     ///< cells that surfaces go through

@@ -17,8 +17,10 @@ namespace undine
       const char *key;      ///< what the last part is called today
     };
 
-    constexpr std::array<Renaming, 3> renamed_keys{
+    constexpr std::array<Renaming, 5> renamed_keys{
       {{"Output/Ledger", "Budget"},
+       {"Effects/contact/Gap", "Activation distance"},
+       {"Particles/Sub-steps/Places", "Position update"},
        {"Effects/scalar transport/<field>/Held boundaries", "Dirichlet boundaries"},
        {"Effects/scalar transport/<field>/Held value", "Dirichlet value"}}};
 

@@ -2,7 +2,7 @@
 #include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/cutting/flush_facets.h>
 #include <undine/operators/body_forces.h>
-#include <undine/operators/sampled_pockets.h>
+#include <undine/operators/sampled_regions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -40,7 +40,7 @@ namespace undine
 
 
   /// Where facets lie in planes of the grid it is cut a little beyond them, with the volumes of the
-  /// surfaces as they are: else those of chambers would jump when a piston passes a plane.
+  /// surfaces as they are: else those of closed regions would jump when a piston passes a plane.
   template <int dim>
   void
   FluidGeometry<dim>::cut_beyond_planes()
@@ -75,7 +75,7 @@ namespace undine
       }
     if (last_report.sampled_cells > 0)
       {
-        close_sampled_pockets(voids, grid, cells, parts);
+        close_sampled_regions(voids, grid, cells, parts);
         parts = make_cut_topology(grid, cells, voids);
       }
     fluid_is_left = undine::has_fluid(grid, parts.open->cells);
@@ -157,9 +157,9 @@ namespace undine
   SweptVolumeFlux
   FluidGeometry<dim>::initial_swept_volume_flux(const double dt) const
   {
-    auto       result     = swept_volume_flux(dt);
-    const auto areas      = wetted_areas(cells, surface.surface(), surface.n_body_nodes());
-    result.yielding_areas = parts.of_fluid_topology(areas);
+    auto       result      = swept_volume_flux(dt);
+    const auto areas       = wetted_areas(cells, surface.surface(), surface.n_body_nodes());
+    result.compliant_areas = parts.of_fluid_topology(areas);
     return result;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/immersed/chamber_volumes.h>
+#include <undine/coupled/immersed/closed_region_volumes.h>
 #include <undine/coupled/immersed/surface_flux.h>
 #include <undine/operators/flux_matrix.h>
 
@@ -36,7 +36,8 @@ namespace undine
     };
 
 
-    /// B u with B of the end of the stage, corrected so that the volumes of chambers are exact.
+    /// B u with B of the end of the stage, corrected so that the volumes of closed regions are
+    /// exact.
     template <int dim>
     class FluxAtEnd : public SurfaceFlux<dim>
     {
@@ -51,7 +52,7 @@ namespace undine
         : SurfaceFlux<dim>(models, geometry, numbers)
         , solid(solid)
         , increment(bodies.increment)
-        , chambers(models, geometry, numbers, bodies.stage, bodies.time, bodies.before)
+        , volumes(models, geometry, numbers, bodies.stage, bodies.time, bodies.before)
       {
         this->use(geometry.boundary_flux());
       }
@@ -61,7 +62,7 @@ namespace undine
       {
         const auto &surface = *this->models.surface;
         this->velocities    = surface.with_bodies(velocity, this->velocities);
-        if (chambers.empty())
+        if (volumes.empty())
           return;
         auto       whole_increment = increment;
         const auto further         = surface.with_bodies(
@@ -69,7 +70,7 @@ namespace undine
         for (std::size_t node = 0; node < increment.size(); ++node)
           whole_increment[node] += further[node];
         this->further.clear();
-        this->further = chambers.missing_fluxes(this->fluxes(), whole_increment);
+        this->further = volumes.missing_fluxes(this->fluxes(), whole_increment);
       }
 
       double
@@ -81,7 +82,7 @@ namespace undine
     private:
       const SolidEquations<dim>                    &solid;
       const typename FluidGeometry<dim>::Velocities increment; ///< to the start of the stage [m]
-      const ChamberVolumes<dim>                     chambers;
+      const ClosedRegionVolumes<dim>                volumes;
     };
 
 

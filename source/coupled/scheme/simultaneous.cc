@@ -196,12 +196,12 @@ namespace undine
         Allowed::one_of({"initial", "swept"}),
         "How bodies push the fluid: by their velocity at the end of a step through their "
         "boundary at its beginning, or by the volume that they sweep, exactly. For integrators of "
-        "one stage: trapezoid_bdf2 has its own way, which keeps the volume of chambers.");
+        "one stage: trapezoid_bdf2 has its own way, which keeps the volume of closed regions.");
       if (settings.boundary_flux != "initial" && this->has_stages())
         throw coupling.error("Boundary flux",
                              "it is a choice for integrators of one stage",
                              "Remove it: the integrator chosen in 'Time' keeps the volume of "
-                             "chambers by itself. Or choose another one, such as 'theta'.");
+                             "closed regions by itself. Or choose another one, such as 'theta'.");
       settings.solver.add_options(coupling);
     }
 

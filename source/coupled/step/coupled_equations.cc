@@ -103,7 +103,7 @@ namespace undine
     timing.memory.hold_briefly("two-way coupling",
                                surface.matrix().memory_consumption() +
                                  fluid.matrix().memory_consumption() + solver.memory_consumption());
-    const double part = solid.free_part(x.block(0), result.block(0));
+    const double part = solid.collision_free_fraction(x.block(0), result.block(0));
     if (part < 1)
       result *= part;
     return result;

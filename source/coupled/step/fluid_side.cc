@@ -17,7 +17,7 @@ namespace undine
     , budget(budget)
     , timing(timing)
     , environment(models.environment())
-    , surface_friction(models)
+    , viscous_coupling(models)
   {
     if (models.surface)
       cut = std::make_unique<FluidGeometry<dim>>(models);
@@ -41,8 +41,8 @@ namespace undine
     if (cut && models.has_friction())
       {
         const auto phase       = timing.section("cut cells");
-        result.walls           = surface_friction.walls(*cut);
-        result.wall_velocities = surface_friction.start(state, *cut, stage.length);
+        result.walls           = viscous_coupling.walls(*cut);
+        result.wall_velocities = viscous_coupling.start(state, *cut, stage.length);
       }
     return result;
   }
@@ -62,14 +62,14 @@ namespace undine
     if (stage.ahead() != 0)
       bodies.displacement.add(stage.ahead(), state.solid.velocity);
     const auto &contact = state.contact;
-    if (!environment.contact || contact.place.size() == 0)
+    if (!environment.contact || contact.displacement.size() == 0)
       return bodies;
-    const double part =
-      environment.contact->free_part({contact.place, contact.time}, {bodies.displacement, time});
+    const double part = environment.contact->collision_free_fraction(
+      {contact.displacement, contact.time}, {bodies.displacement, time});
     if (part < 1)
-      bodies.displacement.sadd(part, 1 - part, contact.place);
+      bodies.displacement.sadd(part, 1 - part, contact.displacement);
     bodies.velocity = bodies.displacement;
-    bodies.velocity.add(-1., contact.place);
+    bodies.velocity.add(-1., contact.displacement);
     bodies.velocity *= 1 / stage.duration();
     return bodies;
   }
@@ -257,7 +257,7 @@ namespace undine
                      fluid.carried_from_begin());
     fluid.finish();
     if (fluid.friction)
-      surface_friction.end(state, fluid);
+      viscous_coupling.end(state, fluid);
     if (cut)
       {
         report.warn(cut->cut_report().subject, cut->cut_report().message);
@@ -284,7 +284,7 @@ namespace undine
         result[node] += more[node];
     };
     add(cut->other_forces(environment.gravity, time));
-    add(surface_friction.forces());
+    add(viscous_coupling.forces());
     return result;
   }
 
@@ -301,7 +301,7 @@ namespace undine
       append(report.columns, effect->columns(model, state, time));
     if (cut)
       append(report.columns,
-             cut->columns(state.pressure, environment.gravity, time, surface_friction.forces()));
+             cut->columns(state.pressure, environment.gravity, time, viscous_coupling.forces()));
   }
 
 

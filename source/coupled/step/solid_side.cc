@@ -41,11 +41,11 @@ namespace undine
   {
     if (!surroundings.contact)
       return;
-    auto &contact       = state.contact;
-    contact.place       = state.solid.displacement;
-    contact.time        = state.clock.time + stage.begin;
-    contact.weight      = stage.duration() / stage.length;
-    contact.keeps_rates = true;
+    auto &contact        = state.contact;
+    contact.displacement = state.solid.displacement;
+    contact.time         = state.clock.time + stage.begin;
+    contact.weight       = stage.duration() / stage.length;
+    contact.keeps_rates  = true;
   }
 
 
@@ -118,7 +118,7 @@ namespace undine
         state.solid.acceleration.sadd(of_end, of_begin, state.stage_begin.acceleration);
       }
     state.stage_begin = {};
-    state.contact.place.clear();
+    state.contact.displacement.clear();
     if (!stage.is_last)
       return;
     state.mean_velocity.clear();

@@ -117,13 +117,13 @@ namespace undine
 
   template <int dim>
   void
-  NearBodies<dim>::finish(Field<dim> &carried, const BoundaryCondition<dim> &condition) const
+  NearBodies<dim>::finish(Field<dim> &advected, const BoundaryCondition<dim> &condition) const
   {
-    if (!carried.topology())
+    if (!advected.topology())
       return;
     if (axis >= dim)
-      fill_unknown(carried, tracer.model(), condition, tracer.time() + tracer.dt());
-    set_means(carried, tracer.model().grid());
+      fill_unknown(advected, tracer.model(), condition, tracer.time() + tracer.dt());
+    set_means(advected, tracer.model().grid());
   }
 
 

@@ -104,8 +104,9 @@ namespace undine
               if (!boundary.lets_fluid_pass())
                 return;
               const auto value = [&](const dealii::Point<dim> &place) {
-                return condition.holds(boundary) ? condition.held_value(boundary, axis, place, time)
-                                                 : condition.entering_value(place, time);
+                return condition.is_dirichlet(boundary)
+                         ? condition.dirichlet_value(boundary, axis, place, time)
+                         : condition.entering_value(place, time);
               };
               const auto  face    = moved<dim>(cell, axis, end);
               const auto &divided = open.faces[axis];

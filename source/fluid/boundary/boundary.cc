@@ -166,7 +166,7 @@ namespace undine
 
   template <int dim>
   bool
-  Boundary<dim>::holds_normal_velocity() const
+  Boundary<dim>::prescribes_normal_velocity() const
   {
     return !is_open() && kind != BoundaryKind::periodic;
   }
@@ -174,7 +174,7 @@ namespace undine
 
   template <int dim>
   bool
-  Boundary<dim>::holds_tangential_velocity() const
+  Boundary<dim>::prescribes_tangential_velocity() const
   {
     return has_friction() || kind == BoundaryKind::inflow;
   }

@@ -13,18 +13,18 @@ namespace undine
 
   template <int dim>
   bool
-  VelocityCondition<dim>::holds(const Boundary<dim> &boundary) const
+  VelocityCondition<dim>::is_dirichlet(const Boundary<dim> &boundary) const
   {
-    return boundary.holds_tangential_velocity();
+    return boundary.prescribes_tangential_velocity();
   }
 
 
   template <int dim>
   double
-  VelocityCondition<dim>::held_value(const Boundary<dim>      &boundary,
-                                     const unsigned int        normal_axis,
-                                     const dealii::Point<dim> &place,
-                                     const double              time) const
+  VelocityCondition<dim>::dirichlet_value(const Boundary<dim>      &boundary,
+                                          const unsigned int        normal_axis,
+                                          const dealii::Point<dim> &place,
+                                          const double              time) const
   {
     return boundary.velocity_along(axis, normal_axis, place, time);
   }
@@ -48,8 +48,8 @@ namespace undine
 
   namespace
   {
-    /// The value of one boundary point: shares that are held or that enter, plus the rest of the
-    /// nearest value inside.
+    /// The value of one boundary point: shares that are prescribed or that enter, plus the rest of
+    /// the nearest value inside.
     template <int dim>
     double
     boundary_value(const Field<dim>             &field,
@@ -80,8 +80,8 @@ namespace undine
         side,
         index,
         [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &cell) {
-          if (condition.holds(boundary))
-            value += fraction * condition.held_value(boundary, side.axis, place, time);
+          if (condition.is_dirichlet(boundary))
+            value += fraction * condition.dirichlet_value(boundary, side.axis, place, time);
           else if (boundary.is_open() && entering(cell))
             value += fraction * condition.entering_value(place, time);
           else
@@ -136,7 +136,7 @@ namespace undine
           layer.upper[axis] = std::min(layer.upper[axis], plane + 1);
           for_each(layer, [&](const GridIndex<dim> &face) {
             const auto &boundary = boundaries.at(side, face);
-            if (!boundary.holds_normal_velocity())
+            if (!boundary.prescribes_normal_velocity())
               return;
             component(face) =
               boundary.velocity_along(axis, axis, component.lattice().point(face), time);

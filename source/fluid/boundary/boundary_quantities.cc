@@ -152,7 +152,7 @@ namespace undine
             side,
             on_wall,
             [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
-              if (!boundary.holds_tangential_velocity())
+              if (!boundary.prescribes_tangential_velocity())
                 return;
               const double slip =
                 state.velocity[axis](point) -
@@ -175,7 +175,7 @@ namespace undine
     for (unsigned int b = 0; b < forces.size(); ++b)
       {
         const auto &boundary = boundaries.all()[b];
-        if (boundary.holds_normal_velocity() && !boundary.lets_fluid_pass())
+        if (boundary.prescribes_normal_velocity() && !boundary.lets_fluid_pass())
           for (unsigned int d = 0; d < dim; ++d)
             columns.push_back({what + " on " + boundary.name + ", " + "xyz"[d], "N", forces[b][d]});
       }

@@ -27,12 +27,12 @@ namespace undine
     openness(const FluidModel<dim>                                    &model,
              const PressureNumbers<dim>                               &numbers,
              const FluidRegions<dim>                                  &all,
-             const std::vector<typename PressureNumbers<dim>::Number> &yielding)
+             const std::vector<typename PressureNumbers<dim>::Number> &compliant)
     {
       std::vector<int> is_open(all.size(), 0);
       const auto      &owned   = numbers.owned();
       const auto      &regions = all.of_pressures();
-      for (const auto number : yielding)
+      for (const auto number : compliant)
         is_open[regions[owned.index_within_set(number)]] = 1;
       const Velocity<dim> still = model.initial_state().velocity;
       for (const auto &opening : open_faces(model, still, numbers.topology().get(), 0.))
@@ -49,7 +49,7 @@ namespace undine
   template <int dim>
   ClosedRegions<dim>::ClosedRegions(const FluidModel<dim>      &model_,
                                     const PressureNumbers<dim> &numbers_,
-                                    const std::vector<Number>  &yielding)
+                                    const std::vector<Number>  &compliant)
     : model(model_)
     , numbers(numbers_)
   {
@@ -57,7 +57,7 @@ namespace undine
     if (!numbers.topology() && model.boundaries().has_opening())
       return;
     const FluidRegions<dim> all(grid, numbers);
-    const auto              is_open = openness(model, numbers, all, yielding);
+    const auto              is_open = openness(model, numbers, all, compliant);
     std::vector<int>        closed_number(all.size(), open_region);
     int                     n_closed = 0;
     for (unsigned int r = 0; r < all.size(); ++r)
@@ -251,25 +251,25 @@ namespace undine
 
 
   /// What leaves each cell through walls and inflows. Faces between cells cancel in the sum over a
-  /// region; only what is held counts.
+  /// region; only what is prescribed counts.
   template <int dim>
   Field<dim>
-  ClosedRegions<dim>::held_fluxes(const double time) const
+  ClosedRegions<dim>::prescribed_fluxes(const double time) const
   {
-    Velocity<dim> held;
+    Velocity<dim> prescribed;
     for (unsigned int axis = 0; axis < dim; ++axis)
-      held[axis] = Field<dim>(model.grid().faces(axis), numbers.topology());
-    set_boundary_velocity(held, model.boundaries(), time);
-    exchange(held);
-    return divergence(model, held);
+      prescribed[axis] = Field<dim>(model.grid().faces(axis), numbers.topology());
+    set_boundary_velocity(prescribed, model.boundaries(), time);
+    exchange(prescribed);
+    return divergence(model, prescribed);
   }
 
 
   template <int dim>
   std::vector<double>
-  ClosedRegions<dim>::held_outflow(const double time) const
+  ClosedRegions<dim>::prescribed_outflow(const double time) const
   {
-    return sums_of(held_fluxes(time), [](const double flux) { return flux; });
+    return sums_of(prescribed_fluxes(time), [](const double flux) { return flux; });
   }
 
 
@@ -300,22 +300,22 @@ namespace undine
                                        complaint));
         return swept.fluxes;
       }
-    const auto fluxes      = held_fluxes(time);
+    const auto fluxes      = prescribed_fluxes(time);
     const auto boundaries  = sums_of(fluxes, [](const double flux) { return flux; });
     const auto sizes       = sums_of(fluxes, [](const double flux) { return std::abs(flux); });
     const auto bodies      = sums_on_components(swept.fluxes);
     const auto uncertainty = sums_on_components(swept.uncertainties);
-    auto       areas       = swept.yielding_areas;
+    auto       areas       = swept.compliant_areas;
     areas.resize(swept.fluxes.size(), 0.);
-    const auto          yielding = sums_on_components(areas);
+    const auto          compliant = sums_on_components(areas);
     std::vector<double> shares(boundaries.size(), 0.); // of the uncertainties
-    std::vector<double> speeds(boundaries.size(), 0.); // at which surfaces yield
+    std::vector<double> speeds(boundaries.size(), 0.); // at which compliant surfaces move
     for (std::size_t region = 0; region < shares.size(); ++region)
       {
         const double sum = boundaries[region] + bodies[region];
-        if (yielding[region] > 0)
+        if (compliant[region] > 0)
           {
-            speeds[region] = sum / yielding[region];
+            speeds[region] = sum / compliant[region];
             continue;
           }
         if (std::abs(sum) > 1e-8 * sizes[region] + uncertainty[region])

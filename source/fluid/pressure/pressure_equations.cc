@@ -15,12 +15,12 @@ namespace undine
   template <int dim>
   PressureEquations<dim>::PressureEquations(const FluidModel<dim>      &model,
                                             const PressureNumbers<dim> &numbers,
-                                            const std::vector<Number>  &yielding,
+                                            const std::vector<Number>  &compliant,
                                             const double                dt)
     : model(model)
     , dt(dt)
     , all_numbers(numbers)
-    , regions(model, all_numbers, yielding)
+    , regions(model, all_numbers, compliant)
     , flux(all_numbers.owned(), model.grid().communicator())
   {
     build_pressure_matrix(L, model, all_numbers, regions.pinned());
@@ -31,13 +31,13 @@ namespace undine
   template <int dim>
   void
   PressureEquations<dim>::start(Velocity<dim>         &velocity,
-                                const Velocity<dim>   &carrying,
+                                const Velocity<dim>   &advecting,
                                 const double           time,
                                 const SweptVolumeFlux &swept)
   {
     set_boundary_velocity(velocity, model.boundaries(), time);
     regions.balanced_fluxes(velocity, swept, time);
-    openings = undine::open_faces(model, carrying, all_numbers.topology().get(), time);
+    openings = undine::open_faces(model, advecting, all_numbers.topology().get(), time);
   }
 
 

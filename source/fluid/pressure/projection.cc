@@ -200,7 +200,7 @@ namespace undine
   template <int dim>
   typename Projection<dim>::Report
   Projection<dim>::project(FluidState<dim>       &state,
-                           const Velocity<dim>   &carrying,
+                           const Velocity<dim>   &advecting,
                            const double           time,
                            const double           dt,
                            const SweptVolumeFlux &swept)
@@ -212,7 +212,7 @@ namespace undine
     Field<dim> impulse(model.grid().cells(), topology);
     add(impulse, dt, state.pressure);
     const auto report = remove_divergence_with_openings(
-      state.velocity, impulse, open_faces(model, carrying, topology.get(), time), dt, body_fluxes);
+      state.velocity, impulse, open_faces(model, advecting, topology.get(), time), dt, body_fluxes);
     state.pressure = Field<dim>(model.grid().cells(), topology);
     add(state.pressure, 1 / dt, impulse);
     closed_regions->remove_means(state.pressure);

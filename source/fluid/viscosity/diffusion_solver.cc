@@ -12,11 +12,11 @@
 namespace undine
 {
   void
-  DiffusionSolver::set_up(const double reach)
+  DiffusionSolver::set_up(const double diffusion_number)
   {
     namespace Trilinos = dealii::TrilinosWrappers;
     // Friction that reaches over a few cells in a step is cheaper to solve for without a hierarchy.
-    if (reach < 30)
+    if (diffusion_number < 30)
       {
         auto relaxation = std::make_unique<Trilinos::PreconditionSSOR>();
         relaxation->initialize(matrix);

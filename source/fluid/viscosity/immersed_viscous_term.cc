@@ -84,12 +84,12 @@ namespace undine
 
   template <int dim>
   bool
-  ImmersedViscousTerm<dim>::is_held(const FacePlace<dim> &place) const
+  ImmersedViscousTerm<dim>::is_prescribed(const FacePlace<dim> &place) const
   {
     if (!model.grid().at_boundary(axis, place.face))
       return false;
     const Side side{axis, place.face[axis] == 0 ? 0u : 1u};
-    return model.boundaries().at(side, place.face).holds_normal_velocity();
+    return model.boundaries().at(side, place.face).prescribes_normal_velocity();
   }
 
 
@@ -110,7 +110,7 @@ namespace undine
   {
     free.clear();
     for (const auto &[place, coefficient] : term.faces)
-      if (!is_held(place))
+      if (!is_prescribed(place))
         free.emplace_back(static_cast<Number>(value_at(numbers, place)), coefficient);
     for (const auto &[node, coefficient] : term.nodes)
       if (is_free(node))
@@ -166,12 +166,13 @@ namespace undine
     });
     matrix.compress(dealii::VectorOperation::add);
 
-    double reach = 0;
+    double diffusion_number = 0;
     for_each(model.grid().cells()->owned(), [&](const GridIndex<dim> &cell) {
       for (unsigned int d = 0; d < dim; ++d)
-        reach = std::max(reach, dt * kinematic / std::pow(model.grid().cell_width(d, cell[d]), 2));
+        diffusion_number = std::max(
+          diffusion_number, dt * kinematic / std::pow(model.grid().cell_width(d, cell[d]), 2));
     });
-    solver.set_up(dealii::Utilities::MPI::max(reach, communicator));
+    solver.set_up(dealii::Utilities::MPI::max(diffusion_number, communicator));
     assembled_dt = dt;
   }
 
@@ -185,7 +186,7 @@ namespace undine
   {
     double sum = 0;
     for (const auto &[place, coefficient] : term.faces)
-      if (is_held(place))
+      if (is_prescribed(place))
         sum += coefficient * value_at(field, place);
     for (const auto &[node, coefficient] : term.nodes)
       if (!is_free(node))
@@ -254,7 +255,7 @@ namespace undine
       {
         double sum = given_part(term, field, time);
         for (const auto &[place, coefficient] : term.faces)
-          if (!is_held(place))
+          if (!is_prescribed(place))
             sum += coefficient * value_at(field, place);
         for (const auto &[node, coefficient] : term.nodes)
           if (is_free(node))
@@ -263,7 +264,7 @@ namespace undine
         for (const auto &[node, coefficient] : term.nodes)
           last_forces.on_nodes[node] += force * coefficient;
         for (const auto &[place, coefficient] : term.faces)
-          if (is_held(place))
+          if (is_prescribed(place))
             {
               const Side side{axis, place.face[axis] == 0 ? 0u : 1u};
               last_forces.on_boundaries[model.boundaries().number(side, place.face)] +=

@@ -55,13 +55,15 @@ namespace undine
     /// True for faces on walls and inflows, whose value is given.
     template <int dim>
     bool
-    is_held(const FluidModel<dim> &model, const Lattice<dim> &lattice, const GridIndex<dim> &index)
+    is_prescribed(const FluidModel<dim> &model,
+                  const Lattice<dim>    &lattice,
+                  const GridIndex<dim>  &index)
     {
       const unsigned int axis = lattice.normal_axis();
       if (axis == Lattice<dim>::no_axis || !model.grid().at_boundary(axis, index))
         return false;
       const Side side{axis, index[axis] == 0 ? 0u : 1u};
-      return model.boundaries().at(side, index).holds_normal_velocity();
+      return model.boundaries().at(side, index).prescribes_normal_velocity();
     }
 
 
@@ -122,7 +124,7 @@ namespace undine
     const double mass = volume(grid, *lattice, index);
     row.columns.assign(1, lattice->number(index));
     row.values.assign(1, mass);
-    if (is_held(model, *lattice, index))
+    if (is_prescribed(model, *lattice, index))
       return;
     for_each_step<dim>([&](const unsigned int direction, const int step) {
       const auto   other = moved<dim>(index, direction, step);
@@ -133,7 +135,7 @@ namespace undine
       if (what == Beyond::neighbour)
         {
           row.values[0] += value;
-          if (!is_held(model, *lattice, other))
+          if (!is_prescribed(model, *lattice, other))
             {
               row.columns.push_back(lattice->number(other));
               row.values.push_back(-value);
@@ -146,7 +148,7 @@ namespace undine
           {direction, step < 0 ? 0u : 1u},
           other,
           [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
-            if (condition.holds(boundary))
+            if (condition.is_dirichlet(boundary))
               row.values[0] += fraction * value;
           });
     });
@@ -176,14 +178,14 @@ namespace undine
       matrix.add(row.columns[0], row.columns.size(), row.columns.data(), row.values.data(), false);
     });
     matrix.compress(dealii::VectorOperation::add);
-    solver.set_up(reach(dt));
+    solver.set_up(diffusion_number(dt));
     assembled_dt = dt;
   }
 
 
   template <int dim>
   double
-  ImplicitDiffusion<dim>::reach(const double dt) const
+  ImplicitDiffusion<dim>::diffusion_number(const double dt) const
   {
     double result = 0;
     for_each(lattice->owned(), [&](const GridIndex<dim> &index) {
@@ -204,12 +206,12 @@ namespace undine
     result.reserve(lattice->owned().size());
     for_each(lattice->owned(), [&](const GridIndex<dim> &index) {
       double sum = volume(grid, *lattice, index) * field(index);
-      if (!is_held(model, *lattice, index))
+      if (!is_prescribed(model, *lattice, index))
         for_each_step<dim>([&](const unsigned int direction, const int step) {
           const auto other = moved<dim>(index, direction, step);
           const auto what  = beyond(*lattice, index, direction, step);
           if (what == Beyond::nothing ||
-              (what == Beyond::neighbour && !is_held(model, *lattice, other)))
+              (what == Beyond::neighbour && !is_prescribed(model, *lattice, other)))
             return;
           const double factor =
             assembled_dt * diffusivity * coupling(grid, *lattice, index, direction, step);
@@ -222,9 +224,10 @@ namespace undine
               {direction, step < 0 ? 0u : 1u},
               other,
               [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
-                if (condition.holds(boundary))
-                  sum += fraction * factor *
-                         condition.held_value(boundary, direction, lattice->point(other), time);
+                if (condition.is_dirichlet(boundary))
+                  sum +=
+                    fraction * factor *
+                    condition.dirichlet_value(boundary, direction, lattice->point(other), time);
               });
         });
       result.push_back(sum);

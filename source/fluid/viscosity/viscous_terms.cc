@@ -156,7 +156,7 @@ namespace undine
                 side,
                 on_side,
                 [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
-                  if (!condition.holds(boundary) || weight == 0)
+                  if (!condition.is_dirichlet(boundary) || weight == 0)
                     return;
                   term.weight   = fraction * weight;
                   term.faces[0] = {place, 1.};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/immersed/chamber.h>
+#include <undine/coupled/immersed/measure_region.h>
 #include <undine/fluid/grid/place_in_domain.h>
 #include <undine/output/probes/probe.h>
 
@@ -35,10 +35,10 @@ namespace undine
     Columns
     columns(const Models<dim> &models, const State<dim> &state) const override
     {
-      const auto chamber = measure_chamber(models, state, point);
-      const auto unit    = "m^" + std::to_string(dim);
-      return {{name + " volume", unit, chamber.volume},
-              {name + " inflow", unit + "/s", chamber.inflow}};
+      const auto region = measure_region(models, state, point);
+      const auto unit   = "m^" + std::to_string(dim);
+      return {{name + " volume", unit, region.volume},
+              {name + " inflow", unit + "/s", region.inflow}};
     }
 
   private:

@@ -57,7 +57,7 @@ namespace undine::particles
   template <int dim, class Real>
   ReferenceLattice<dim, Real>::ReferenceLattice(const Setup<dim> &setup)
     : bodies(setup.body_of)
-    , held(setup.held)
+    , clamped(setup.clamped)
     , capacity(dim * dim * 4)
     , spacing(setup.spacing)
   {

@@ -35,7 +35,7 @@ namespace undine::particles
       if (state.velocities.size() != n || state.pressures.size() != n || state.tags.size() != n ||
           state.identities.size() != n)
         throw InputError("the arrays of the particles differ in length.");
-      if (setup.body_of.size() != n_solid || setup.held.size() != n_solid)
+      if (setup.body_of.size() != n_solid || setup.clamped.size() != n_solid)
         throw InputError("the arrays of the bodies' particles differ in length.");
       std::vector<int> sorted = state.identities;
       std::sort(sorted.begin(), sorted.end());
@@ -59,7 +59,7 @@ namespace undine::particles
       const bool moves   = !is_body && state.identities[i] < n_solid + setup.n_moving;
       if ((tag.kind() == Kind::solid) != is_body || (tag.material() == moving_material) != moves ||
           (is_body && tag.material() != setup.body_of[state.identities[i]] + 1) ||
-          (!is_body && !moves && tag.material() != 0 && !tag.is_yielding() &&
+          (!is_body && !moves && tag.material() != 0 && !tag.is_inactive() &&
            tag.material() != inflow_material))
         throw InputError(name_of(state, i) + " does not belong to the body that its tag says.");
     }
@@ -144,7 +144,7 @@ namespace undine::particles
         throw InputError(text.str());
       }
 
-      /// Walls yield to moving ones.
+      /// Walls are inactive where moving ones are.
       static bool
       may_overlap(const Tag moving, const Tag wall)
       {

@@ -22,7 +22,7 @@ namespace undine::particles
       constants.densities[0] = static_cast<Real>(setup.fluid_density);
       constants.compressibilities[0] =
         setup.fluid_bulk_modulus > 0 ? static_cast<Real>(1 / setup.fluid_bulk_modulus) : Real(0);
-      for (const int material : {inflow_material, moving_material, yielding_material})
+      for (const int material : {inflow_material, moving_material, inactive_material})
         {
           constants.densities[material]         = constants.densities[0];
           constants.compressibilities[material] = constants.compressibilities[0];
@@ -90,7 +90,8 @@ namespace undine::particles
     constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);
     constants.surface_fade          = static_cast<Real>(numerics.surface_fade);
     constants.air                   = static_cast<Real>(numerics.air);
-    constants.path_weight        = numerics.places == Places::mean_velocity ? Real(0.5) : Real(1);
+    constants.path_weight =
+      numerics.position_update == PositionUpdate::mean_velocity ? Real(0.5) : Real(1);
     constants.collision_distance = static_cast<Real>(numerics.collision_distance * l0);
     constants.restitution        = static_cast<Real>(numerics.restitution);
     constants.pair_force         = numerics.pair_force;

@@ -190,7 +190,8 @@ namespace undine
     Vector jump = motion.prescribed_increment();
     jump *= -1 / coefficients.displacement;
     LinearSystem system{
-      full_jacobian(guess_at_rest(), old_state.displacement, contact.last_place()), model.vector()};
+      full_jacobian(guess_at_rest(), old_state.displacement, contact.last_displacement()),
+      model.vector()};
     system.matrix.vmult(system.right_side, jump);
     clear_fixed(system.right_side, model);
     fix_rows_and_columns(system.matrix, model.all_fixed());

@@ -57,7 +57,7 @@ namespace undine
         const double negligible = 0.01 * tolerance * scale();
         auto         change =
           solver.solve(jacobian, residual, equations.displacement(velocity), negligible);
-        const double part = equations.free_part(velocity, change);
+        const double part = equations.collision_free_fraction(velocity, change);
         if (part < 1)
           change *= part;
         return change;

@@ -28,9 +28,9 @@ namespace undine
 
   template <int dim>
   const typename StepContact<dim>::Vector &
-  StepContact<dim>::last_place() const
+  StepContact<dim>::last_displacement() const
   {
-    return start.place.size() > 0 ? start.place : old_state.displacement;
+    return start.displacement.size() > 0 ? start.displacement : old_state.displacement;
   }
 
 
@@ -38,7 +38,7 @@ namespace undine
   double
   StepContact<dim>::last_time() const
   {
-    return start.place.size() > 0 ? start.time : time;
+    return start.displacement.size() > 0 ? start.time : time;
   }
 
 
@@ -77,15 +77,16 @@ namespace undine
     // The velocity that leads to the last position, except at supports, which are where they are
     // prescribed to be.
     Vector still = motion.guess_at_rest();
-    still.add(1 / motion.coefficients().displacement, last_place());
+    still.add(1 / motion.coefficients().displacement, last_displacement());
     still.add(-1 / motion.coefficients().displacement, old_state.displacement);
-    const Vector place = motion.displacement(still);
-    if (contact->free_part({last_place(), last_time()}, {place, time + dt}) < 1)
+    const Vector begin = motion.displacement(still);
+    if (contact->collision_free_fraction({last_displacement(), last_time()}, {begin, time + dt}) <
+        1)
       throw SolveError("supports or obstacles that move as prescribed run into a body within the "
                        "step. Try: a smaller step, or another motion.");
     Vector       displacement_increment = guess;
     const double part =
-      contact->free_part({place, time + dt}, {motion.displacement(guess), time + dt});
+      contact->collision_free_fraction({begin, time + dt}, {motion.displacement(guess), time + dt});
     if (part == 1)
       return guess;
     displacement_increment.add(-1., still);
@@ -96,17 +97,17 @@ namespace undine
 
   template <int dim>
   double
-  StepContact<dim>::free_part(const Vector          &velocity,
-                              const Vector          &correction,
-                              const StepMotion<dim> &motion) const
+  StepContact<dim>::collision_free_fraction(const Vector          &velocity,
+                                            const Vector          &correction,
+                                            const StepMotion<dim> &motion) const
   {
     if (!contact)
       return 1;
     const auto timed = timing.section("contact");
     Vector     end   = velocity;
     end.add(1., correction);
-    return contact->free_part({motion.displacement(velocity), time + dt},
-                              {motion.displacement(end), time + dt});
+    return contact->collision_free_fraction({motion.displacement(velocity), time + dt},
+                                            {motion.displacement(end), time + dt});
   }
 
 
@@ -128,7 +129,7 @@ namespace undine
       return;
     const auto timed = timing.section("contact");
     result.contact_energy =
-      contact->energy(end, time + dt) - contact->energy(last_place(), last_time());
+      contact->energy(end, time + dt) - contact->energy(last_displacement(), last_time());
     const Vector repulsion = forces(end);
     if (repulsion.size() == 0)
       return;

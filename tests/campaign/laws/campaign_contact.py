@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Sheets of any density, pushed together, close a pocket of fluid without shaking it."""
+"""Sheets of any density, pushed together, close a region of fluid without shaking it."""
 import math
 import os
 

@@ -342,19 +342,21 @@ TEST_CASE("keys of earlier versions still work, and it is said what they are cal
 {
   const auto options = read("subsection Output\n set Ledger = true\nend\n"
                             "subsection Effects\n subsection scalar transport\n  subsection smoke\n"
-                            "   set Held value = 3\n  end\n end\nend\n");
+                            "   set Held value = 3\n  end\n end\n"
+                            " subsection contact\n  set Gap = 2\n end\nend\n");
   bool       budget  = false;
-  double     held    = 0;
+  double     value = 0, distance = 0;
   options.section("Output").add("Budget", budget, "", Allowed::anything(), "Terms.");
-  options.section("Effects")
-    .section("scalar transport")
-    .section("smoke")
-    .add("Dirichlet value", held, "", Allowed::anything(), "On boundaries.");
+  const auto effects = options.section("Effects");
+  const auto smoke   = effects.section("scalar transport").section("smoke");
+  smoke.add("Dirichlet value", value, "", Allowed::anything(), "On boundaries.");
+  effects.section("contact").add("Activation distance", distance, "", Allowed::anything(), "D.");
   options.assert_all_used();
   CHECK(budget);
-  CHECK(held == 3);
+  CHECK(value == 3);
+  CHECK(distance == 2);
   const auto &remarks = options.file().remarks();
-  REQUIRE(remarks.size() == 2);
+  REQUIRE(remarks.size() == 3);
   CHECK(remarks[0].find("scene_under_test.prm:2") == 0);
   CHECK(remarks[0].find("'Output/Ledger' is called 'Output/Budget'") != std::string::npos);
   CHECK(remarks[1].find("smoke/Dirichlet value") != std::string::npos);

@@ -89,7 +89,7 @@ namespace
         path[0] = distance - 1;
         for (unsigned int axis = 1; axis < dim; ++axis)
           path[axis] = aside;
-        const auto   places = surfaces.places(scene.shift(path), 0);
+        const auto   places = surfaces.positions(scene.shift(path), 0);
         unsigned int found  = 0;
         for (const auto &term : find_contact_terms(surfaces, places, .2))
           if (const auto node = term.nodes[0]; surfaces.surface_of_node(node) == 1)
@@ -121,7 +121,7 @@ namespace
     const Vector           start = scene.model.vector();
     const auto             part  = [&](const double length) {
       path[0] = length;
-      return scene.contact.free_part({start, 0.}, {scene.shift(path), 0.});
+      return scene.contact.collision_free_fraction({start, 0.}, {scene.shift(path), 0.});
     };
     CHECK(part(.7) == 1);
     CHECK(part(-.9) == 1);
@@ -133,7 +133,7 @@ namespace
       }
     Vector fall = start;
     fall.add(-4.);
-    CHECK(scene.contact.free_part({start, 0.}, {fall, 0.}) * 4 == Approx(.45));
+    CHECK(scene.contact.collision_free_fraction({start, 0.}, {fall, 0.}) * 4 == Approx(.45));
     CHECK(scene.contact.forces(start, 0.).size() == 0);
   }
 } // namespace

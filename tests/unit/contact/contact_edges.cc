@@ -86,7 +86,7 @@ TEST_CASE("edges that cross push each other and do not pass", "[contact][mpi]")
   const Scene<3>            scene(cubes_on_edges(gap), .1);
   const ContactSurfaces<3>  surfaces(scene.settings(.1, -10), scene.model, nullptr, nullptr);
   const Vector              start  = scene.model.vector();
-  const auto                places = surfaces.places(start, 0);
+  const auto                places = surfaces.positions(start, 0);
   const auto                terms  = find_contact_terms(surfaces, places, .1);
   const ContactPotential<3> potential(.1, 3);
   REQUIRE(terms.size() == 1);
@@ -104,7 +104,7 @@ TEST_CASE("edges that cross push each other and do not pass", "[contact][mpi]")
         if (scene.model.axis(dof) == 2 && scene.model.rest_position(dof)[2] > std::sqrt(2.))
           fall(dof) = -length;
       fall.compress(dealii::VectorOperation::insert);
-      const double path = scene.contact.free_part({start, 0.}, {fall, 0.}) * length;
+      const double path = scene.contact.collision_free_fraction({start, 0.}, {fall, 0.}) * length;
       CHECK(path < .8 * gap * (1 + 1e-12));
       CHECK(path > .79 * gap);
     }

@@ -40,19 +40,19 @@ namespace undine_tests
   template <int dim>
   struct Scene
   {
-    Scene(const std::string &text, const double gap, const double wall = -10)
+    Scene(const std::string &text, const double activation_distance, const double wall = -10)
       : options(read_scene_text(text))
       , model(options, MPI_COMM_WORLD)
-      , contact(settings(gap, wall), model, nullptr, nullptr)
+      , contact(settings(activation_distance, wall), model, nullptr, nullptr)
     {
     }
 
     ContactSettings<dim>
-    settings(const double gap, const double wall) const
+    settings(const double activation_distance, const double wall) const
     {
       ContactSettings<dim> result{options};
-      result.gap       = gap;
-      result.stiffness = 3;
+      result.activation_distance = activation_distance;
+      result.stiffness           = 3;
       result.walls.push_back({"wall",
                               wall * dealii::Point<dim>::unit_vector(0),
                               dealii::Tensor<1, dim>(dealii::Point<dim>::unit_vector(0))});

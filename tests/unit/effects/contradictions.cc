@@ -86,7 +86,7 @@ TEST_CASE("effects that contradict the scene are refused with a hint", "[effects
   check_contains(complaint("convection", convection(), Made::of_bodies), "none", "'Fluid'");
   check_contains(complaint("scalar transport", smoke, Made::of_bodies), "none", "'Fluid'");
   check_contains(complaint("scalar transport", section("scalar transport", ""), Made::of_fluid),
-                 "no field to carry",
+                 "no field to advect",
                  "subsection");
   check_contains(
     complaint("scalar transport",

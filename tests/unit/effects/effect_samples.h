@@ -221,7 +221,7 @@ namespace undine_tests
     samples["contact"] = {
       flying_block(),
       "",
-      "set Gap = 0.05\n" +
+      "set Activation distance = 0.05\n" +
         section("Walls", section("right", "set Point = 1.04, 0\nset Normal = -1, 0")),
       "",
       [](const auto &, const auto &after) {

@@ -54,7 +54,7 @@ TEST_CASE("inflow brings its value in, and it leaves through the outflow", "[sca
 }
 
 
-TEST_CASE("held walls conduct heat linearly through still fluid", "[scalars][mpi]")
+TEST_CASE("Dirichlet walls conduct heat linearly through still fluid", "[scalars][mpi]")
 {
   FlowRun<2> run(
     FluidText{"9, 5",
@@ -138,7 +138,8 @@ TEST_CASE("heated and cooled walls drive a circulation", "[scalars]")
 }
 
 
-TEST_CASE("where no smoke is within reach none is carried, which changes nothing", "[scalars][mpi]")
+TEST_CASE("where no smoke is within reach none is advected, which changes nothing",
+          "[scalars][mpi]")
 {
   const std::string blob = "set Initial value = 3 + max(0, 1 - 60*((x-.3)^2 + (y-.4)^2))\n";
   for (const std::string method : {"semi-Lagrangian", "MacCormack", "cubic"})

@@ -18,16 +18,16 @@ namespace
   {
   public:
     bool
-    holds(const Boundary<dim> &boundary) const override
+    is_dirichlet(const Boundary<dim> &boundary) const override
     {
       return boundary.kind == BoundaryKind::inflow;
     }
 
     double
-    held_value(const Boundary<dim> &,
-               const unsigned int,
-               const dealii::Point<dim> &,
-               const double) const override
+    dirichlet_value(const Boundary<dim> &,
+                    const unsigned int,
+                    const dealii::Point<dim> &,
+                    const double) const override
     {
       return 1;
     }
@@ -105,7 +105,7 @@ namespace
 } // namespace
 
 
-TEST_CASE("MacCormack carries a smooth bump around with second order, semi-Lagrangian with first",
+TEST_CASE("MacCormack advects a smooth bump around with second order, semi-Lagrangian with first",
           "[advection]")
 {
   for (const std::string grading : {"x", "x+0.1*sin(2*pi*x)/(2*pi)"})
@@ -128,7 +128,7 @@ TEST_CASE("MacCormack carries a smooth bump around with second order, semi-Lagra
 }
 
 
-TEST_CASE("carried fields stay between their bounds", "[advection][mpi]")
+TEST_CASE("advected fields stay between their bounds", "[advection][mpi]")
 {
   for (const auto &method : methods)
     {
@@ -147,7 +147,7 @@ TEST_CASE("carried fields stay between their bounds", "[advection][mpi]")
 }
 
 
-TEST_CASE("linear fields are carried exactly by uniform flow, at any Courant number",
+TEST_CASE("linear fields are advected exactly by uniform flow, at any Courant number",
           "[advection][mpi]")
 {
   for (const auto &method : methods)
@@ -163,14 +163,14 @@ TEST_CASE("linear fields are carried exactly by uniform flow, at any Courant num
         const CharacteristicTracer<3> tracer(model, model.initial_state().velocity, 0, dt);
         const auto                    start =
           make_field<3>(model.grid().cells(), [](const auto &place) { return 1 - place[0]; });
-        const auto carried = advection->advect(tracer, start, Dye<3>());
+        const auto advected = advection->advect(tracer, start, Dye<3>());
         // Beyond the outflow the field goes on as a constant, which the way back of MacCormack
         // sees.
-        CHECK(largest_over(carried.lattice(), [&](const GridIndex<3> &cell) {
+        CHECK(largest_over(advected.lattice(), [&](const GridIndex<3> &cell) {
                 const double x       = model.grid().cells()->point(cell)[0];
                 const double width   = model.grid().cell_width(0, 8);
                 const bool   is_near = method != "semi-Lagrangian" && x + dt > 1 - 3 * width;
-                return is_near ? 0. : std::abs(carried(cell) - std::min(1., 1 - x + dt));
+                return is_near ? 0. : std::abs(advected(cell) - std::min(1., 1 - x + dt));
               }) < 1e-12);
       }
 }
@@ -202,7 +202,7 @@ TEST_CASE("periodic fields travel around and come back", "[advection][mpi]")
 }
 
 
-TEST_CASE("carried fields do not depend on the number of ranks", "[advection][mpi]")
+TEST_CASE("advected fields do not depend on the number of ranks", "[advection][mpi]")
 {
   for (const auto &method : methods)
     {
@@ -214,14 +214,14 @@ TEST_CASE("carried fields do not depend on the number of ranks", "[advection][mp
       const auto          model = make_model<2>(text);
       const FluidModel<2> alone(read_scene_text(text), MPI_COMM_SELF);
       const auto          advection = Registry<Advection<2>>::instance().make(method);
-      const auto          carry     = [&](const FluidModel<2> &where) {
+      const auto          advect    = [&](const FluidModel<2> &where) {
         const CharacteristicTracer<2> tracer(where, where.initial_state().velocity, 0, 0.2);
         Field<2>                      field(where.grid().cells());
         fill_scattered(field, 4);
         return advection->advect(tracer, field, Dye<2>());
       };
-      const auto parallel = carry(model);
-      const auto serial   = carry(alone);
+      const auto parallel = advect(model);
+      const auto serial   = advect(alone);
       CHECK(largest_over(parallel.lattice(), [&](const GridIndex<2> &cell) {
               return std::abs(parallel(cell) - serial(cell));
             }) < 1e-13);
@@ -229,7 +229,8 @@ TEST_CASE("carried fields do not depend on the number of ranks", "[advection][mp
 }
 
 
-TEST_CASE("fields that are carried together are carried as each of them alone", "[advection][mpi]")
+TEST_CASE("fields that are advected together are advected as each of them alone",
+          "[advection][mpi]")
 {
   for (const auto &method : methods)
     {

@@ -11,22 +11,22 @@ namespace
 {
   constexpr double pi = dealii::numbers::PI;
 
-  /// Held at one boundary named "hot", free elsewhere.
+  /// Prescribed at one boundary named "hot", free elsewhere.
   template <int dim>
   class Heat : public BoundaryCondition<dim>
   {
   public:
     bool
-    holds(const Boundary<dim> &boundary) const override
+    is_dirichlet(const Boundary<dim> &boundary) const override
     {
       return boundary.name == "hot";
     }
 
     double
-    held_value(const Boundary<dim> &,
-               const unsigned int,
-               const dealii::Point<dim> &place,
-               const double              time) const override
+    dirichlet_value(const Boundary<dim> &,
+                    const unsigned int,
+                    const dealii::Point<dim> &place,
+                    const double              time) const override
     {
       return time + place[1];
     }
@@ -101,7 +101,7 @@ TEST_CASE("friction on walls is of second order for each component", "[diffusion
 }
 
 
-TEST_CASE("a held wall draws the field to its value, the sum changes by the flux only",
+TEST_CASE("a Dirichlet wall draws the field to its value, the sum changes by the flux only",
           "[diffusion][mpi]")
 {
   const auto model = make_model<3>(FluidText{"5, 6, 4", boundary("hot", "left", "slip wall")});

@@ -142,8 +142,8 @@ TEMPLATE_TEST_CASE_SIG(
     {
       CHECK(state.identities[k] == int(k));
       CHECK(state.tags[k].material() == 1);
-      CHECK(setup.held[k] == (setup.reference[k][0] < 4.3 - 0.9));
-      CHECK(state.velocities[k][0] == Approx(setup.held[k] ? 0. : setup.reference[k][0]));
+      CHECK(setup.clamped[k] == (setup.reference[k][0] < 4.3 - 0.9));
+      CHECK(state.velocities[k][0] == Approx(setup.clamped[k] ? 0. : setup.reference[k][0]));
     }
   for (std::size_t k = n; k < state.positions.size(); ++k)
     if (state.tags[k].kind() == Kind::fluid)
@@ -165,7 +165,7 @@ TEMPLATE_TEST_CASE_SIG("particles: a ball has its volume", "", ((int dim), dim),
 }
 
 
-TEST_CASE("particles: what is held in a wall takes the place of the wall's particles")
+TEST_CASE("particles: what is clamped in a wall takes the place of the wall's particles")
 {
   const auto with = read_particles<2>(
     particle_box<2>(10) + body("plate",
@@ -177,7 +177,7 @@ TEST_CASE("particles: what is held in a wall takes the place of the wall's parti
   CHECK(count(without, Kind::dummy) - count(with, Kind::dummy) == 4);
   const auto &setup = with.setup();
   for (std::size_t k = 0; k < setup.reference.size(); ++k)
-    CHECK(setup.held[k] == (setup.reference[k][1] < 0));
+    CHECK(setup.clamped[k] == (setup.reference[k][1] < 0));
   CHECK(least_distance(with.initial_state()) == Approx(1));
 }
 

@@ -57,12 +57,12 @@ TEMPLATE_TEST_CASE_SIG("A drop under a central attraction keeps its exact semi-a
                        2,
                        3)
 {
-  const auto         places  = GENERATE(Places::end_velocity, Places::mean_velocity);
-  const bool         is_mean = places == Places::mean_velocity;
+  const auto         update = GENERATE(PositionUpdate::end_velocity, PositionUpdate::mean_velocity);
+  const bool         is_mean = update == PositionUpdate::mean_velocity;
   const int          n = dim == 2 ? 24 : 9, frames = dim == 3 ? 30 : is_mean ? 120 : 50;
   const double       allowed = dim == 3 ? .035 : is_mean ? .02 : .025;
   ParticleScene<dim> scene(1. / n);
-  scene.setup.numerics.places = places;
+  scene.setup.numerics.position_update = update;
   Ellipsoid<dim> exact;
   for (int axis = 0; axis < dim; ++axis)
     {
@@ -108,12 +108,12 @@ TEMPLATE_TEST_CASE_SIG("Spray falls along parabolas, or as its end velocities sa
                        2,
                        3)
 {
-  const auto         places   = GENERATE(Places::end_velocity, Places::mean_velocity);
+  const auto         update = GENERATE(PositionUpdate::end_velocity, PositionUpdate::mean_velocity);
   const double       sub_step = GENERATE(.05, .002);
   const double       l0 = .01, time = .1;
   ParticleScene<dim> scene(l0);
   scene.setup.gravity                   = along<dim>(dim - 1, -9.81);
-  scene.setup.numerics.places           = places;
+  scene.setup.numerics.position_update  = update;
   scene.setup.numerics.largest_sub_step = sub_step;
   scene.setup.numerics.speed_share      = 100;
   scene.set_free_space(1);
@@ -126,7 +126,7 @@ TEMPLATE_TEST_CASE_SIG("Spray falls along parabolas, or as its end velocities sa
   ParticleState<dim> state;
   engine->fetch(state);
   // Sum of h v_n with v_n = v_0 + n h g: half a sub-step ahead.
-  const double ahead = places == Places::end_velocity ? sub_step / 2 : 0;
+  const double ahead = update == PositionUpdate::end_velocity ? sub_step / 2 : 0;
   for (std::size_t i = 0; i < state.positions.size(); ++i)
     {
       const auto way = time * start + (time * (time / 2 + ahead)) * scene.setup.gravity;

@@ -57,7 +57,7 @@ namespace particle_tests
         return;
       setup.reference.push_back(x);
       setup.body_of.push_back(material - 1);
-      setup.held.push_back(0);
+      setup.clamped.push_back(0);
     }
 
     /// f(x) for the lattice's points between two corners [spacings].

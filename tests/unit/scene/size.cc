@@ -169,10 +169,10 @@ TEST_CASE("two fields and a second stage cost more")
 {
   const auto two  = measure_scene<3>(read(scene("plume")));
   auto       none = two;
-  none.grid.carried -= 2;
+  none.grid.advected -= 2;
   none.grid.scalars -= 2;
   CHECK(two.grid.scalars == 2);
-  CHECK(two.grid.carried == 3 + 2);
+  CHECK(two.grid.advected == 3 + 2);
   CHECK(estimate(two, 1).memory > estimate(none, 1).memory);
   CHECK(estimate(two, 1).seconds > 1.05 * estimate(none, 1).seconds);
   const auto one_stage = measure_scene<3>(read(scene("plume"), {"Time/Integrator=theta"}));

@@ -21,7 +21,7 @@ namespace undine
   ///
   ///     y^0 = y^b + w r,   y = y^0 + g f,   w + g = duration of the stage
   ///
-  /// Fields that the flow carries are traced from the stage's begin to its end.
+  /// Fields that the flow advects are traced from the stage's begin to its end.
   struct Stage
   {
     double begin  = 0; ///< t^b - t^n [s]
@@ -63,7 +63,7 @@ namespace undine
       return start() - begin;
     }
 
-    /// Duration of the stage: for how long the flow carries fields [s].
+    /// Duration of the stage: for how long the flow advects fields [s].
     double
     duration() const
     {

@@ -43,7 +43,7 @@ namespace undine
     initialize(State<dim> &state, double dt, Report &report) override;
 
     /// Repeats the step until no body wakes in it, with those that woke awake from its begin. Where
-    /// sleeping bodies leave the step without a solution, as in a chamber that only they close, all
+    /// sleeping bodies leave the step without a solution, as in a region that only they close, all
     /// wake.
     void
     advance(State<dim> &state, const Stages &stages, Report &report) override;

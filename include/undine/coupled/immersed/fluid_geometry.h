@@ -101,8 +101,8 @@ namespace undine
     swept_volume_flux(double dt) const;
     /// @}
 
-    /// The same at the start of a run: bodies that close a chamber yield at once to what flows in,
-    /// in proportion to their area.
+    /// The same at the start of a run: compliant bodies around a closed region give way at once to
+    /// what flows in, in proportion to their area.
     SweptVolumeFlux
     initial_swept_volume_flux(double dt) const;
 

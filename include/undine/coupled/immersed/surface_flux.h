@@ -108,11 +108,11 @@ namespace undine
 
 
   /// The surface flux of a stage. For steps of one stage `kind` decides: with `initial` it is B u
-  /// with B at d^n, and the volume of a closed chamber drifts in first order of h; with `swept` it
+  /// with B at d^n, and the volume of a closed region drifts in first order of h; with `swept` it
   /// is the mean of B over the displacement increment times (d^{n+1} - d^n) / h, and the volume is
   /// exact (BoundaryFlux). For stages that keep rates, whatever `kind`, it is B u at the end of the
-  /// stage, with the correction (C3) that makes the volumes of chambers exact (ChamberVolumes). The
-  /// references must outlive the result. Collective.
+  /// stage, with the correction (C3) that makes the volumes of closed regions exact
+  /// (ClosedRegionVolumes). The references must outlive the result. Collective.
   template <int dim>
   std::unique_ptr<SurfaceFlux<dim>>
   make_surface_flux(const std::string          &kind,

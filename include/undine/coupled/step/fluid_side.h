@@ -5,7 +5,7 @@
 #include <undine/base/core/timing.h>
 #include <undine/coupled/budget/budget.h>
 #include <undine/coupled/immersed/fluid_geometry.h>
-#include <undine/coupled/immersed/surface_friction.h>
+#include <undine/coupled/immersed/viscous_coupling.h>
 #include <undine/coupled/model/models.h>
 #include <undine/coupled/state/report.h>
 #include <undine/coupled/state/state.h>
@@ -96,7 +96,7 @@ namespace undine
     TimingTree                            &timing;
     const SolidEnvironment<dim>            environment;
     std::unique_ptr<FluidGeometry<dim>>    cut;
-    SurfaceFriction<dim>                   surface_friction;
+    ViscousCoupling<dim>                   viscous_coupling;
     typename FluidGeometry<dim>::Positions expected; ///< of the next predict(); empty: to be found
   };
 } // namespace undine

@@ -12,7 +12,7 @@
 
 namespace undine
 {
-  /// A method by which the flow carries a field for one step: ds/dt + v.grad s = 0. The same code
+  /// A method by which the flow advects a field for one step: ds/dt + v.grad s = 0. The same code
   /// serves scalars in cells and velocities on faces.
   template <int dim>
   class Advection
@@ -97,7 +97,7 @@ namespace undine
     /// Cells and components to which nothing was brought are filled, see fill_unknown(); divided
     /// points take the mean of their sub-cells or sub-faces. Collective.
     void
-    finish(Field<dim> &carried, const BoundaryCondition<dim> &condition) const;
+    finish(Field<dim> &advected, const BoundaryCondition<dim> &condition) const;
 
   private:
     double
@@ -116,58 +116,58 @@ namespace undine
   /// the same condition; `far` takes no points further than `reach` away. Collective.
   template <int dim, class Far>
   std::vector<Field<dim>>
-  carry(const CharacteristicTracer<dim> &tracer,
-        const std::vector<Field<dim>>   &sources,
-        const BoundaryCondition<dim>    &condition,
-        const GridIndex<dim>            &reach,
-        Far                            &&far)
+  advect_along_paths(const CharacteristicTracer<dim> &tracer,
+                     const std::vector<Field<dim>>   &sources,
+                     const BoundaryCondition<dim>    &condition,
+                     const GridIndex<dim>            &reach,
+                     Far                            &&far)
   {
     for (const auto &source : sources)
       AssertThrow(source.shared_lattice() == sources.front().shared_lattice() &&
                     source.topology() == sources.front().topology() &&
                     source.stored() == sources.front().stored(),
-                  dealii::ExcMessage("fields that are carried together must be alike"));
+                  dealii::ExcMessage("fields that are advected together must be alike"));
     const auto                  &lattice = sources.front().lattice();
     std::vector<NearBodies<dim>> near;
-    std::vector<Field<dim>>      carried;
+    std::vector<Field<dim>>      advected;
     near.reserve(sources.size());
     for (const auto &source : sources)
       {
         near.emplace_back(tracer, source);
-        carried.emplace_back(source.shared_lattice(), tracer.bodies().topology);
+        advected.emplace_back(source.shared_lattice(), tracer.bodies().topology);
       }
-    const auto *divided   = carried.front().divided();
-    const auto  carry_one = [&](const GridIndex<dim> &index) {
+    const auto *divided    = advected.front().divided();
+    const auto  advect_one = [&](const GridIndex<dim> &index) {
       if (divided && divided->kind(index) != SubLattice<dim>::Kind::whole)
         return;
       const auto place = lattice.point(index);
       const auto trace = tracer.trace(place, -tracer.dt());
       for (std::size_t k = 0; k < sources.size(); ++k)
-        carried[k](index) = trace.near_body ? near[k].value_at(near[k].whole(index), trace.foot)
-                                             : far(trace, index, k);
+        advected[k](index) = trace.near_body ? near[k].value_at(near[k].whole(index), trace.foot)
+                                              : far(trace, index, k);
     };
     if (condition.neglected_variation() == 0)
-      for_each(lattice.owned(), carry_one);
+      for_each(lattice.owned(), advect_one);
     else
       {
         const UniformRegions<dim> places(sources, reach, condition.neglected_variation(), divided);
         places.for_each_uniform_run([&](const GridIndex<dim> &first, const int n) {
           for (std::size_t k = 0; k < sources.size(); ++k)
-            std::copy_n(sources[k].data(first), n, &carried[k](first));
+            std::copy_n(sources[k].data(first), n, &advected[k](first));
         });
         places.for_each_other_run([&](GridIndex<dim> index, const int n) {
           for (int i = 0; i < n; ++i, ++index[0])
-            carry_one(index);
+            advect_one(index);
         });
       }
     for_each_owned_part(divided, [&](const unsigned int part, const auto &of_part) {
       const auto trace = tracer.trace(of_part.place, -tracer.dt());
       for (std::size_t k = 0; k < sources.size(); ++k)
-        carried[k].parts()[part] = near[k].value_at(of_part, trace.foot);
+        advected[k].parts()[part] = near[k].value_at(of_part, trace.foot);
     });
     for (std::size_t k = 0; k < sources.size(); ++k)
-      near[k].finish(carried[k], condition);
-    return carried;
+      near[k].finish(advected[k], condition);
+    return advected;
   }
 } // namespace undine
 

@@ -14,7 +14,7 @@
 
 namespace undine
 {
-  /// Characteristic tracing: with the velocity at one time, which carries fields during a step, it
+  /// Characteristic tracing: with the velocity at one time, which advects fields during a step, it
   /// finds where the fluid that arrives at a place has come from.
   template <int dim>
   class CharacteristicTracer
@@ -35,7 +35,7 @@ namespace undine
     {
       /// Their surfaces at the time of the step; nullptr: none.
       const Obstruction<dim> *obstruction = nullptr;
-      /// The topology of the fluid now, which carried fields get; nullptr: nothing is cut.
+      /// The topology of the fluid now, which advected fields get; nullptr: nothing is cut.
       std::shared_ptr<const FluidTopology<dim>> topology;
       /// The no-slip surfaces, and the velocities of their nodes [m/s]; nullptr: none.
       std::shared_ptr<const NoSlipSurfaces<dim>> walls           = nullptr;

@@ -6,7 +6,7 @@
 
 namespace undine
 {
-  /// The same field on the present topology of the fluid; no flow carries it. Values stay where
+  /// The same field on the present topology of the fluid; no flow advects it. Values stay where
   /// they were. Velocities move with the volumes V_f of fluid that bodies have left: what a surface
   /// has added to that of a face in its last motion does not move like what was there, but like the
   /// fluid around,

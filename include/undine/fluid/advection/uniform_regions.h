@@ -9,7 +9,7 @@
 
 namespace undine
 {
-  /// Where fields that are carried are uniform: within reach of a point all values of each field
+  /// Where fields that are advected are uniform: within reach of a point all values of each field
   /// are the same but for a share of its range, so that the flow changes nothing there. To be safe
   /// and fast, neighbours are compared: they must differ by less than would add up to that share
   /// along the longest path from neighbour to neighbour between two of these values.

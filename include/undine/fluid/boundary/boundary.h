@@ -66,11 +66,11 @@ namespace undine
 
     /// The normal velocity on the faces is given: walls and inflow.
     bool
-    holds_normal_velocity() const;
+    prescribes_normal_velocity() const;
 
     /// The tangential velocity on the boundary is given: walls to which fluid sticks, and inflow.
     bool
-    holds_tangential_velocity() const;
+    prescribes_tangential_velocity() const;
 
     /// The pressure on the faces is given: pressure and outflow.
     bool

@@ -7,36 +7,37 @@
 
 namespace undine
 {
-  /// The boundary condition of a field that is carried and diffused: it is held at a value, or its
-  /// normal derivative vanishes. Where fluid enters through an opening, it brings a value with it.
+  /// The boundary condition of a field that is advected and diffused: its value is prescribed, or
+  /// its normal derivative vanishes. Where fluid enters through an opening, it brings a value with
+  /// it.
   template <int dim>
   class BoundaryCondition
   {
   public:
     virtual ~BoundaryCondition() = default;
 
-    /// Is the field held at a value on `boundary`?
+    /// Is the value of the field prescribed on `boundary`?
     virtual bool
-    holds(const Boundary<dim> &boundary) const = 0;
+    is_dirichlet(const Boundary<dim> &boundary) const = 0;
 
-    /// The value, in the unit of the field, at a place [m] on a held boundary that is normal to
+    /// The value, in the unit of the field, at a place [m] on such a boundary that is normal to
     /// `normal_axis`, at `time` [s].
     virtual double
-    held_value(const Boundary<dim>      &boundary,
-               const unsigned int        normal_axis,
-               const dealii::Point<dim> &place,
-               const double              time) const = 0;
+    dirichlet_value(const Boundary<dim>      &boundary,
+                    const unsigned int        normal_axis,
+                    const dealii::Point<dim> &place,
+                    const double              time) const = 0;
 
     /// The value of the fluid that enters through an opening at `place` [m].
     virtual double
     entering_value(const dealii::Point<dim> &place, const double time) const = 0;
 
-    /// True if the flow never carries a value beyond those around it, so that an advection must not
+    /// True if the flow never advects a value beyond those around it, so that an advection must not
     /// create new extrema. That costs accuracy at smooth ones.
     virtual bool
     obeys_maximum_principle() const = 0;
 
-    /// Differences between neighbours that need not be carried, as a share of the field's range
+    /// Differences between neighbours that need not be advected, as a share of the field's range
     /// (UniformRegions); 0: all are.
     virtual double
     neglected_variation() const
@@ -53,13 +54,13 @@ namespace undine
     explicit VelocityCondition(const unsigned int axis);
 
     bool
-    holds(const Boundary<dim> &boundary) const override;
+    is_dirichlet(const Boundary<dim> &boundary) const override;
 
     double
-    held_value(const Boundary<dim>      &boundary,
-               const unsigned int        normal_axis,
-               const dealii::Point<dim> &place,
-               const double              time) const override;
+    dirichlet_value(const Boundary<dim>      &boundary,
+                    const unsigned int        normal_axis,
+                    const dealii::Point<dim> &place,
+                    const double              time) const override;
 
     /// Zero: fluid enters at right angles.
     double
@@ -103,10 +104,10 @@ namespace undine
     action(boundaries.at(side, cell), above / (below + above), cell);
   }
 
-  /// Give the stored boundary points of `field` their values at `time` [s]: held, that of fluid
-  /// which enters with the flow `velocity` (whose faces on the boundary must be stored there), or
-  /// equal to the nearest point inside. The ghost layers of `field` must be up to date. Not
-  /// collective.
+  /// Give the stored boundary points of `field` their values at `time` [s]: prescribed, that of
+  /// fluid which enters with the flow `velocity` (whose faces on the boundary must be stored
+  /// there), or equal to the nearest point inside. The ghost layers of `field` must be up to date.
+  /// Not collective.
   template <int dim>
   void
   fill_boundary_points(Field<dim>                   &field,

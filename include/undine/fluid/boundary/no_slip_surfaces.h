@@ -63,8 +63,9 @@ namespace undine
   template <class Force>
   struct FrictionForces
   {
-    std::vector<Force> on_nodes;      ///< of the surfaces in the fluid [N]
-    std::vector<Force> on_boundaries; ///< of the domain: sides, and faces that are held [N]
+    std::vector<Force> on_nodes; ///< of the surfaces in the fluid [N]
+    std::vector<Force>
+      on_boundaries; ///< of the domain: sides, and faces whose velocity is prescribed [N]
   };
 } // namespace undine
 

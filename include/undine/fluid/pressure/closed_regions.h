@@ -22,8 +22,8 @@ namespace undine
   };
 
 
-  /// The regions of the fluid on whose boundary neither the pressure is given nor a surface yields
-  /// to it: there the pressure is known up to a constant, and what flows in must flow out.
+  /// The closed regions of the fluid, which have no opening, but for those with compliant surfaces:
+  /// there the pressure is known up to a constant, and what flows in must flow out.
   template <int dim>
   class ClosedRegions
   {
@@ -32,11 +32,11 @@ namespace undine
 
     using Number = typename PressureNumbers<dim>::Number;
 
-    /// `yielding`: owned pressures at surfaces of bodies that yield to the pressure. The references
-    /// must outlive it. Collective.
+    /// `compliant`: owned pressures at surfaces of bodies that the pressure can move. The
+    /// references must outlive it. Collective.
     ClosedRegions(const FluidModel<dim>      &model,
                   const PressureNumbers<dim> &numbers,
-                  const std::vector<Number>  &yielding = {});
+                  const std::vector<Number>  &compliant = {});
 
     /// The lowest pressure number of every closed region, as far as this rank owns them.
     const std::vector<Number> &
@@ -46,10 +46,10 @@ namespace undine
     }
 
     /// The swept-volume fluxes of bodies, [FluidTopology::cells] [m^dim/s], changed within their
-    /// uncertainties so that the volume of each closed region is conserved; where surfaces yield,
-    /// they move as far as that takes. Throws InputError (NoOutletError, if something is cut) if
-    /// more than the uncertainty enters or leaves a region through faces with a given velocity and
-    /// through surfaces. Collective.
+    /// uncertainties so that the volume of each closed region is conserved; compliant
+    /// surfaces move as far as that takes. Throws InputError (NoOutletError, if something is cut)
+    /// if more than the uncertainty enters or leaves a region through faces with a given velocity
+    /// and through surfaces. Collective.
     std::vector<double>
     balanced_fluxes(const Velocity<dim>   &velocity,
                     const SweptVolumeFlux &swept,
@@ -90,7 +90,7 @@ namespace undine
     /// The volume flux out of each closed region through walls and inflows at `time` [s],
     /// [m^dim/s]. Collective.
     std::vector<double>
-    held_outflow(const double time) const;
+    prescribed_outflow(const double time) const;
 
     /// Sums over each closed region of `values` [FluidTopology::cells]. Collective.
     std::vector<double>
@@ -103,7 +103,7 @@ namespace undine
 
   private:
     Field<dim>
-    held_fluxes(const double time) const;
+    prescribed_fluxes(const double time) const;
 
     static constexpr int open_region = -1;
 

@@ -24,21 +24,21 @@ namespace undine
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
     using Number = typename PressureNumbers<dim>::Number;
 
-    /// `yielding`: owned pressures to which bodies yield. The references must outlive it.
+    /// `compliant`: owned pressures at compliant bodies. The references must outlive it.
     /// Collective.
     PressureEquations(const FluidModel<dim>      &model,
                       const PressureNumbers<dim> &numbers,
-                      const std::vector<Number>  &yielding,
+                      const std::vector<Number>  &compliant,
                       const double                dt);
 
     /// Begin with v* in `velocity`, which gets the velocity on walls and inflows at `time` [s], the
-    /// end of the step. `carrying` = v^n is a first guess of the backflow through outflows.
-    /// `swept`: the swept-volume flux of all surfaces, of which those that do not yield must
+    /// end of the step. `advecting` = v^n is a first guess of the backflow through outflows.
+    /// `swept`: the swept-volume flux of all surfaces, of which those that are not compliant must
     /// conserve the volume of closed regions. Collective. Throws InputError if a closed region has
     /// a net inflow.
     void
     start(Velocity<dim>         &velocity,
-          const Velocity<dim>   &carrying,
+          const Velocity<dim>   &advecting,
           const double           time,
           const SweptVolumeFlux &swept);
 

@@ -55,12 +55,12 @@ namespace undine
     /// walls and inflows first. Throws InputError if a region without opening has a net inflow,
     /// SolveError if the solver does not converge. Collective.
     ///
-    /// `carrying` = v^n is a first guess of the backflow through outflows; v* is none: friction
+    /// `advecting` = v^n is a first guess of the backflow through outflows; v* is none: friction
     /// adds h grad p^n / rho to it, which may point inwards in a steady outflow. `swept`: the
     /// swept-volume flux of surfaces.
     Report
     project(FluidState<dim>       &state,
-            const Velocity<dim>   &carrying,
+            const Velocity<dim>   &advecting,
             const double           time,
             const double           dt,
             const SweptVolumeFlux &swept = {});

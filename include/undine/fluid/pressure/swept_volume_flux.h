@@ -24,9 +24,8 @@ namespace undine
     std::vector<Contribution> contributions; ///< of which they are the sums
     std::vector<std::string>  bodies;        ///< what messages call them
 
-    /// Area of the surfaces around each component that yield to pressure [m^(dim-1)]; empty: none
-    /// does.
-    std::vector<double> yielding_areas;
+    /// Area of the compliant surfaces around each component [m^(dim-1)]; empty: none is.
+    std::vector<double> compliant_areas;
 
     std::string scene; ///< name of the file
   };

@@ -18,11 +18,11 @@ namespace undine
     /// To be filled; then call set_up().
     dealii::TrilinosWrappers::SparseMatrix matrix;
 
-    /// Prepare the preconditioner for `matrix`. `reach`: the largest h nu / dx^2 [1], the same on
-    /// all ranks; it decides between relaxation and, where a step reaches over many cells,
-    /// multigrid. Collective.
+    /// Prepare the preconditioner for `matrix`. `diffusion_number`: the largest
+    /// h nu / dx^2 [1], the same on all ranks; it decides between relaxation and, where a step
+    /// reaches over many cells, multigrid. Collective.
     void
-    set_up(double reach);
+    set_up(double diffusion_number);
 
     /// Solve for the right side `load`, starting from `solution`. Returns the number of iterations.
     /// Throws SolveError if they do not converge. Collective.

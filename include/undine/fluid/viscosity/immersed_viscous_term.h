@@ -69,7 +69,7 @@ namespace undine
     double
     mass(const FacePlace<dim> &place) const;
     bool
-    is_held(const FacePlace<dim> &place) const;
+    is_prescribed(const FacePlace<dim> &place) const;
     bool
     is_free(const unsigned int node) const;
     void

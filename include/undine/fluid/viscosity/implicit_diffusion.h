@@ -15,10 +15,10 @@ namespace undine
   ///
   ///     (V + h nu K) s^{n+1} = V s* + h nu k_b s_b
   ///
-  /// V: volumes around the points; K: areas over distances between neighbours; held boundaries at
-  /// half a cell. Faces whose velocity is held keep the value they have. Symmetric and positive
-  /// definite; conjugate gradients with symmetric Gauss-Seidel or, for h nu >= 30 dx^2, algebraic
-  /// multigrid (DiffusionSolver). The matrix is kept until h changes.
+  /// V: volumes around the points; K: areas over distances between neighbours; Dirichlet boundaries
+  /// at half a cell. Faces whose velocity is prescribed keep the value they have. Symmetric and
+  /// positive definite; conjugate gradients with symmetric Gauss-Seidel or, for h nu >= 30 dx^2,
+  /// algebraic multigrid (DiffusionSolver). The matrix is kept until h changes.
   template <int dim>
   class ImplicitDiffusion
   {
@@ -55,7 +55,7 @@ namespace undine
 
     /// Largest h nu / dx^2.
     double
-    reach(const double dt) const;
+    diffusion_number(const double dt) const;
 
     /// V s* + h nu k_b s_b, in the order of Field::owned_values(). One ghost layer must be up to
     /// date.

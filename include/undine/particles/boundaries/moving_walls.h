@@ -95,7 +95,7 @@ namespace undine::particles
   /// Fixed walls count for nothing where a moving one is: it may come out of them, slide along them
   /// or go into them.
   template <int dim, class Real>
-  struct YieldToMovingWalls
+  struct DeactivateWalls
   {
     CellGrid<dim, Real> grid;
     Real                spacing;
@@ -109,7 +109,7 @@ namespace undine::particles
     operator()(const int i) const
     {
       const Tag tag = places[i].tag;
-      if (tag.is_free() || (tag.material() != 0 && !tag.is_yielding()))
+      if (tag.is_free() || (tag.material() != 0 && !tag.is_inactive()))
         return;
       const Real near  = Real(0.75) * spacing;
       bool       taken = false;
@@ -118,7 +118,7 @@ namespace undine::particles
           for (int j = starts[first_cell]; j < starts[end_cell]; ++j)
             taken = taken || (is_moving(j) && norm_square(places[j].x - x) < near * near);
         });
-      places[i].tag = Tag::of(tag.kind(), taken ? yielding_material : 0);
+      places[i].tag = Tag::of(tag.kind(), taken ? inactive_material : 0);
     }
 
   private:
@@ -187,7 +187,7 @@ namespace undine::particles
       if (n > 0)
         executor.for_each(
           particles.n,
-          YieldToMovingWalls<dim, Real>{
+          DeactivateWalls<dim, Real>{
             grid, spacing, cell_starts, first, n, particles.identities, particles.places});
     }
 

@@ -24,7 +24,7 @@ namespace undine::particles
       , reference(executor, lattice.points)
       , bodies(executor, lattice.bodies)
       , materials(executor, lattice.materials)
-      , held(executor, lattice.held)
+      , clamped(executor, lattice.clamped)
       , inside(executor, lattice.inside)
       , counts(executor, lattice.counts)
       , indices(executor, lattice.indices)
@@ -55,7 +55,7 @@ namespace undine::particles
               reference.data(),
               bodies.data(),
               materials.data(),
-              held.data(),
+              clamped.data(),
               capacity,
               counts.data(),
               indices.data(),
@@ -82,7 +82,7 @@ namespace undine::particles
     Buffer<Executor, ReferencePoint<dim, Real>> reference;
     Buffer<Executor, int>                       bodies;
     Buffer<Executor, ElasticMaterial<Real>>     materials;
-    Buffer<Executor, unsigned char>             held;
+    Buffer<Executor, unsigned char>             clamped;
     Buffer<Executor, unsigned char>             inside; ///< surrounded by their own body
     Buffer<Executor, int>                       counts, indices;
     Matrices                                    inverse_moments;

@@ -55,7 +55,7 @@ namespace undine::particles
     const ReferencePoint<dim, Real> *reference;
     const int                       *bodies;    ///< number of the body
     const ElasticMaterial<Real>     *materials; ///< of the bodies
-    const unsigned char             *held;      ///< does not move
+    const unsigned char             *clamped;   ///< does not move
     int                              capacity;  ///< of the list of neighbours in the reference
     const int                       *counts;
     const int                       *indices;

@@ -16,7 +16,7 @@ namespace undine::particles
   {
     alone,   ///< no fluid: all of elasticity
     attempt, ///< without the fluid's pressure; tells the pressure equation where bodies want to go
-    final    ///< again from the same start, with the acceleration by pressures held constant
+    final    ///< again from the same start, with the acceleration by pressures kept constant
   };
 
   /// Takes the elastic bodies over a sub-step, all in one launch: in smaller explicit steps
@@ -85,11 +85,11 @@ namespace undine::particles
     UNDINE_HOST_DEVICE
     static ElasticPoint<dim, Real>
     moved(const ElasticPoint<dim, Real> &point,
-          const bool                     is_held,
+          const bool                     is_clamped,
           const Real                     h,
           const Vector<dim, Real>       &a)
     {
-      const auto v = is_held ? Vector<dim, Real>::zero() : point.v + h * a;
+      const auto v = is_clamped ? Vector<dim, Real>::zero() : point.v + h * a;
       return {point.x + h * v, v};
     }
 
@@ -268,10 +268,10 @@ namespace undine::particles
       const auto point = bodies().points[i];
       const auto a     = acceleration(i, lanes);
       if (lanes.rank() == 0)
-        points_next[i] = moved(point, elasticity.bodies.held[i], h, a);
+        points_next[i] = moved(point, elasticity.bodies.clamped[i], h, a);
     }
 
-    /// One step of backward Euler; what contacts and pressures do is held constant.
+    /// One step of backward Euler; what contacts and pressures do is kept constant.
     template <class Team>
     UNDINE_HOST_DEVICE
     int
@@ -289,7 +289,7 @@ namespace undine::particles
       team.for_each(n, [&](const int i) {
         ElasticPoint<dim, Real> point = bodies().points[i];
         point.v =
-          bodies().held[i] ? Vector<dim, Real>::zero() : point.v + implicit_vectors.change[i];
+          bodies().clamped[i] ? Vector<dim, Real>::zero() : point.v + implicit_vectors.change[i];
         point.x += h * point.v;
         points_next[i] = point;
       });

@@ -16,7 +16,7 @@ namespace undine::particles
   };
 
 
-  /// A step of backward Euler for stiff bodies, linearised with the rotations held:
+  /// A step of backward Euler for stiff bodies, linearised with the rotations kept:
   ///     (1 - h^2 A) dv = h a + h^2 A v,   A = da/dx at fixed R,
   /// by conjugate gradients in the scalar product of mass, for which A is symmetric and not
   /// positive.
@@ -30,7 +30,7 @@ namespace undine::particles
     static constexpr double tolerance      = 1e-4; ///< of |residual| over the right-hand side's
     static constexpr int    max_iterations = 200;
 
-    /// The change of velocities v, on which a = accelerations(i) acts; held particles stay.
+    /// The change of velocities v, on which a = accelerations(i) acts; clamped particles stay.
     template <class Team, class Accelerations>
     UNDINE_HOST_DEVICE
     void
@@ -40,7 +40,7 @@ namespace undine::particles
       differentiate(team, v);
       double       square = team.template sum<1>(n, [&](const int i, Sums<1> &sums) {
         vectors.change[i]    = Vector<dim, Real>::zero();
-        vectors.residual[i]  = is_held(i)
+        vectors.residual[i]  = is_clamped(i)
                                        ? Vector<dim, Real>::zero()
                                        : h * accelerations(i) + (h * h) * acceleration_change(i, v);
         vectors.direction[i] = vectors.residual[i];
@@ -51,9 +51,10 @@ namespace undine::particles
         {
           differentiate(team, vectors.direction);
           const double curvature = team.template sum<1>(n, [&](const int i, Sums<1> &sums) {
-            vectors.product[i] = is_held(i) ? Vector<dim, Real>::zero()
-                                            : vectors.direction[i] -
-                                                (h * h) * acceleration_change(i, vectors.direction);
+            vectors.product[i] =
+              is_clamped(i)
+                ? Vector<dim, Real>::zero()
+                : vectors.direction[i] - (h * h) * acceleration_change(i, vectors.direction);
             sums[0] += product(i, vectors.direction, vectors.product);
           })[0];
           const Real   length    = static_cast<Real>(square / curvature);
@@ -74,9 +75,9 @@ namespace undine::particles
   private:
     UNDINE_HOST_DEVICE
     bool
-    is_held(const int i) const
+    is_clamped(const int i) const
     {
-      return elasticity.bodies.held[i] != 0;
+      return elasticity.bodies.clamped[i] != 0;
     }
 
     UNDINE_HOST_DEVICE

@@ -18,7 +18,7 @@ namespace undine::particles
     std::vector<ReferencePoint<dim, Real>> points;
     std::vector<int>                       bodies;
     std::vector<ElasticMaterial<Real>>     materials;
-    std::vector<unsigned char>             held;
+    std::vector<unsigned char>             clamped;
     std::vector<unsigned char>     inside; ///< has nearly as many neighbours as in a full lattice
     int                            capacity;
     std::vector<int>               counts, indices;

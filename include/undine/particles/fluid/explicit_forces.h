@@ -14,7 +14,7 @@ namespace undine::particles
   /// collisions give to elastic bodies. Friction between two particles is the weighted difference
   /// of their velocities with the fluid's viscosity, collisions are inelastic impacts of particles
   /// that come closer than `collision_distance`: both are equal and opposite. Walls may have
-  /// friction by the law of the wall instead, see WallFriction. Places are (P2).
+  /// friction by the law of the wall instead, see WallFriction. Positions are (P2).
   template <int dim, class Real>
   struct ExplicitForces
   {

@@ -34,7 +34,7 @@ namespace undine::particles
   };
 
   /// The velocity with which fluid goes through a sub-step of length h.
-  enum class Places
+  enum class PositionUpdate
   {
     end_velocity, ///< that at its end: dissipative, of first order in h
     mean_velocity ///< the mean of those at its start and at its end
@@ -49,7 +49,7 @@ namespace undine::particles
 
     CellGrid<dim, Real> grid;
     Real                spacing;        ///< l0 [m]
-    Real                reach;          ///< r_e [m]
+    Real                reach;          ///< effective radius r_e [m]
     Real                volume;         ///< of a particle, l0^dim [m^dim]
     Real                number_density; ///< n0 [1]
     Real                spread;         ///< lambda [m^2]
@@ -78,8 +78,8 @@ namespace undine::particles
     Real surface_fade;          ///< over twice of which both fade
     Real air;                   ///< how strongly missing neighbours pull pressures to zero [1]
 
-    /// beta of Places: an acceleration a takes a particle along by beta h^2 a in a sub-step; 1 with
-    /// the velocity at its end, 1/2 with the mean velocity [1].
+    /// beta of PositionUpdate: an acceleration a takes a particle along by beta h^2 a in a
+    /// sub-step; 1 with the velocity at its end, 1/2 with the mean velocity [1].
     Real path_weight;
 
     Real collision_distance; ///< [m]

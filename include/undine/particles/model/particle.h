@@ -21,7 +21,7 @@ namespace undine::particles
   constexpr int inflow_material   = 14; ///< of the layers behind inflows
   constexpr int parked_material   = 15; ///< of what waits outside of space to flow in
   constexpr int moving_material   = 16; ///< of walls that move as prescribed
-  constexpr int yielding_material = 17; ///< of fixed walls where a moving one is: count for nothing
+  constexpr int inactive_material = 17; ///< of fixed walls where a moving one is: count for nothing
   /// @}
 
   /// Kind and material of a particle in one number.
@@ -69,9 +69,9 @@ namespace undine::particles
     /// Of a fixed wall, in whose place a moving one is?
     UNDINE_HOST_DEVICE
     bool
-    is_yielding() const
+    is_inactive() const
     {
-      return material() == yielding_material;
+      return material() == inactive_material;
     }
 
     /// Does it move as forces tell it?

@@ -75,7 +75,7 @@ namespace undine::particles
     for_each_near(const int i, const Function &f) const
     {
       const Place<dim, Real> place = places[i];
-      if (place.tag.kind() == Kind::dummy || place.tag.is_yielding())
+      if (place.tag.kind() == Kind::dummy || place.tag.is_inactive())
         return;
       grid.for_each_run_around(
         place.x, [&](const int first_cell, const int end_cell, const Vector<dim, Real> &x) {
@@ -126,7 +126,7 @@ namespace undine::particles
             const Place<dim, Real>  &other,
             const Function          &f) const
     {
-      if (norm_square(other.x - x) < reach * reach && j != i && !other.tag.is_yielding())
+      if (norm_square(other.x - x) < reach * reach && j != i && !other.tag.is_inactive())
         f(j);
     }
   };

@@ -11,7 +11,7 @@ namespace undine::particles
   /// How the particle method computes; every value has a measured default, see doc/particles.md.
   struct Numerics
   {
-    double reach = 2.1; ///< r_e [spacings]
+    double reach = 2.1; ///< effective radius r_e [spacings]
 
     double largest_sub_step = 0;   ///< [s]; 0: a frame
     double speed_share      = 0.2; ///< of the spacing that a particle may cross in a sub-step [1]
@@ -20,7 +20,7 @@ namespace undine::particles
       0.02; ///< of a body's pressure that elasticity takes over in a sub-step [1]
     int most_elastic_steps = 0; ///< explicit steps of bodies in a sub-step; if more were needed,
                                 ///< one implicit step is taken; 0: always explicit
-    Places places        = Places::end_velocity;
+    PositionUpdate position_update = PositionUpdate::end_velocity;
     double elastic_share = 0.6; ///< of l0 / c_p that an explicit step of a body may take [1]
 
     Source source        = Source::divergence;
@@ -112,7 +112,7 @@ namespace undine::particles
     std::vector<BodySetup>           bodies;
     std::vector<Vector<dim, double>> reference; ///< X [m]
     std::vector<int>                 body_of;   ///< entry of `bodies`
-    std::vector<unsigned char>       held;      ///< does not move
+    std::vector<unsigned char>       clamped;   ///< does not move
 
     Numerics numerics;
   };

@@ -10,10 +10,10 @@
 namespace undine
 {
   /// Contact of bodies with each other and with walls: a potential E(d, t) [J] of the positions of
-  /// their surfaces, zero where everything is further apart than a given gap, unbounded where a gap
-  /// closes, and the paths on which no gap closes. All functions are collective; they give the same
-  /// on any number of ranks, up to rounding of the displacement. BodyContact implements (S16) and
-  /// (S17).
+  /// their surfaces, zero where everything is further apart than a given distance, unbounded where
+  /// a gap closes, and the paths on which no gap closes. All functions are collective; they give
+  /// the same on any number of ranks, up to rounding of the displacement. BodyContact implements
+  /// (S16) and (S17).
   template <int dim>
   class Contact
   {
@@ -39,8 +39,8 @@ namespace undine
     virtual void
     add_stiffness(Matrix &A, double factor, const Vector &displacement, double time) const = 0;
 
-    /// A place of all bodies at a time.
-    struct Place
+    /// A configuration of all bodies at a time.
+    struct Configuration
     {
       const Vector &displacement; ///< [m]
       double        time;         ///< [s]
@@ -51,11 +51,11 @@ namespace undine
     virtual void
     begin_stage() const = 0;
 
-    /// The largest part of the straight path of all nodes on which no gap closes to less than a
+    /// The largest fraction of the straight path of all nodes on which no gap closes to less than a
     /// fifth of what it was at `from` or, if that is less, a length of the implementation
-    /// (BodyContact: half of the gap D) [1]; 1 if no gap does.
+    /// (BodyContact: half of the activation distance D) [1]; 1 if no gap does.
     virtual double
-    free_part(const Place &from, const Place &to) const = 0;
+    collision_free_fraction(const Configuration &from, const Configuration &to) const = 0;
 
     /// Throws InputError, with a hint, if something overlaps.
     virtual void
@@ -73,7 +73,7 @@ namespace undine
   struct ContactStart
   {
     /// The last displacement at which no gap was closed [m]; empty: that at which the stage starts.
-    dealii::TrilinosWrappers::MPI::Vector place;
+    dealii::TrilinosWrappers::MPI::Vector displacement;
     double                                time   = 0; ///< of that [s]
     double                                weight = 1; ///< duration over length of the stage [1]
     bool                                  keeps_rates = false;

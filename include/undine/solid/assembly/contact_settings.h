@@ -24,10 +24,10 @@ namespace undine
   template <int dim>
   struct ContactSettings
   {
-    Options                       options;       ///< for messages about the section
-    double                        gap       = 0; ///< at which contact begins [m]; 0: by the mesh
-    double                        stiffness = 0; ///< [Pa]; 0: by the softest body
-    std::vector<ContactWall<dim>> walls     = {};
+    Options options;                         ///< for messages about the section
+    double  activation_distance         = 0; ///< D, below which contact acts [m]; 0: by the mesh
+    double  stiffness                   = 0; ///< [Pa]; 0: by the softest body
+    std::vector<ContactWall<dim>> walls = {};
     bool                          at_domain = true; ///< walls of the fluid's domain count too
   };
 } // namespace undine

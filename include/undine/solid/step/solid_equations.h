@@ -63,12 +63,12 @@ namespace undine
       return contact.kept_apart(guess, motion);
     }
 
-    /// The part of `correction` that can be added to `velocity` without closing a gap [1].
+    /// The fraction of `correction` that can be added to `velocity` without closing a gap [1].
     /// Collective.
     double
-    free_part(const Vector &velocity, const Vector &correction) const
+    collision_free_fraction(const Vector &velocity, const Vector &correction) const
     {
-      return contact.free_part(velocity, correction, motion);
+      return contact.collision_free_fraction(velocity, correction, motion);
     }
 
     /// matrix times the unknown = right_side.

@@ -30,7 +30,7 @@ namespace undine
 
     /// The last displacement at which no gap was closed [m].
     const Vector &
-    last_place() const;
+    last_displacement() const;
 
     /// weight (-dE/dd) at the end of the step [N]; empty if nothing touches.
     Vector
@@ -44,11 +44,11 @@ namespace undine
     Vector
     kept_apart(const Vector &guess, const StepMotion<dim> &motion) const;
 
-    /// SolidEquations::free_part().
+    /// SolidEquations::collision_free_fraction().
     double
-    free_part(const Vector          &velocity,
-              const Vector          &correction,
-              const StepMotion<dim> &motion) const;
+    collision_free_fraction(const Vector          &velocity,
+                            const Vector          &correction,
+                            const StepMotion<dim> &motion) const;
 
     /// Do the integrator or later stages need to know which part of the velocity is by contact?
     bool

@@ -32,13 +32,14 @@ namespace undine
       const auto overshoot =
         condition.obeys_maximum_principle() ? Overshoot::clipped : Overshoot::kept;
       const auto sources = completed(tracer, std::move(fields), condition);
-      return carry(tracer,
-                   sources,
-                   condition,
-                   tracer.reach(1),
-                   [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
-                     return interpolate_cubic(sources[k], trace.foot.point, overshoot);
-                   });
+      return advect_along_paths(
+        tracer,
+        sources,
+        condition,
+        tracer.reach(1),
+        [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
+          return interpolate_cubic(sources[k], trace.foot.point, overshoot);
+        });
     }
   };
 

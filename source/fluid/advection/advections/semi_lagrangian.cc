@@ -29,13 +29,14 @@ namespace undine
            const BoundaryCondition<dim>    &condition) const override
     {
       const auto sources = completed(tracer, std::move(fields), condition);
-      return carry(tracer,
-                   sources,
-                   condition,
-                   tracer.reach(0),
-                   [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
-                     return interpolate(sources[k], trace.foot.point);
-                   });
+      return advect_along_paths(
+        tracer,
+        sources,
+        condition,
+        tracer.reach(0),
+        [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
+          return interpolate(sources[k], trace.foot.point);
+        });
     }
   };
 

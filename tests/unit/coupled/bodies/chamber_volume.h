@@ -2,7 +2,7 @@
 #ifndef undine_tests_chamber_volume_h
 #define undine_tests_chamber_volume_h
 
-#include <undine/coupled/immersed/chamber.h>
+#include <undine/coupled/immersed/measure_region.h>
 
 #include <coupled/coupled_run.h>
 
@@ -40,10 +40,10 @@ namespace undine_tests
     double                   inflow = 0;
 
   private:
-    Chamber
+    RegionMeasures
     measure() const
     {
-      return measure_chamber(run.models, run.state, place);
+      return measure_region(run.models, run.state, place);
     }
   };
 } // namespace undine_tests

@@ -97,9 +97,7 @@ namespace
   error_of_stages(const double dt, const double seconds, const std::string &speed)
   {
     CoupledRun<dim> run(chamber<dim>(dt, stages, speed));
-    const auto      volume = [&] {
-      return measure_chamber(run.models, run.state, inside<dim>()).volume;
-    };
+    const auto volume = [&] { return measure_region(run.models, run.state, inside<dim>()).volume; };
     const auto inflow = [&](const double time) {
       dealii::FunctionParser<1> parser("t");
       parser.initialize("t", speed, {{"pi", M_PI}});

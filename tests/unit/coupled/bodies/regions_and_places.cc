@@ -24,7 +24,8 @@ namespace
 } // namespace
 
 
-TEST_CASE("A region that no body yields to keeps its fluid beside coupled bodies", "[coupled][mpi]")
+TEST_CASE("A region without a compliant body keeps its fluid beside coupled bodies",
+          "[coupled][mpi]")
 {
   // Behind a wall a ball stirs fluid that has no outlet.
   CoupledRun<2> run(

@@ -128,7 +128,7 @@ TEST_CASE("the pressure under a disk pressed on a plane is that of Hertz", "[con
   // Plane strain, E' = E / (1 - nu^2): under the force F the largest pressure is
   // (F E' / (pi R))^1/2 [Johnson, Contact Mechanics, 1985, section 4.2]. Here it is what the
   // barrier has at the least gap. The contact is five facets to each side, a quarter of the radius.
-  const double modulus = 1e5, ratio = .3, gap = .002, stiffness = 1e6;
+  const double modulus = 1e5, ratio = .3, distance = .002, stiffness = 1e6;
   // Linear elements: the middles of straight quadratic sides would not be on the circle.
   CoupledRun<2> run(
     section("Time", "set Step = 1\nset Integrator = static") +
@@ -145,12 +145,13 @@ TEST_CASE("the pressure under a disk pressed on a plane is that of Hertz", "[con
                          "0; -.02 * t"))) +
     section("Effects",
             section("contact",
-                    fmt::format("set Gap = {}\nset Stiffness = {}\n", gap, stiffness) +
+                    fmt::format(
+                      "set Activation distance = {}\nset Stiffness = {}\n", distance, stiffness) +
                       section("Walls", section("plane", "set Point = 0, 0\nset Normal = 0, 1")))));
   for (unsigned int n = 0; n < 6; ++n)
     run.step();
   const double force    = run.column("contact force disk y");
-  const double pressure = -stiffness * barrier_slope(run.column("least gap") / gap);
+  const double pressure = -stiffness * barrier_slope(run.column("least gap") / distance);
   const double hertz    = std::sqrt(force * modulus / (1 - ratio * ratio) / dealii::numbers::PI);
   INFO(force << " N/m on " << run.column("nodes in contact") << " nodes");
   CHECK(pressure == Approx(hertz).epsilon(.05));

@@ -30,7 +30,7 @@ namespace
 
 
   /// The largest kinetic energy of the water while two sheets in it are pushed together, until they
-  /// touch and close a pocket [J].
+  /// touch and close a region between them [J].
   double
   largest_energy(const double density, const double dt)
   {
@@ -58,7 +58,7 @@ namespace
 } // namespace
 
 
-TEST_CASE("sheets close a pocket of water with the same energy, however light they are",
+TEST_CASE("sheets close a region of water with the same energy, however light they are",
           "[contact]")
 {
   // Nearly all of it is the water's, so that the sheets' density hardly matters.

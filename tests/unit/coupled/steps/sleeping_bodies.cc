@@ -351,7 +351,7 @@ TEST_CASE("steps by a tolerance sleep too", "[sleep][mpi]")
 }
 
 
-TEST_CASE("bodies in a chamber that they close wake where nothing else gives way", "[sleep][mpi]")
+TEST_CASE("bodies at a region that they close wake where nothing else gives way", "[sleep][mpi]")
 {
   // Fluid enters, and nothing but the wall on the right can move.
   const auto domain =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/cutting/cut_flags.h>
 #include <undine/fluid/grid/fluid_regions.h>
-#include <undine/operators/sampled_pockets.h>
+#include <undine/operators/sampled_regions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -28,7 +28,9 @@ namespace undine
     /// Of each region whether all its marks are 1; never of all regions.
     template <int dim>
     std::vector<double>
-    find_pockets(Field<dim> &marks, const FluidRegions<dim> &regions, const MPI_Comm communicator)
+    find_sampled_regions(Field<dim>              &marks,
+                         const FluidRegions<dim> &regions,
+                         const MPI_Comm           communicator)
     {
       std::vector<double> result(regions.size(), 1.);
       std::size_t         next = 0;
@@ -46,7 +48,7 @@ namespace undine
 
   template <int dim>
   void
-  close_sampled_pockets(VoidMask               &voids,
+  close_sampled_regions(VoidMask               &voids,
                         const MacGrid<dim>     &grid,
                         const CutCells<dim>    &cut,
                         const CutTopology<dim> &parts)
@@ -54,26 +56,26 @@ namespace undine
     const PressureNumbers<dim> numbers(grid, parts.open);
     const FluidRegions<dim>    regions(grid, numbers);
     auto                       marks   = mark_sampled(grid, cut, parts);
-    const auto                 pockets = find_pockets(marks, regions, grid.communicator());
+    const auto                 sampled = find_sampled_regions(marks, regions, grid.communicator());
     std::size_t                next    = 0;
     for_each_value(marks, [&](double &mark, const auto &, const auto &) {
-      mark = pockets[regions.of_pressures()[next++]];
+      mark = sampled[regions.of_pressures()[next++]];
     });
     marks.exchange(1);
     voids.components.resize(cut.components.size(), VoidMask::fluid);
     for (std::size_t c = 0; c < cut.components.size(); ++c)
       if (const int k = parts.open_components[c]; k >= 0 && marks.parts()[k] > 0)
-        voids.components[c] = VoidMask::pocket;
+        voids.components[c] = VoidMask::solid;
   }
 
 
   template void
-  close_sampled_pockets(VoidMask &,
+  close_sampled_regions(VoidMask &,
                         const MacGrid<2> &,
                         const CutCells<2> &,
                         const CutTopology<2> &);
   template void
-  close_sampled_pockets(VoidMask &,
+  close_sampled_regions(VoidMask &,
                         const MacGrid<3> &,
                         const CutCells<3> &,
                         const CutTopology<3> &);

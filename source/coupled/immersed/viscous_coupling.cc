@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/immersed/node_masses.h>
-#include <undine/coupled/immersed/surface_friction.h>
+#include <undine/coupled/immersed/viscous_coupling.h>
 #include <undine/operators/make_no_slip_surfaces.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace undine
 
 
   template <int dim>
-  SurfaceFriction<dim>::SurfaceFriction(const Models<dim> &models)
+  ViscousCoupling<dim>::ViscousCoupling(const Models<dim> &models)
     : models(models)
     , masses(has_no_slip_surfaces(models) ? node_masses(models) : Vectors())
     , last_forces(has_no_slip_surfaces(models) ? models.surface->surface().n_nodes() : 0)
@@ -29,7 +29,7 @@ namespace undine
 
   template <int dim>
   std::shared_ptr<const NoSlipSurfaces<dim>>
-  SurfaceFriction<dim>::walls(const FluidGeometry<dim> &geometry)
+  ViscousCoupling<dim>::walls(const FluidGeometry<dim> &geometry)
   {
     if (known_surfaces && cut_by == geometry.bodies().topology)
       return known_surfaces;
@@ -46,8 +46,8 @@ namespace undine
 
 
   template <int dim>
-  typename SurfaceFriction<dim>::Vectors
-  SurfaceFriction<dim>::start(const State<dim>         &state,
+  typename ViscousCoupling<dim>::Vectors
+  ViscousCoupling<dim>::start(const State<dim>         &state,
                               const FluidGeometry<dim> &geometry,
                               const double              dt)
   {
@@ -64,7 +64,7 @@ namespace undine
 
   template <int dim>
   void
-  SurfaceFriction<dim>::end(State<dim> &state, const FluidStage<dim> &fluid)
+  ViscousCoupling<dim>::end(State<dim> &state, const FluidStage<dim> &fluid)
   {
     last_forces = fluid.friction->on_nodes;
     if (!models.solid)
@@ -82,6 +82,6 @@ namespace undine
   }
 
 
-  template class SurfaceFriction<2>;
-  template class SurfaceFriction<3>;
+  template class ViscousCoupling<2>;
+  template class ViscousCoupling<3>;
 } // namespace undine

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/immersed/chamber.h>
-#include <undine/coupled/immersed/chamber_volumes.h>
+#include <undine/coupled/immersed/closed_region_volumes.h>
+#include <undine/coupled/immersed/measure_region.h>
 #include <undine/operators/boundary_flux.h>
 
 namespace undine
 {
   template <int dim>
-  ChamberVolumes<dim>::ChamberVolumes(const Models<dim>          &models,
-                                      const FluidGeometry<dim>   &geometry,
-                                      const PressureNumbers<dim> &numbers,
-                                      const Stage                &stage,
-                                      const double                time,
-                                      Positions                   before)
+  ClosedRegionVolumes<dim>::ClosedRegionVolumes(const Models<dim>          &models,
+                                                const FluidGeometry<dim>   &geometry,
+                                                const PressureNumbers<dim> &numbers,
+                                                const Stage                &stage,
+                                                const double                time,
+                                                Positions                   before)
     : surface(models.surface->surface())
     , geometry(geometry)
-    , chambers(*models.fluid, numbers)
+    , regions(*models.fluid, numbers)
     , length(stage.length)
     , before(std::move(before))
   {
@@ -22,13 +22,13 @@ namespace undine
       return;
     areas = geometry.cut_topology().of_fluid_topology(
       wetted_areas(geometry.cut_cells(), surface, models.surface->n_body_nodes()));
-    region_areas = chambers.sums_on_components(areas);
+    region_areas = regions.sums_on_components(areas);
     gained       = gained_until_cut(models);
-    earlier.resize(chambers.size(), 0.);
+    earlier.resize(regions.size(), 0.);
     for (const auto &part : stage.earlier)
       if (part.length != 0)
         {
-          const auto outflow = chambers.held_outflow(time + part.at);
+          const auto outflow = regions.prescribed_outflow(time + part.at);
           for (std::size_t region = 0; region < earlier.size(); ++region)
             earlier[region] += part.length * outflow[region];
         }
@@ -37,20 +37,20 @@ namespace undine
 
   template <int dim>
   std::vector<double>
-  ChamberVolumes<dim>::gained_until_cut(const Models<dim> &models) const
+  ClosedRegionVolumes<dim>::gained_until_cut(const Models<dim> &models) const
   {
     const auto &cut_at = geometry.surface_positions();
     Vectors     increment(cut_at.size());
     for (std::size_t node = 0; node < increment.size(); ++node)
       increment[node] = cut_at[node] - before[node];
     auto        result   = swept(before, increment);
-    const auto  at_start = chamber_volumes(models, before, chambers.places_within());
-    const auto &volumes  = chambers.volumes_of_regions();
+    const auto  at_start = region_volumes(models, before, regions.places_within());
+    const auto &volumes  = regions.volumes_of_regions();
     for (std::size_t region = 0; region < result.size(); ++region)
       if (at_start[region])
         {
-          // If chambers have parted or merged since, the volume at the begin is that of another
-          // chamber. And where a surface comes to a plane of the grid or leaves it, the cut grid
+          // If regions have parted or merged since, the volume at the begin is that of another
+          // region. And where a surface comes to a plane of the grid or leaves it, the cut grid
           // gains or loses what lies between.
           constexpr double the_same = 1e-7;
           const double     exact    = volumes[region] - *at_start[region];
@@ -63,38 +63,38 @@ namespace undine
 
   template <int dim>
   std::vector<double>
-  ChamberVolumes<dim>::swept(const Positions &from, const Vectors &increment) const
+  ClosedRegionVolumes<dim>::swept(const Positions &from, const Vectors &increment) const
   {
-    return chambers.sums_on_components(geometry.cut_topology().of_fluid_topology(
+    return regions.sums_on_components(geometry.cut_topology().of_fluid_topology(
       swept_volumes(geometry.cut_cells(), surface, geometry.surface_positions(), from, increment)));
   }
 
 
   template <int dim>
   std::vector<double>
-  ChamberVolumes<dim>::missing_fluxes(const std::vector<double> &fluxes,
-                                      const Vectors             &increment) const
+  ClosedRegionVolumes<dim>::missing_fluxes(const std::vector<double> &fluxes,
+                                           const Vectors             &increment) const
   {
     const auto &cut_at = geometry.surface_positions();
     auto        rest   = increment;
     for (std::size_t node = 0; node < rest.size(); ++node)
       rest[node] -= cut_at[node] - before[node];
     const auto          then  = swept(cut_at, rest);
-    const auto          swept = chambers.sums_on_components(fluxes);
-    std::vector<double> speeds(chambers.size(), 0.);
+    const auto          swept = regions.sums_on_components(fluxes);
+    std::vector<double> speeds(regions.size(), 0.);
     for (std::size_t region = 0; region < speeds.size(); ++region)
       if (region_areas[region] > 0)
         speeds[region] =
           ((gained[region] + then[region] + earlier[region]) / length - swept[region]) /
           region_areas[region];
-    auto       result  = fluxes;
-    const auto regions = chambers.of_components();
+    auto       result    = fluxes;
+    const auto region_of = regions.of_components();
     for (std::size_t c = 0; c < result.size(); ++c)
-      result[c] = regions[c] >= 0 ? speeds[regions[c]] * areas[c] : 0.;
+      result[c] = region_of[c] >= 0 ? speeds[region_of[c]] * areas[c] : 0.;
     return result;
   }
 
 
-  template class ChamberVolumes<2>;
-  template class ChamberVolumes<3>;
+  template class ClosedRegionVolumes<2>;
+  template class ClosedRegionVolumes<3>;
 } // namespace undine

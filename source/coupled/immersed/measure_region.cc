@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/parallel/throw_together.h>
-#include <undine/coupled/immersed/chamber.h>
 #include <undine/coupled/immersed/fluid_geometry.h>
+#include <undine/coupled/immersed/measure_region.h>
 #include <undine/fluid/boundary/side_faces.h>
 #include <undine/fluid/grid/field_algebra.h>
 #include <undine/fluid/grid/fluid_regions.h>
@@ -106,9 +106,9 @@ namespace undine
 
   template <int dim>
   std::vector<std::optional<double>>
-  chamber_volumes(const Models<dim>                     &models,
-                  const std::vector<dealii::Point<dim>> &positions,
-                  const std::vector<dealii::Point<dim>> &points)
+  region_volumes(const Models<dim>                     &models,
+                 const std::vector<dealii::Point<dim>> &positions,
+                 const std::vector<dealii::Point<dim>> &points)
   {
     const auto                         geometry = cut_at(models, positions);
     std::vector<std::optional<double>> result(points.size());
@@ -126,10 +126,10 @@ namespace undine
 
 
   template <int dim>
-  Chamber
-  measure_chamber(const Models<dim>        &models,
-                  const State<dim>         &state,
-                  const dealii::Point<dim> &point)
+  RegionMeasures
+  measure_region(const Models<dim>        &models,
+                 const State<dim>         &state,
+                 const dealii::Point<dim> &point)
   {
     const auto &model = *models.fluid;
     if (!models.surface)
@@ -144,15 +144,15 @@ namespace undine
 
 
   template std::vector<std::optional<double>>
-  chamber_volumes(const Models<2> &,
-                  const std::vector<dealii::Point<2>> &,
-                  const std::vector<dealii::Point<2>> &);
+  region_volumes(const Models<2> &,
+                 const std::vector<dealii::Point<2>> &,
+                 const std::vector<dealii::Point<2>> &);
   template std::vector<std::optional<double>>
-  chamber_volumes(const Models<3> &,
-                  const std::vector<dealii::Point<3>> &,
-                  const std::vector<dealii::Point<3>> &);
-  template Chamber
-  measure_chamber(const Models<2> &, const State<2> &, const dealii::Point<2> &);
-  template Chamber
-  measure_chamber(const Models<3> &, const State<3> &, const dealii::Point<3> &);
+  region_volumes(const Models<3> &,
+                 const std::vector<dealii::Point<3>> &,
+                 const std::vector<dealii::Point<3>> &);
+  template RegionMeasures
+  measure_region(const Models<2> &, const State<2> &, const dealii::Point<2> &);
+  template RegionMeasures
+  measure_region(const Models<3> &, const State<3> &, const dealii::Point<3> &);
 } // namespace undine

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_coupled_immersed_surface_friction_h
-#define undine_coupled_immersed_surface_friction_h
+#ifndef undine_coupled_immersed_viscous_coupling_h
+#define undine_coupled_immersed_viscous_coupling_h
 
 #include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/coupled/state/state.h>
@@ -11,23 +11,23 @@
 
 namespace undine
 {
-  /// The exchange between friction and the surfaces in the fluid, stage by stage: no-slip surfaces,
-  /// velocities of their nodes, and the forces that result.
+  /// The coupling of surfaces in the fluid with its viscous forces, stage by stage: no-slip
+  /// surfaces, velocities of their nodes, and the forces that result.
   ///
-  /// Friction is found before the bodies move, with nodes that yield to it by (I8)
+  /// Friction is found before the bodies move, with nodes that give way to it by (I8)
   ///
   ///     m (u' - u^0) = h (F + G),   G = m (u^{n+1} - u^0)/h - F  of the last stage,
   ///
   /// m being that of node_masses(). G stands for all forces on a node other than friction: in a
   /// steady state u' = u^0.
   template <int dim>
-  class SurfaceFriction
+  class ViscousCoupling
   {
   public:
     using Vectors = std::vector<dealii::Tensor<1, dim>>;
 
     /// The models must outlive it. Without friction it does nothing. Collective.
-    explicit SurfaceFriction(const Models<dim> &models);
+    explicit ViscousCoupling(const Models<dim> &models);
 
     /// The no-slip surfaces of the grid as it is cut now. Collective.
     std::shared_ptr<const NoSlipSurfaces<dim>>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/contact/collision_free_fraction.h>
 #include <undine/contact/contact_boxes.h>
-#include <undine/contact/free_part_of_paths.h>
 #include <undine/surface/nearest_in_simplex.h>
 #include <undine/surface/nearest_of_edges.h>
 
@@ -133,16 +133,16 @@ namespace undine
 
   template <int dim>
   double
-  free_part_of_paths(const ContactSurfaces<dim>                  &surfaces,
-                     const typename ContactSurfaces<dim>::Places &from,
-                     const typename ContactSurfaces<dim>::Places &to,
-                     const double                                 closest)
+  collision_free_fraction(const ContactSurfaces<dim>                     &surfaces,
+                          const typename ContactSurfaces<dim>::Positions &from,
+                          const typename ContactSurfaces<dim>::Positions &to,
+                          const double                                    closest)
   {
     double part = 1;
     for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
       for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
         {
-          if (surfaces.is_held_at(surfaces.surface_of_node(node), wall))
+          if (surfaces.is_fixed_at(surfaces.surface_of_node(node), wall))
             continue;
           const auto  &plane  = surfaces.walls()[wall];
           const double before = (from[node] - plane.point) * plane.normal;
@@ -166,13 +166,13 @@ namespace undine
 
 
   template double
-  free_part_of_paths(const ContactSurfaces<2> &,
-                     const ContactSurfaces<2>::Places &,
-                     const ContactSurfaces<2>::Places &,
-                     double);
+  collision_free_fraction(const ContactSurfaces<2> &,
+                          const ContactSurfaces<2>::Positions &,
+                          const ContactSurfaces<2>::Positions &,
+                          double);
   template double
-  free_part_of_paths(const ContactSurfaces<3> &,
-                     const ContactSurfaces<3>::Places &,
-                     const ContactSurfaces<3>::Places &,
-                     double);
+  collision_free_fraction(const ContactSurfaces<3> &,
+                          const ContactSurfaces<3>::Positions &,
+                          const ContactSurfaces<3>::Positions &,
+                          double);
 } // namespace undine

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_contact_collision_free_fraction_h
+#define undine_contact_collision_free_fraction_h
+
+#include <undine/contact/contact_surfaces.h>
+
+namespace undine
+{
+  /// The largest fraction of the straight paths of all nodes, from the places `from` to the places
+  /// `to` [m], on which no gap closes to less than a fifth of what it was or, if that is less, than
+  /// `closest` [m]; between 0 and 1 [1].
+  template <int dim>
+  double
+  collision_free_fraction(const ContactSurfaces<dim>                     &surfaces,
+                          const typename ContactSurfaces<dim>::Positions &from,
+                          const typename ContactSurfaces<dim>::Positions &to,
+                          double                                          closest);
+} // namespace undine
+
+#endif
