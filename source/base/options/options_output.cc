@@ -5,6 +5,8 @@
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <ostream>
 #include <set>
@@ -141,7 +143,8 @@ namespace undine
                 << escaped(entry.help) << " |\n";
         }
       for (const auto &[name, section] : tree.sections)
-        write_reference_section(out, section, path.empty() ? name : path + " / " + name);
+        write_reference_section(
+          out, section, path.empty() ? name : fmt::format("{} / {}", path, name));
     }
   } // namespace
 

@@ -57,6 +57,7 @@ namespace undine
   SampleNorms<dim>::bodies_derivative(const std::vector<const Sample *> &samples) const
   {
     std::vector<double> times;
+    times.reserve(samples.size());
     for (const auto *sample : samples)
       times.push_back(sample->time);
     const auto weights    = derivative_weights(times);

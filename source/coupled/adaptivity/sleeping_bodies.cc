@@ -380,12 +380,13 @@ namespace undine
     if (of_awake.contact)
       append(report.columns, of_awake.contact->columns(state.solid.displacement, time));
     Columns ordered;
-    for (const auto &[name, unit] : names)
+    for (const auto &known : names)
       {
         const auto found = std::find_if(report.columns.begin(),
                                         report.columns.end(),
-                                        [&](const auto &column) { return column.name == name; });
-        ordered.push_back(found == report.columns.end() ? Column{name, unit, 0.} : *found);
+                                        [&](const auto &c) { return c.name == known.first; });
+        ordered.push_back(found == report.columns.end() ? Column{known.first, known.second, 0.}
+                                                        : *found);
       }
     report.columns = ordered;
   }

@@ -2,6 +2,7 @@
 #include <undine/coupled/linear/block_system.h>
 
 #include <EpetraExt_MatrixMatrix.h>
+#include <Epetra_Vector.h>
 
 #include <cmath>
 #include <memory>

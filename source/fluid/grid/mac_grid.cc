@@ -210,7 +210,8 @@ namespace undine
         const int    rounds = path / length;
         const double rest   = path - rounds * length;
         const auto   place  = [&](const int plane) {
-          return planes[plane % n] + (plane / n) * length;
+          const int periods = plane / n;
+          return planes[plane % n] + periods * length;
         };
         int most = 0;
         for (int begin = 0, end = 0; begin < n; ++begin)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/grid/row.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -79,8 +81,9 @@ namespace undine
         AssertIndexRange(index - first, static_cast<int>(points.size()));
         return points[index - first];
       }
-    const int point = wrapped(index);
-    return points[point] + (index - point) / n * length;
+    const int point   = wrapped(index);
+    const int periods = (index - point) / n;
+    return points[point] + periods * length;
   }
 
 
