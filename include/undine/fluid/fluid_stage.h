@@ -90,12 +90,12 @@ namespace undine
       return stage.kept == KeptRate::mean && stage.going_on() != 0;
     }
 
-    /// What the velocity at the begin of the stage has been carried to [m/s]; nullptr unless a mean
-    /// rate is kept that differs from the rate at the end.
+    /// What the velocity at the begin of the stage has been advected to [m/s]; nullptr unless a
+    /// mean rate is kept that differs from the rate at the end.
     const Velocity<dim> *
-    carried_from_begin() const
+    advected_from_begin() const
     {
-      return carried_begin ? &*carried_begin : nullptr;
+      return advected_begin ? &*advected_begin : nullptr;
     }
 
     /// Results of effects for finish(). @{

@@ -224,8 +224,8 @@ namespace undine
       }
     books.amounts[BudgetTerm::integrator].energy += jump + w * books.fluid.by_integrator;
     books.amounts[BudgetTerm::transport].add(w, {books.fluid.by_transport, books.fluid.momentum});
-    if (books.carrier >= 0)
-      books.amounts.by_effect[books.carrier] += w * books.fluid.by_transport;
+    if (books.advecting >= 0)
+      books.amounts.by_effect[books.advecting] += w * books.fluid.by_transport;
   }
 
 
@@ -275,7 +275,7 @@ namespace undine
     const Amount now  = amount(velocity);
     term.add(1., {now.energy - books.last_energy, now.momentum - books.at_start.momentum});
     books.last_energy = now.energy;
-    books.carried = books.last = velocity;
+    books.advected = books.last = velocity;
   }
 
 
@@ -291,7 +291,7 @@ namespace undine
     const double done =
       work ? dealii::Utilities::MPI::sum(*work, models.communicator()) : energy - books.last_energy;
     if (energy != books.last_energy)
-      books.carrier = effect;
+      books.advecting = effect;
     books.amounts.by_effect[effect] += done;
     books.amounts[BudgetTerm::transport].energy += done;
     books.last_energy = energy;
@@ -339,7 +339,7 @@ namespace undine
     books.changes.clear();
     books.acting[BudgetTerm::sides].add(dt, {pressures.power_of_sides, -pressures.sides});
     books.acting[BudgetTerm::openings].add(dt, {pressures.power_of_openings, -pressures.openings});
-    const double square = kinetic_energy(*models.fluid, difference(after, books.carried));
+    const double square = kinetic_energy(*models.fluid, difference(after, books.advected));
     books.amounts[BudgetTerm::integrator].energy -= square;
     books.impulse_of_fluid += std::sqrt(2 * mass_of_fluid() * square);
   }
@@ -388,7 +388,7 @@ namespace undine
       {
         const double w        = duration_of_kept();
         const double duration = books.stage.duration();
-        const auto   change   = difference(books.carried, *begin);
+        const auto   change   = difference(books.advected, *begin);
         const double along    = inner_product(fluid, *begin, change);
         kept_rate.by_integrator =
           (w * kept_rate.by_integrator + inner_product(fluid, velocity, change) - along) / duration;

@@ -254,7 +254,7 @@ namespace undine
   {
     budget.end_fluid(state.fluid.velocity,
                      fluid.by_contact ? &*fluid.by_contact : nullptr,
-                     fluid.carried_from_begin());
+                     fluid.advected_from_begin());
     fluid.finish();
     if (fluid.friction)
       viscous_coupling.end(state, fluid);

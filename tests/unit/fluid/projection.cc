@@ -48,20 +48,6 @@ namespace
 
   template <int dim>
   double
-  inner_product(const FluidModel<dim> &model, const Velocity<dim> &a, const Velocity<dim> &b)
-  {
-    double sum = 0;
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      sum += sum_over(*model.grid().faces(axis), [&](const GridIndex<dim> &face) {
-        return model.density() * model.grid().dual_volume(axis, face) * a[axis](face) *
-               b[axis](face);
-      });
-    return sum;
-  }
-
-
-  template <int dim>
-  double
   pressure_power(const Field<dim> &pressure, const std::vector<double> &divergence)
   {
     std::size_t k = 0;

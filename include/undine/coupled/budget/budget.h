@@ -105,8 +105,8 @@ namespace undine
     void
     end_bodies(double along);
 
-    /// The flow has carried the fluid to `velocity`, or effect number `effect` of `models` has; its
-    /// energy is `work` [J], of this rank, by the effect's own formula, or if that is empty the
+    /// The flow has advected the fluid to `velocity`, or effect number `effect` of `models` has;
+    /// its energy is `work` [J], of this rank, by the effect's own formula, or if that is empty the
     /// change of the kinetic energy. Collective. @{
     void
     transport(const Velocity<dim> &velocity);
@@ -133,7 +133,7 @@ namespace undine
 
     /// The fluid's stage has ended with `velocity`, of which `by_contact` (or none, nullptr) is no
     /// rate that the next stage goes on with; `begin` is what the velocity at the begin of the
-    /// stage has been carried to if a mean rate is kept, else nullptr. Collective.
+    /// stage has been advected to if a mean rate is kept, else nullptr. Collective.
     void
     end_fluid(const Velocity<dim> &velocity,
               const Velocity<dim> *by_contact,
@@ -176,7 +176,7 @@ namespace undine
     struct Kept
     {
       double                 by_integrator = 0; ///< it belongs to another velocity [W]
-      double                 by_transport  = 0; ///< rate and velocity have been carried [W]
+      double                 by_transport  = 0; ///< rate and velocity have been advected [W]
       dealii::Tensor<1, dim> momentum;          ///< by transport [N]
     };
 
@@ -204,10 +204,10 @@ namespace undine
       bool                 knows_rates = false;
       Kept                 fluid, bodies;
       // Of the fluid in this stage.
-      int                 carrier = -1;       ///< the effect that has carried the fluid, if any
+      int                 advecting = -1;     ///< the effect that has advected the fluid, if any
       Amount              at_begin, at_start; ///< v^b and v^0
       double              begin_along = 0;    ///< v^b.(v^0 - v^b) [J]
-      Velocity<dim>       carried;            ///< what v^0 has been carried to
+      Velocity<dim>       advected;           ///< what v^0 has been advected to
       Velocity<dim>       last;
       double              last_energy = 0;
       std::vector<Change> changes;
