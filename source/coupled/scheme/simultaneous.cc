@@ -125,7 +125,7 @@ namespace undine
     {
       budget.begin_stage(stage);
       solid_side.start(state, stage);
-      const auto        fluid = fluid_side.predict(state, stage);
+      const auto        fluid = fluid_side.predict(state, stage, report);
       CoupledStage<dim> coupled({models,
                                  solid_side.mass(),
                                  solid_side.environment(),
@@ -143,9 +143,21 @@ namespace undine
       balance(coupled, state, solid);
       fluid_side.finish(*fluid, state, report, coupled.divergence());
       budget.end_stage();
+      if (stage.is_last && report.account)
+        add_power(*report.account, state, fluid->end, coupled);
       if (stage.is_last)
         add_solver_columns(report);
       solid_side.finish(state, stage, solid, report);
+    }
+
+    void
+    add_power(EnergyAccount           &account,
+              const State<dim>        &state,
+              const double             time,
+              const CoupledStage<dim> &step) const
+    {
+      const auto measured = timing.section("measure");
+      fluid_side.add_power(account, state, time, step.pressure_balance());
     }
 
     void

@@ -41,6 +41,7 @@ namespace undine
              Allowed::between(0, 20),
              "A step that fails is redone with half its length; the run stops where that would be "
              "less than Step halved so often.");
+    energy_monitor.add_options(time, response_to_created_energy());
     integrator = choose_time_integrator(options);
     options.section("Output").add(
       "Budget",
@@ -81,6 +82,7 @@ namespace undine
     physics->initialize(state, choose_dt(state), report);
     state.budget_rates = budget->rates_at_start();
     append(report.columns, budget->columns());
+    energy_monitor.start(models, state, report.columns);
     if (step_error)
       {
         step_error->start(state);
@@ -125,12 +127,14 @@ namespace undine
       try
         {
           report.dt = asked / (1u << report.cuts);
+          energy_monitor.begin_step(report);
           budget->start(state.budget_rates);
           const auto rates = state.clock.step > 0 ? RatesAtBegin::known : RatesAtBegin::unknown;
           physics->advance(state, integrator->stages(report.dt, rates), report);
           append(report.columns, budget->columns());
           state.budget_rates = budget->rates();
           assert_finite(report.columns);
+          energy_monitor.judge(state.account, report, can_be_cut(report));
           judge_error(state, saved, report);
           state.clock.longest_step = report.cuts > 0 ? report.dt : 2 * state.clock.longest_step;
           return report;
@@ -141,7 +145,7 @@ namespace undine
           report.newton_iterations = report.linear_iterations = 0;
           report.columns.clear();
           report.warnings.clear();
-          if (report.dt / 2 < shortest_step() * (1 - 1e-9))
+          if (!can_be_cut(report))
             throw SolveError(complaint(asked, report, error));
         }
       catch (const Error &)
@@ -160,8 +164,7 @@ namespace undine
   {
     if (!step_error)
       return;
-    const bool can_be_cut = report.dt / 2 >= shortest_step() * (1 - 1e-9);
-    if (can_be_cut && step_error->is_too_large(saved, state, report.dt))
+    if (can_be_cut(report) && step_error->is_too_large(saved, state, report.dt))
       {
         ++report.rejections;
         throw SolveError("its error in time is too large");
@@ -186,6 +189,14 @@ namespace undine
                     "shorter steps than {:.4g} s: try more Time/Maximum cuts.",
                     tolerance,
                     shortest_step()));
+  }
+
+
+  template <int dim>
+  bool
+  SteppingScheme<dim>::can_be_cut(const Report &report) const
+  {
+    return report.dt / 2 >= shortest_step() * (1 - 1e-9);
   }
 
 

@@ -51,7 +51,7 @@ namespace undine
       }
       budget.begin_stage(stage);
       solid_side.start(state, stage);
-      const auto  fluid    = fluid_side.predict(state, stage);
+      const auto  fluid    = fluid_side.predict(state, stage, report);
       const auto &geometry = *fluid_side.geometry();
       exchange.at_rest     = geometry.other_forces(fluid->gravity, fluid->end);
       auto forces          = models.solid->vector();
@@ -83,6 +83,12 @@ namespace undine
       report.linear_iterations += projected.iterations;
       fluid_side.finish(*fluid, state, report, projected.divergence);
       budget.end_stage();
+      if (stage.is_last && report.account)
+        {
+          const auto phase = timing.section("measure");
+          fluid_side.add_power(
+            *report.account, state, fluid->end, projected.balance(*models.fluid, state.fluid));
+        }
       solid_side.finish(state, stage, solid, report);
     }
 
@@ -163,6 +169,13 @@ namespace undine
     }
 
   protected:
+    /// Splitting is shown as it is.
+    EnergyMonitor::Response
+    response_to_created_energy() const override
+    {
+      return EnergyMonitor::Response::warn;
+    }
+
     std::unique_ptr<Physics<dim>>
     couple(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing) const override
     {

@@ -29,7 +29,7 @@ namespace undine
   {
     const auto timed = timing.section("fluid");
     budget.begin_stage(stage);
-    const auto fluid    = fluid_side.predict(state, stage);
+    const auto fluid    = fluid_side.predict(state, stage, report);
     const auto geometry = fluid_side.geometry();
 
     typename Projection<dim>::Report projected;
@@ -47,6 +47,10 @@ namespace undine
     report.linear_iterations += projected.iterations;
     fluid_side.finish(*fluid, state, report, projected.divergence);
     budget.end_stage();
+    if (!stage.is_last || !report.account)
+      return;
+    const auto phase = timing.section("measure");
+    fluid_side.add_power(*report.account, state, fluid->end, projected.balance(model, state.fluid));
   }
 
 

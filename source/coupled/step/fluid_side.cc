@@ -196,7 +196,7 @@ namespace undine
 
   template <int dim>
   std::unique_ptr<FluidStage<dim>>
-  FluidSide<dim>::predict(State<dim> &state, const Stage &stage)
+  FluidSide<dim>::predict(State<dim> &state, const Stage &stage, Report &report)
   {
     std::optional<Velocity<dim>> begin;
     if (budget.is_on())
@@ -231,17 +231,73 @@ namespace undine
       fluid->remap();
       budget.transport(velocity);
     }
+    auto *const  account = stage.is_last && report.account ? &*report.account : nullptr;
+    const double before  = account ? kinetic_energy(model, velocity) : 0;
     {
       const auto phase = timing.section("accelerate");
       run_phase(
         *fluid, [&](const auto &effect) { effect.accelerate(*fluid); }, book(BudgetTerm::forces));
     }
+    const double forced = account ? kinetic_energy(model, velocity) : 0;
     {
       const auto phase = timing.section("diffuse");
       run_phase(
         *fluid, [&](const auto &effect) { effect.diffuse(*fluid); }, book(BudgetTerm::diffusion));
     }
+    if (account)
+      {
+        account->add_power((forced - before) / fluid->dt);
+        account->add_power(power_of_walls(*fluid, kinetic_energy(model, velocity) - forced));
+      }
     return fluid;
+  }
+
+
+  /// Of walls and obstacles that friction moves the fluid with, `gain` being what diffusion has
+  /// added to the fluid's kinetic energy [J]. What bodies have given of it they have lost, and what
+  /// has been dissipated does not count.
+  template <int dim>
+  double
+  FluidSide<dim>::power_of_walls(const FluidStage<dim> &fluid, const double gain) const
+  {
+    double power = gain / fluid.dt;
+    if (fluid.friction && cut)
+      for (unsigned int node = 0; node < models.surface->n_body_nodes(); ++node)
+        power += fluid.friction->on_nodes[node] * cut->surface_velocities()[node];
+    return std::max(0., power);
+  }
+
+
+  template <int dim>
+  void
+  FluidSide<dim>::add_power(EnergyAccount              &account,
+                            const State<dim>           &state,
+                            const double                time,
+                            const PressureBalance<dim> &pressures) const
+  {
+    account.add_power(pressures.power_of_sides);
+    account.add_power(pressures.power_of_openings);
+    if (!cut)
+      return;
+    auto              velocities = cut->surface_velocities();
+    const std::size_t n_bodies   = models.surface->n_body_nodes();
+    const auto        are_still  = [](const auto &velocity) { return velocity.norm() == 0; };
+    if (!std::all_of(velocities.begin() + n_bodies, velocities.end(), are_still))
+      {
+        const auto forces = cut->pressure_forces(state.fluid.pressure);
+        double     power  = 0;
+        for (std::size_t node = n_bodies; node < velocities.size(); ++node)
+          power -= forces[node] * velocities[node];
+        account.add_power(power);
+      }
+    if (n_bodies == 0 || !models.solid)
+      return;
+    velocities        = models.surface->with_bodies(state.solid.velocity, std::move(velocities));
+    const auto weight = cut->other_forces(environment.gravity, time);
+    double     power  = 0;
+    for (std::size_t node = 0; node < n_bodies; ++node)
+      power += weight[node] * velocities[node];
+    account.add_power(power);
   }
 
 
@@ -255,6 +311,8 @@ namespace undine
     budget.end_fluid(state.fluid.velocity,
                      fluid.by_contact ? &*fluid.by_contact : nullptr,
                      fluid.advected_from_begin());
+    if (fluid.stage.is_last && report.account && fluid.advected)
+      report.account->add_power(-kinetic_energy_outflow(model, state.fluid.velocity));
     fluid.finish();
     if (fluid.friction)
       viscous_coupling.end(state, fluid);

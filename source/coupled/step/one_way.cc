@@ -38,8 +38,10 @@ namespace undine
   OneWay<dim>::solve_stage(State<dim> &state, const Stage &stage, Report &report)
   {
     budget.begin_stage(stage);
-    Half half = models.direction == Direction::fluid_to_body ? fluid_then_body(state, stage)
-                                                             : body_then_fluid(state, stage);
+    report.account.reset(); // what one side gives the other does not get
+    Half half = models.direction == Direction::fluid_to_body
+                  ? fluid_then_body(state, stage, report)
+                  : body_then_fluid(state, stage, report);
     if (budget.is_on())
       book(half, state);
     report.linear_iterations += half.projected.iterations;
@@ -61,12 +63,12 @@ namespace undine
 
   template <int dim>
   typename OneWay<dim>::Half
-  OneWay<dim>::fluid_then_body(State<dim> &state, const Stage &stage)
+  OneWay<dim>::fluid_then_body(State<dim> &state, const Stage &stage, Report &report)
   {
     Half       half;
     const auto moving = state.solid;
     state.solid       = at_start;
-    half.fluid        = fluid_side.predict(state, stage);
+    half.fluid        = fluid_side.predict(state, stage, report);
     state.solid       = moving;
 
     const auto &geometry = *fluid_side.geometry();
@@ -91,11 +93,11 @@ namespace undine
 
   template <int dim>
   typename OneWay<dim>::Half
-  OneWay<dim>::body_then_fluid(State<dim> &state, const Stage &stage)
+  OneWay<dim>::body_then_fluid(State<dim> &state, const Stage &stage, Report &report)
   {
     Half half;
     solid_side.start(state, stage);
-    half.fluid = fluid_side.predict(state, stage);
+    half.fluid = fluid_side.predict(state, stage, report);
     advance_bodies(half, state, stage, {});
     half.exchange.on_bodies  = Vectors(models.surface->surface().n_nodes());
     half.exchange.at_rest    = half.exchange.on_bodies;

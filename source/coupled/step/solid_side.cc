@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/step/physics.h>
 #include <undine/coupled/step/solid_side.h>
+#include <undine/solid/assembly/loads.h>
 #include <undine/solid/step/solid_columns.h>
 
 namespace undine
@@ -126,6 +127,31 @@ namespace undine
   }
 
 
+  /// Of loads, supports and obstacles that bodies touch.
+  template <int dim>
+  void
+  SolidSide<dim>::add_power(EnergyAccount          &account,
+                            const State<dim>       &state,
+                            const Stage            &stage,
+                            const SolidReport<dim> &solid) const
+  {
+    const double time     = state.clock.time + stage.end;
+    const auto  &velocity = state.solid.velocity;
+    account.add_power(dead_loads(model, surroundings, time) * velocity);
+    if (has_pressure_loads(model))
+      account.add_power(pressure_loads(model, state.solid.displacement, time) * velocity);
+    if (solid.reactions.size() > 0)
+      account.add_power(solid.reactions * velocity);
+    if (!surroundings.contact)
+      return;
+    // What the potential gains as obstacles move and bodies do not.
+    const auto &displacement = state.solid.displacement;
+    account.add_power((surroundings.contact->energy(displacement, time) -
+                       surroundings.contact->energy(displacement, time - stage.length)) /
+                      stage.length);
+  }
+
+
   template <int dim>
   void
   SolidSide<dim>::finish(const State<dim>       &state,
@@ -137,8 +163,14 @@ namespace undine
     report.linear_iterations += solid.newton.linear_iterations;
     report.newton_reduction = reduction(solid.newton);
     report.warn("linear solver", solid.note);
-    if (stage.is_last)
-      add_columns(report, state, state.clock.time + stage.end, solid);
+    if (!stage.is_last)
+      return;
+    add_columns(report, state, state.clock.time + stage.end, solid);
+    if (report.account)
+      {
+        const auto measured = timing.section("measure");
+        add_power(*report.account, state, stage, solid);
+      }
   }
 
 

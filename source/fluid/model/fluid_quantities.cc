@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/boundary/boundary_quantities.h>
+#include <undine/fluid/boundary/side_faces.h>
 #include <undine/fluid/grid/field_algebra.h>
 #include <undine/fluid/model/fluid_quantities.h>
 
@@ -184,6 +185,32 @@ namespace undine
 
 
   template <int dim>
+  double
+  kinetic_energy_outflow(const FluidModel<dim> &model, const Velocity<dim> &velocity)
+  {
+    const auto &boundaries = model.boundaries();
+    if (std::none_of(boundaries.all().begin(), boundaries.all().end(), [](const auto &boundary) {
+          return boundary.lets_fluid_pass();
+        }))
+      return 0;
+    const auto &grid  = model.grid();
+    const auto  known = with_ghosts(velocity);
+    double      power = 0;
+    for_each_side_face(
+      grid, velocity[0].topology().get(), [&](const SideFace<dim> &face, const auto &) {
+        if (!boundaries.at(face.side, face.face).lets_fluid_pass())
+          return;
+        double square = std::pow(value_on(velocity, face), 2);
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          if (axis != face.side.axis)
+            square += std::pow(at_centre(known, axis, face.cell), 2);
+        power += outward_flux(grid, velocity, face) * model.density() * square / 2;
+      });
+    return dealii::Utilities::MPI::sum(power, grid.communicator());
+  }
+
+
+  template <int dim>
   Columns
   fluid_columns(const FluidModel<dim> &model, const FluidState<dim> &state, const double divergence)
   {
@@ -207,6 +234,7 @@ namespace undine
 
 #define INSTANTIATE(dim)                                                                           \
   template double kinetic_energy(const FluidModel<dim> &, const Velocity<dim> &);                  \
+  template double kinetic_energy_outflow(const FluidModel<dim> &, const Velocity<dim> &);          \
   template double inner_product(                                                                   \
     const FluidModel<dim> &, const Velocity<dim> &, const Velocity<dim> &);                        \
   template dealii::Tensor<1, dim> linear_momentum(const FluidModel<dim> &, const Velocity<dim> &); \

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/checkpoint/account_array.h>
 #include <undine/output/checkpoint/budget_array.h>
 #include <undine/output/checkpoint/checkpoint.h>
 #include <undine/output/checkpoint/geometry_arrays.h>
@@ -208,9 +209,14 @@ namespace undine
       const auto n_rates = pack_budget(state.budget_rates, communicator).selection.size[0];
       if (!file.contains(budget_array) || file.size(budget_array)[0] != n_rates)
         state.budget_rates = {}; // of a run without a budget, or with other effects
+      const bool is_monitored = state.account.has_value();
+      if (!file.contains(account_array))
+        state.account.reset();
       auto arrays = pack(models, state);
       read_arrays(arrays, file, slot, communicator);
       unpack(state, models, arrays);
+      if (is_monitored && !state.account)
+        state.account.emplace(); // of a run without a monitor: nothing is known yet
       if (count_lasting_particles(state.particles) != lasting)
         throw FileError("'" + slot.string() +
                         "' has more or fewer particles of bodies and walls than the scene: it "

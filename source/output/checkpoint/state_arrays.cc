@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/immersed/fluid_geometry.h>
+#include <undine/output/checkpoint/account_array.h>
 #include <undine/output/checkpoint/budget_array.h>
 #include <undine/output/checkpoint/history_arrays.h>
 #include <undine/output/checkpoint/particle_arrays.h>
@@ -293,6 +294,8 @@ namespace undine
       arrays.push_back(pack_sleep(state.sleep, models.communicator()));
     if (state.budget_rates.known)
       arrays.push_back(pack_budget(state.budget_rates, models.communicator()));
+    if (state.account)
+      arrays.push_back(pack_account(*state.account, models.communicator()));
     if (models.solid)
       {
         auto canonical = canonical_nodes(*models.solid);
@@ -330,6 +333,8 @@ namespace undine
       unpack_sleep(state.sleep, *array++, models.communicator());
     if (state.budget_rates.known)
       unpack_budget(state.budget_rates, *array++, models.communicator());
+    if (state.account)
+      state.account = unpack_account(*array++, models.communicator());
     if (models.solid)
       {
         auto canonical = canonical_nodes(*models.solid);

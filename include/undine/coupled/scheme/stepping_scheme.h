@@ -5,6 +5,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/coupled/adaptivity/step_error.h>
 #include <undine/coupled/budget/budget.h>
+#include <undine/coupled/budget/energy_monitor.h>
 #include <undine/coupled/scheme/scheme.h>
 #include <undine/coupled/step/physics.h>
 #include <undine/solid/time/time_integrator.h>
@@ -22,6 +23,9 @@ namespace undine
   /// that went well, and those after it double it up to the length asked for. The limit is one of
   /// lengths, not of cuts of each step: short of a time that no step gets past, every accepted step
   /// would allow yet shorter ones. Wrong input fails at once.
+  ///
+  /// A step that creates energy is redone like one that fails (EnergyMonitor), but accepted, with a
+  /// warning, where shorter ones are not better.
   ///
   /// With a tolerance Time/Step is the longest step, and StepError chooses: a step with too large
   /// an error is redone like one that fails, but the shortest one is accepted. What it needs is
@@ -51,6 +55,13 @@ namespace undine
     virtual std::unique_ptr<Physics<dim>>
     couple(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing) const = 0;
 
+    /// To steps that create energy, unless the scene says otherwise.
+    virtual EnergyMonitor::Response
+    response_to_created_energy() const
+    {
+      return EnergyMonitor::Response::redo;
+    }
+
   private:
     void
     judge_error(State<dim> &state, const State<dim> &saved, Report &report) const;
@@ -58,6 +69,9 @@ namespace undine
     add_error(Report &report, const State<dim> &state) const;
     double
     shortest_step() const;
+    /// Is half the last step of the report long enough?
+    bool
+    can_be_cut(const Report &report) const;
     std::string
     complaint(double asked, const Report &last, const SolveError &error) const;
 
@@ -70,6 +84,7 @@ namespace undine
     double                          displacement = 0;    // [m]
     unsigned int                    maximum_cuts = 6;
     bool                            keeps_budget = false;
+    EnergyMonitor                   energy_monitor;
     std::unique_ptr<Budget<dim>>    budget;
     std::unique_ptr<Physics<dim>>   physics;
 

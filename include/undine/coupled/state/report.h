@@ -3,6 +3,7 @@
 #define undine_coupled_state_report_h
 
 #include <undine/base/core/column.h>
+#include <undine/coupled/state/energy_account.h>
 
 #include <optional>
 #include <string>
@@ -36,6 +37,11 @@ namespace undine
 
     /// The error in time of all steps so far [1], if steps are chosen by it.
     std::optional<double> error_in_time;
+
+    /// The energy of the new state, if EnergyMonitor asks for it.
+    std::optional<EnergyAccount> account;
+    unsigned int creations = 0; ///< those of the cuts that the energy created asked for
+    double created_share   = 0; ///< in the last try, of the energy and of what goes in and out [1]
 
     Columns columns; ///< energies, forces, fluxes, ... of the new state
   };

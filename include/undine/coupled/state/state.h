@@ -4,6 +4,7 @@
 
 #include <undine/base/core/clock.h>
 #include <undine/coupled/state/budget_amounts.h>
+#include <undine/coupled/state/energy_account.h>
 #include <undine/coupled/state/sleep_state.h>
 #include <undine/coupled/state/step_history.h>
 #include <undine/fluid/grid/fluid_state.h>
@@ -13,6 +14,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <optional>
 #include <vector>
 
 namespace undine
@@ -43,6 +45,9 @@ namespace undine
 
     /// Of the time that the state is at, for the budget of the next step, if it is kept.
     BudgetAmounts<dim> budget_rates;
+
+    /// Of the time that the state is at, if there is an EnergyMonitor.
+    std::optional<EnergyAccount> account;
 
     StepHistory<dim> history;
     SleepState<dim>  sleep;

@@ -33,9 +33,10 @@ namespace undine
 
     /// Cut the grid by the surfaces of bodies and obstacles, then transport, forces and implicit
     /// terms of every effect that is on: v^n in `state` becomes v*. The bodies in `state` are those
-    /// at the stage's start. Collective. Throws SolveError.
+    /// at the stage's start. In the last stage the account of `report`, if it has one, gets the
+    /// power of forces and of walls that move along themselves. Collective. Throws SolveError.
     std::unique_ptr<FluidStage<dim>>
-    predict(State<dim> &state, const Stage &stage);
+    predict(State<dim> &state, const Stage &stage, Report &report);
 
     /// The next predict() cuts the grid where surfaces have nodes at `places` [m], instead of where
     /// it expects them.
@@ -48,9 +49,19 @@ namespace undine
     misplacement(const typename FluidGeometry<dim>::Positions &places) const;
 
     /// The end of the stage that predict() began, after the velocity has been made divergence-free
-    /// up to `divergence` [1]; adds to the report. Collective.
+    /// up to `divergence` [1]; adds to the report, and to its account the power of the kinetic
+    /// energy that the flow brings in and takes out. Collective.
     void
     finish(FluidStage<dim> &fluid, State<dim> &state, Report &report, double divergence);
+
+    /// Add to `account` the powers that act on the fluid at the end of the step, after finish():
+    /// those of sides, whose balance of `pressures` that is, of obstacles, and of the weight that
+    /// the reduced pressure leaves out on bodies. Collective.
+    void
+    add_power(EnergyAccount              &account,
+              const State<dim>           &state,
+              double                      time,
+              const PressureBalance<dim> &pressures) const;
 
     /// Forces of pressure, weight and friction in the nodes of all surfaces [N], after finish(), at
     /// `time` [s]; empty if there is no surface in the fluid. Collective.
@@ -87,6 +98,8 @@ namespace undine
     bodies() const;
     typename CharacteristicTracer<dim>::Bodies
     no_slip_bodies(const State<dim> &state, const Stage &stage);
+    double
+    power_of_walls(const FluidStage<dim> &fluid, double gain) const;
     void
     add_columns(Report &report, const FluidState<dim> &state, double divergence, double time) const;
 

@@ -45,9 +45,9 @@ namespace undine
     };
 
     Half
-    fluid_then_body(State<dim> &state, const Stage &stage);
+    fluid_then_body(State<dim> &state, const Stage &stage, Report &report);
     Half
-    body_then_fluid(State<dim> &state, const Stage &stage);
+    body_then_fluid(State<dim> &state, const Stage &stage, Report &report);
     void
     advance_bodies(Half                                   &half,
                    State<dim>                             &state,

@@ -47,7 +47,8 @@ namespace undine
     void
     end(State<dim> &state, const Stage &stage) const;
 
-    /// Add to the report how the stage went and, after the last one, the columns of the bodies.
+    /// Add to the report how the stage went and, after the last one, the columns of the bodies and,
+    /// to its account if it has one, the power of their loads and supports.
     /// Collective.
     void
     finish(const State<dim>       &state,
@@ -79,6 +80,11 @@ namespace undine
     }
 
   private:
+    void
+    add_power(EnergyAccount          &account,
+              const State<dim>       &state,
+              const Stage            &stage,
+              const SolidReport<dim> &solid) const;
     double
     work_of_kept_rate(const State<dim> &state) const;
     void

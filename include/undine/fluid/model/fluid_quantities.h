@@ -25,6 +25,12 @@ namespace undine
   double
   inner_product(const FluidModel<dim> &model, const Velocity<dim> &v, const Velocity<dim> &w);
 
+  /// The kinetic energy that leaves the domain with the flow, sum a v.n rho |v|^2 / 2 over the
+  /// faces of its sides, n out of the fluid; negative where more enters [W].
+  template <int dim>
+  double
+  kinetic_energy_outflow(const FluidModel<dim> &model, const Velocity<dim> &velocity);
+
   /// sum_f rho V_f v_f of the faces normal to each axis, [kg m/s] (per metre in 2D).
   template <int dim>
   dealii::Tensor<1, dim>

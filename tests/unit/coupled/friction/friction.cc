@@ -51,7 +51,7 @@ namespace
     FluidSide<dim> side(models, budget, timing);
     const Stage    stage = single_stage(dt);
     budget.begin_stage(stage);
-    const auto fluid = side.predict(state, stage);
+    const auto fluid = side.predict(state, stage, report);
     REQUIRE(fluid->friction);
     dealii::Tensor<1, dim> on_nodes, on_sides;
     for (const auto &force : fluid->friction->on_nodes)
@@ -98,7 +98,8 @@ namespace
       run.models.fluid->initial_state(run.state.fluid.pressure.topology()).velocity;
     run.state.fluid.pressure =
       Field<2>(run.models.fluid->grid().cells(), run.state.fluid.pressure.topology());
-    side.predict(run.state, single_stage(.01));
+    Report report;
+    side.predict(run.state, single_stage(.01), report);
     return run.state.fluid.velocity;
   }
 

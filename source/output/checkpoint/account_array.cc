@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/checkpoint/account_array.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace undine
+{
+  StateArray
+  pack_account(const EnergyAccount &account, const MPI_Comm communicator)
+  {
+    const std::vector<double> numbers{account.energy,
+                                      account.power,
+                                      account.exchange,
+                                      account.largest,
+                                      account.created,
+                                      account.known ? 1. : 0.};
+    const hsize_t             size = numbers.size();
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      return {account_array, {{size}, {0}, {size}}, numbers};
+    return {account_array, {{size}, {0}, {0}}, {}};
+  }
+
+
+  EnergyAccount
+  unpack_account(const StateArray &array, const MPI_Comm communicator)
+  {
+    const auto    numbers = dealii::Utilities::MPI::broadcast(communicator, array.values);
+    EnergyAccount account;
+    account.energy   = numbers[0];
+    account.power    = numbers[1];
+    account.exchange = numbers[2];
+    account.largest  = numbers[3];
+    account.created  = numbers[4];
+    account.known    = numbers[5] != 0;
+    return account;
+  }
+} // namespace undine
