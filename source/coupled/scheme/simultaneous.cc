@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/immersed/aitken_relaxation.h>
 #include <undine/coupled/scheme/stepping_scheme.h>
 #include <undine/coupled/step/coupled_stage.h>
 #include <undine/coupled/step/fluid_side.h>
@@ -24,8 +25,9 @@ namespace undine
   ///
   /// Stages that keep rates cut the grid where bodies are expected at their end. If these come to
   /// another place, by more than a small part of a cell, the stage is solved again with the grid
-  /// cut there: else the fluid would have left, or entered, what it has not, and light bodies that
-  /// shake from stage to stage would gain energy by that.
+  /// cut there, and then where AitkenRelaxation expects them: else the fluid would have left, or
+  /// entered, what it has not, and light bodies that shake from stage to stage would gain energy by
+  /// that.
   template <int dim>
   class SimultaneousPhysics : public Physics<dim>
   {
@@ -67,9 +69,13 @@ namespace undine
           solve_once(state, stage, report);
           return;
         }
-      const State<dim>  begin         = state;
-      const Report      report_before = report;
-      const Budget<dim> budget_before = budget;
+      const State<dim>      begin         = state;
+      const Report          report_before = report;
+      const Budget<dim>     budget_before = budget;
+      const auto            cut_at = [&] { return fluid_side.geometry()->surface_positions(); };
+      AitkenRelaxation<dim> relaxation;
+      auto                  best   = cut_at();
+      double                lowest = std::numeric_limits<double>::infinity();
       for (unsigned int round = 0;; ++round)
         {
           solve_once(state, stage, report);
@@ -77,19 +83,24 @@ namespace undine
           const double misplacement = fluid_side.misplacement(places);
           if (misplacement <= (round < most_rounds ? small_misplacement : largest_misplacement))
             return;
-          if (round == most_rounds)
+          if (misplacement < lowest)
+            {
+              lowest = misplacement;
+              best   = cut_at();
+            }
+          if (round >= most_rounds && lowest > largest_misplacement)
             throw SolveError(fmt::format(
               "the grid cannot be cut where bodies come to: wherever it is cut, they end "
               "the step {:.2g} cells from there. Try: a smaller step.",
-              misplacement));
+              lowest));
           const auto newton = report.newton_iterations, linear = report.linear_iterations;
           report                   = report_before;
           report.newton_iterations = newton;
           report.linear_iterations = linear;
           report.stages_again += round + 1;
+          fluid_side.expect(round < most_rounds ? relaxation.next(cut_at(), places) : best);
           state = begin;
           budget.go_back_to(budget_before);
-          fluid_side.expect(next_cut(places, round));
         }
     }
 
@@ -105,20 +116,7 @@ namespace undine
     // exceed however often they are solved again, the fluid has lost or gained volume that matters.
     static constexpr double       small_misplacement   = 0.1;
     static constexpr double       largest_misplacement = 0.3;
-    static constexpr unsigned int most_rounds          = 2;
-
-    /// Where the grid is cut again, the bodies having come to `places` [m]: there, and then half
-    /// way, since bodies that shake come to either of two places by turns.
-    typename FluidGeometry<dim>::Positions
-    next_cut(const typename FluidGeometry<dim>::Positions &places, const unsigned int round) const
-    {
-      if (round == 0)
-        return places;
-      auto result = fluid_side.geometry()->surface_positions();
-      for (std::size_t node = 0; node < result.size(); ++node)
-        result[node] += 0.5 * (places[node] - result[node]);
-      return result;
-    }
+    static constexpr unsigned int most_rounds          = 6;
 
     void
     solve_once(State<dim> &state, const Stage &stage, Report &report)
