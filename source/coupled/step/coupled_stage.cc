@@ -141,7 +141,7 @@ namespace undine
 
   template <int dim>
   NewtonReport
-  CoupledStage<dim>::solve_from(const Vector velocity, const Vector pressure)
+  CoupledStage<dim>::solve_from(const Vector &velocity, const Vector &pressure)
   {
     x.block(0) = equations.kept_apart(velocity);
     x.block(1) = pressure;

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/serialization/utility.hpp>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

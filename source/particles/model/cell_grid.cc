@@ -17,7 +17,8 @@ namespace undine::particles
                  const double reach)
   {
     CellGrid<dim, Real> grid;
-    double              all = 1;
+    double              all      = 1;
+    constexpr int       too_many = std::numeric_limits<int>::max() / 2;
     for (int axis = 0; axis < dim; ++axis)
       {
         const double size = upper[axis] - lower[axis];
@@ -31,7 +32,7 @@ namespace undine::particles
                            " but shorter than three reaches of a particle. Make it longer or the "
                            "particles smaller.");
         all *= cells;
-        if (!(all < std::numeric_limits<int>::max() / 2))
+        if (!(all < too_many))
           throw InputError(
             "section 'Domain': the box of the particles has too many cells. Make it or "
             "'Room beyond open sides' smaller, or the particles larger.");

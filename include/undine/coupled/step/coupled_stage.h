@@ -78,7 +78,7 @@ namespace undine
 
   private:
     NewtonReport
-    solve_from(Vector velocity, Vector pressure);
+    solve_from(const Vector &velocity, const Vector &pressure);
     void
     end(SolidReport<dim> &report);
     Vector

@@ -57,7 +57,8 @@ namespace undine::particles
       motions[i].v =
         rate *
         moved(path, {now.way - then.way, now.v_start - then.v_start, now.v_end - then.v_end});
-      atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(motions[i].v))));
+      atomic_maximum(&control->largest_speed,
+                     static_cast<float>(square_root(norm_square(motions[i].v))));
       if (!grid.contains(place.x))
         place.tag = Tag::of(Kind::dummy, moving_material);
       places[i] = place;

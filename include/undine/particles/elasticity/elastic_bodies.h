@@ -283,7 +283,7 @@ namespace undine::particles
             square += entry * entry;
           }
       return (2 * properties.mu +
-              volume_law(properties).stiffness(determinant(F)) * (1 + Real(sqrt(square)))) /
+              volume_law(properties).stiffness(determinant(F)) * (1 + square_root(square))) /
              properties.density;
     }
 
@@ -352,7 +352,7 @@ namespace undine::particles
     static Real
     sound_impedance(const ElasticMaterial<Real> &properties)
     {
-      return sqrt((properties.lambda + 2 * properties.mu) * properties.density);
+      return square_root((properties.lambda + 2 * properties.mu) * properties.density);
     }
 
     /// Of first Piola and Kirchhoff, P = 2 mu (F - R) + U'(det F) cof(F) [Pa] (P9), with bulk

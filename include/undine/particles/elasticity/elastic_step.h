@@ -114,7 +114,7 @@ namespace undine::particles
         contacts.frequency_square / lattice_frequency_square +
         contacts.closing_square * closing_factor * closing_factor;
       return square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate)
-               ? static_cast<float>(sqrt(square))
+               ? static_cast<float>(square_root(square))
                : 0.f;
     }
 
@@ -153,7 +153,7 @@ namespace undine::particles
         }
       motions[slot].v             = v;
       elasticity.bodies.points[i] = point;
-      atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(v))));
+      atomic_maximum(&control->largest_speed, static_cast<float>(square_root(norm_square(v))));
     }
 
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would

@@ -26,7 +26,7 @@ namespace undine::particles
     {
       if (particles.places[i].tag.is_free())
         atomic_maximum(&control->largest_speed,
-                       static_cast<float>(sqrt(norm_square(particles.motions[i].v))));
+                       static_cast<float>(square_root(norm_square(particles.motions[i].v))));
     }
   };
 

@@ -120,8 +120,10 @@ namespace undine::particles
     std::vector<std::pair<std::string, double>>
     seconds() const override
     {
+      constexpr int                               n_phases = static_cast<int>(Phase::count);
       std::vector<std::pair<std::string, double>> result;
-      for (int k = 0; k < static_cast<int>(Phase::count); ++k)
+      result.reserve(n_phases);
+      for (int k = 0; k < n_phases; ++k)
         result.emplace_back(name_of(static_cast<Phase>(k)),
                             executor->seconds(static_cast<Phase>(k)));
       return result;

@@ -111,7 +111,7 @@ namespace undine::particles
         return wall;
       const auto relative = v - (1 / weight) * wall_velocity;
       const auto along    = relative - ((relative * wall) / square) * wall;
-      const Real speed    = sqrt(norm_square(along));
+      const Real speed    = square_root(norm_square(along));
       if (!(speed > 0))
         return Vector<dim, Real>::zero();
       const Real u    = constants.wall_friction.friction_velocity(speed, constants.spacing / 2);

@@ -35,8 +35,8 @@ namespace undine::particles
       const Real strength = minimum(Real(1), Real(20) * (density / full - Real(0.55)));
       if (!(strength > 0))
         return Vector<dim, Real>::zero();
-      const Real clear = maximum(Real(sqrt(norm_square(side))), Real(0.3) * density);
-      return (Real(sqrt(strength / density)) / clear) * side;
+      const Real clear = maximum(square_root(norm_square(side)), Real(0.3) * density);
+      return (square_root(strength / density) / clear) * side;
     }
   };
 

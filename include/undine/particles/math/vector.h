@@ -27,6 +27,21 @@ namespace undine::particles
     return 1 / sqrt(x);
   }
 
+  /// sqrt(x), without the detour by double of sqrt() on the host.
+  UNDINE_HOST_DEVICE
+  float
+  square_root(const float x)
+  {
+    return sqrtf(x);
+  }
+
+  UNDINE_HOST_DEVICE
+  double
+  square_root(const double x)
+  {
+    return sqrt(x);
+  }
+
   template <class Real>
   UNDINE_HOST_DEVICE
   Real

@@ -30,7 +30,7 @@ namespace undine::particles
     Real
     friction_velocity(const Real u, const Real y) const
     {
-      const Real laminar = sqrt(u * viscosity / y);
+      const Real laminar = square_root(u * viscosity / y);
       Real       result  = maximum(laminar, u / 20);
       for (int k = 0; k < newton_steps; ++k)
         {

@@ -282,7 +282,8 @@ namespace undine::particles
       const Real dt = static_cast<Real>(control->dt);
       motion.v += dt * acceleration;
       place.x += (constants.path_weight * dt * dt) * acceleration;
-      atomic_maximum(&control->largest_speed, static_cast<float>(sqrt(norm_square(motion.v))));
+      atomic_maximum(&control->largest_speed,
+                     static_cast<float>(square_root(norm_square(motion.v))));
     }
 
     /// Out of a body into which fluid is about to squeeze between its particles: outside, bodies
