@@ -121,6 +121,7 @@ namespace undine
     if (step_error && !state.history.in_use())
       step_error->start(state); // resumed from a run of constant steps
     const State<dim> saved = state;
+    std::string      cause; // of the last cut
     for (Report report;; ++report.cuts)
       try
         {
@@ -133,6 +134,7 @@ namespace undine
           assert_finite(report.columns);
           judge_error(state, saved, report);
           state.clock.longest_step = report.cuts > 0 ? report.dt : 2 * state.clock.longest_step;
+          report.warn("step cuts", cause);
           return report;
         }
       catch (const SolveError &error)
@@ -143,6 +145,8 @@ namespace undine
           report.warnings.clear();
           if (report.dt / 2 < shortest_step() * (1 - 1e-9))
             throw SolveError(complaint(asked, report, error));
+          if (report.rejections < report.cuts + 1)
+            cause = fmt::format("a step of {:.4g} s was cut: {}", report.dt, error.what());
         }
       catch (const Error &)
         {
@@ -207,8 +211,10 @@ namespace undine
       last.cuts == 0 ? "" : fmt::format(" and {} shorter one(s)", last.cuts);
     return fmt::format("a step of {:.4g} s{} failed, the last one of {:.4g} s: {}\nTime/Step = "
                        "{:.4g} and Time/Maximum cuts = {} allow none shorter than {:.4g} s. If "
-                       "steps became shorter and shorter on the way here, no step will do: try "
-                       "what is said above; else try more cuts.",
+                       "steps became shorter and shorter on the way here ('Step cuts' in the "
+                       "statistics), still shorter ones will not do: try what else is said above, "
+                       "or a longer Time/Step with Maximum cuts = 0. If they did not, try more "
+                       "cuts.",
                        asked,
                        shorter,
                        last.dt,
