@@ -113,13 +113,24 @@ namespace undine
   BodyContact<dim>::terms(const Positions &places) const
   {
     const auto result = find_contact_terms(surfaces, places, settings.activation_distance);
+    const auto owner  = [&](const unsigned int node) {
+      return "'" + surfaces.surface().body_names()[surfaces.surface_of_node(node)] + "'";
+    };
     for (const auto &term : result)
       if (!(term.distance > 0))
-        throw SolveError(fmt::format(
-          "'{}' runs into {}. Try: a smaller step.",
-          surfaces.surface().body_names()[surfaces.surface_of_node(term.nodes[0])],
-          term.wall == term.no_wall ? "another body"
-                                    : "wall '" + surfaces.walls()[term.wall].name + "'"));
+        {
+          // Corrections stop short of contact, so that nothing else leads here.
+          const auto &place = places[term.nodes[0]];
+          throw SolveError(fmt::format(
+            "{} runs into {} near ({:.4g}): the gap there is {:.3g} m. Try: another "
+            "motion of supports or obstacles that leaves a gap, or a smaller step, in "
+            "which what is pushed can give way.",
+            owner(term.nodes[0]),
+            term.wall == term.no_wall ? owner(term.nodes[term.n - 1])
+                                      : "wall '" + surfaces.walls()[term.wall].name + "'",
+            fmt::join(place.begin_raw(), place.begin_raw() + dim, ", "),
+            term.distance));
+        }
     return result;
   }
 

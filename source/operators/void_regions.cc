@@ -135,8 +135,8 @@ namespace undine
     if (!result.empty() && *std::min_element(result.begin(), result.end()) >= 0)
       throw SolveError(
         fmt::format("The void region '{}' takes all that bodies leave of the domain; "
-                    "there is no fluid left. Try: close the gap in the bodies "
-                    "around it.",
+                    "there is no fluid left. Try: close the gap in the bodies around it; those "
+                    "that end in a side of the domain have none if they reach through it.",
                     regions[result.front()].name));
     return result;
   }

@@ -69,30 +69,29 @@ namespace undine
           solve_once(state, stage, report);
           return;
         }
-      const State<dim>      begin         = state;
-      const Report          report_before = report;
-      const Budget<dim>     budget_before = budget;
-      const auto            cut_at = [&] { return fluid_side.geometry()->surface_positions(); };
-      AitkenRelaxation<dim> relaxation;
-      auto                  best   = cut_at();
-      double                lowest = std::numeric_limits<double>::infinity();
+      const State<dim>          begin         = state;
+      const Report              report_before = report;
+      const Budget<dim>         budget_before = budget;
+      const auto                cut_at = [&] { return fluid_side.geometry()->surface_positions(); };
+      AitkenRelaxation<dim>     relaxation;
+      auto                      best   = cut_at();
+      double                    lowest = std::numeric_limits<double>::infinity();
+      std::vector<Misplacement> misplacements;
       for (unsigned int round = 0;; ++round)
         {
           solve_once(state, stage, report);
           const auto places = models.surface->positions(state.solid, state.clock.time + stage.end);
-          const double misplacement = fluid_side.misplacement(places);
-          if (misplacement <= (round < most_rounds ? small_misplacement : largest_misplacement))
+          misplacements.push_back(fluid_side.misplacement(places));
+          const double cells = misplacements.back().cells;
+          if (cells <= (round < most_rounds ? small_misplacement : largest_misplacement))
             return;
-          if (misplacement < lowest)
+          if (cells < lowest)
             {
-              lowest = misplacement;
+              lowest = cells;
               best   = cut_at();
             }
           if (round >= most_rounds && lowest > largest_misplacement)
-            throw SolveError(fmt::format(
-              "the grid cannot be cut where bodies come to: wherever it is cut, they end "
-              "the step {:.2g} cells from there. Try: a smaller step.",
-              lowest));
+            throw SolveError(misplacement_complaint(models, places, misplacements));
           const auto newton = report.newton_iterations, linear = report.linear_iterations;
           report                   = report_before;
           report.newton_iterations = newton;

@@ -123,6 +123,7 @@ namespace undine
     if (step_error && !state.history.in_use())
       step_error->start(state); // resumed from a run of constant steps
     const State<dim> saved = state;
+    std::string      cause; // of the last cut
     for (Report report;; ++report.cuts)
       try
         {
@@ -137,6 +138,7 @@ namespace undine
           energy_monitor.judge(state.account, report, can_be_cut(report));
           judge_error(state, saved, report);
           state.clock.longest_step = report.cuts > 0 ? report.dt : 2 * state.clock.longest_step;
+          report.warn("step cuts", cause);
           return report;
         }
       catch (const SolveError &error)
@@ -147,6 +149,8 @@ namespace undine
           report.warnings.clear();
           if (!can_be_cut(report))
             throw SolveError(complaint(asked, report, error));
+          if (report.rejections < report.cuts + 1)
+            cause = fmt::format("a step of {:.4g} s was cut: {}", report.dt, error.what());
         }
       catch (const Error &)
         {
@@ -218,8 +222,10 @@ namespace undine
       last.cuts == 0 ? "" : fmt::format(" and {} shorter one(s)", last.cuts);
     return fmt::format("a step of {:.4g} s{} failed, the last one of {:.4g} s: {}\nTime/Step = "
                        "{:.4g} and Time/Maximum cuts = {} allow none shorter than {:.4g} s. If "
-                       "steps became shorter and shorter on the way here, no step will do: try "
-                       "what is said above; else try more cuts.",
+                       "steps became shorter and shorter on the way here ('Step cuts' in the "
+                       "statistics), still shorter ones will not do: try what else is said above, "
+                       "or a longer Time/Step with Maximum cuts = 0. If they did not, try more "
+                       "cuts.",
                        asked,
                        shorter,
                        last.dt,

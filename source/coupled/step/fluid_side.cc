@@ -84,18 +84,20 @@ namespace undine
 
 
   template <int dim>
-  double
+  Misplacement
   FluidSide<dim>::misplacement(const typename FluidGeometry<dim>::Positions &places) const
   {
-    const auto &grid   = model.grid();
-    const auto &cut_at = cut->surface_positions();
-    double      result = 0;
-    for (std::size_t node = 0; node < places.size(); ++node)
+    const auto  &grid   = model.grid();
+    const auto  &cut_at = cut->surface_positions();
+    Misplacement result;
+    for (unsigned int node = 0; node < places.size(); ++node)
       {
         const auto cell = grid.cell_at(cut_at[node]);
         for (unsigned int d = 0; d < dim; ++d)
-          result = std::max(
-            result, std::abs(places[node][d] - cut_at[node][d]) / grid.cell_width(d, cell[d]));
+          if (const double cells =
+                std::abs(places[node][d] - cut_at[node][d]) / grid.cell_width(d, cell[d]);
+              cells > result.cells)
+            result = {cells, node};
       }
     return result;
   }

@@ -13,10 +13,13 @@ namespace undine
   {
     // Not-a-number fails every comparison, so it is caught here too.
     if (!(J > 0 && std::isfinite(J)))
-      throw SolveError(fmt::format("an element of a solid is inverted or its displacement is not a "
-                                   "number (det F = {:g}). Try a smaller time step, smaller loads, "
-                                   "or a finer mesh where the solid is bent most.",
-                                   J));
+      throw SolveError(
+        fmt::format("an element of a solid is inverted or its displacement is not a "
+                    "number (det F = {:g}). Try smaller loads, a finer mesh where the "
+                    "solid is bent most, or another time step: a smaller one if "
+                    "loads or motions are sudden, a longer one if it shakes more "
+                    "in shorter steps.",
+                    J));
   }
 
 

@@ -3,6 +3,8 @@
 #include <undine/solid/assembly/sums_by_body.h>
 #include <undine/solid/step/step_contact.h>
 
+#include <fmt/format.h>
+
 namespace undine
 {
   template <int dim>
@@ -80,10 +82,14 @@ namespace undine
     still.add(1 / motion.coefficients().displacement, last_displacement());
     still.add(-1 / motion.coefficients().displacement, old_state.displacement);
     const Vector begin = motion.displacement(still);
-    if (contact->collision_free_fraction({last_displacement(), last_time()}, {begin, time + dt}) <
-        1)
-      throw SolveError("supports or obstacles that move as prescribed run into a body within the "
-                       "step. Try: a smaller step, or another motion.");
+    const double free =
+      contact->collision_free_fraction({last_displacement(), last_time()}, {begin, time + dt});
+    if (free < 1)
+      throw SolveError(
+        fmt::format("supports or obstacles that move as prescribed run into a body within the "
+                    "step, of which {:.0f} % leave a gap. Try: a smaller step, in which the body "
+                    "can give way, or another motion.",
+                    100 * free));
     Vector       displacement_increment = guess;
     const double part =
       contact->collision_free_fraction({begin, time + dt}, {motion.displacement(guess), time + dt});

@@ -193,3 +193,18 @@ TEST_CASE("bodies that overlap at the start are refused", "[contact]")
   CHECK_THAT(complaint(-.01, -1), Contains("overlaps") && Contains("Try: leave a gap"));
   CHECK_THAT(complaint(.01, .2), Contains("'one' is not on the free side of wall 'wall'"));
 }
+
+
+TEST_CASE("where a gap is closed is said, between what, and by how much", "[contact]")
+{
+  using Catch::Contains;
+  const Scene<2> scene(two_boxes<2>(.01, .3), .1, -.01);
+  const auto     complaint = [&](const double path) {
+    const auto places = scene.shift(path * dealii::Point<2>::unit_vector(0));
+    return message_of([&] { scene.contact.energy(places, 0); });
+  };
+  CHECK(complaint(-.005) == "no error");
+  CHECK_THAT(complaint(-1.03),
+             Contains("'other' runs into wall 'wall'") && Contains("near (-0.02, ") &&
+               Contains("the gap there is -0.01 m") && Contains("Try"));
+}

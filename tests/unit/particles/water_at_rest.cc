@@ -26,10 +26,10 @@ namespace
   }
 
 
-  /// Mean over the second half of a run of water at rest in a tank.
+  /// Mean from `begin` to `end` [s] of a run of water at rest in a tank.
   template <int dim>
   Hydrostatics
-  rest(const int width, const int depth, const double end)
+  rest(const int width, const int depth, const double begin, const double end)
   {
     const double       l0 = .01;
     ParticleScene<dim> scene(l0);
@@ -50,7 +50,7 @@ namespace
     for (double time = .01; time < end; time += .01)
       {
         engine->advance(.01);
-        if (time < end / 2)
+        if (time < begin)
           continue;
         engine->fetch(state);
         level   = level_of(state);
@@ -77,29 +77,39 @@ namespace
             level / (depth * l0),
             kinetic};
   }
+
+
+  /// Largest deviations from one, in `Hydrostatics`, and largest values of the others.
+  void
+  check(const Hydrostatics &found, const Hydrostatics &allowed)
+  {
+    INFO("mean " << found.mean << ", rms " << found.rms << ", level " << found.level
+                 << ", kinetic energy " << found.kinetic);
+    CHECK(std::abs(found.mean - 1) < allowed.mean);
+    CHECK(found.rms < allowed.rms);
+    CHECK(std::abs(found.level - 1) < allowed.level);
+    CHECK(found.kinetic < allowed.kinetic);
+  }
 } // namespace
 
 
 TEST_CASE("Water at rest in the plane has its hydrostatic pressure", "[particles]")
 {
-  for (const int depth : {30, 60})
-    {
-      const auto result = rest<2>(30, depth, depth == 30 ? 1.5 : .8);
-      INFO("depth " << depth << ": mean " << result.mean << ", rms " << result.rms << ", level "
-                    << result.level << ", kinetic energy " << result.kinetic);
-      CHECK(result.mean == Approx(1).epsilon(.01));
-      CHECK(result.rms < .02);
-      CHECK(result.level == Approx(1).epsilon(.01));
-      CHECK(result.kinetic < 3e-4);
-    }
+  // 1.0008, 0.10 %, 0.9986 and 1.1e-4, and a tenth of that from run to run.
+  check(rest<2>(30, 30, 3, 4), {.002, .0015, .002, 2e-4});
 }
 
 
-TEST_CASE("Water at rest in space has its hydrostatic pressure", "[particles]")
+// In its first second the lattice is about to dissolve, and its pressure grows 1 % slower with
+// depth.
+TEST_CASE("Water that settles has nearly its hydrostatic pressure", "[particles]")
 {
-  const auto result = rest<3>(8, 16, .5);
-  INFO("mean " << result.mean << ", rms " << result.rms << ", level " << result.level);
-  CHECK(result.mean == Approx(1).epsilon(.01));
-  CHECK(result.rms < .02);
-  CHECK(result.level == Approx(1).epsilon(.01)); // it settles from the lattice into disorder
+  SECTION("2D")
+  {
+    check(rest<2>(30, 60, .4, .8), {.006, .006, .003, 5e-5});
+  }
+  SECTION("3D")
+  {
+    check(rest<3>(8, 16, .25, .5), {.007, .005, .006, 3e-4});
+  }
 }

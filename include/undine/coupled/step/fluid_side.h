@@ -9,6 +9,7 @@
 #include <undine/coupled/model/models.h>
 #include <undine/coupled/state/report.h>
 #include <undine/coupled/state/state.h>
+#include <undine/coupled/step/misplacement.h>
 #include <undine/fluid/fluid_stage.h>
 #include <undine/fluid/pressure/projection.h>
 
@@ -43,9 +44,9 @@ namespace undine
     void
     expect(typename FluidGeometry<dim>::Positions places);
 
-    /// The largest distance, in cells, between where the grid was cut in this stage and where the
-    /// surfaces, whose nodes are at `places` [m], have come to [1].
-    double
+    /// Of the surfaces, whose nodes have come to `places` [m], from where the grid was cut in this
+    /// stage.
+    Misplacement
     misplacement(const typename FluidGeometry<dim>::Positions &places) const;
 
     /// The end of the stage that predict() began, after the velocity has been made divergence-free

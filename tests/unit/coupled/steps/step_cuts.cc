@@ -121,6 +121,9 @@ TEST_CASE("A step that fails is redone with half its length", "[coupled][mpi]")
   const auto first = run.step();
   CHECK(first.cuts == 2);
   CHECK(first.dt == Approx(.025));
+  // Why the last one was cut is told.
+  REQUIRE(first.warnings.size() == 1);
+  CHECK(first.warnings[0].text == "a step of 0.05 s was cut: too fast");
   // What went well, then twice as much up to what was asked for.
   std::vector<double> lengths;
   for (int n = 0; n < 4; ++n)
