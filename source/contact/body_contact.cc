@@ -31,17 +31,44 @@ namespace undine
     }
 
 
-    /// Pairs of nodes of different bodies that terms couple.
+    /// The settings, with what the scene leaves to the mesh.
+    template <int dim>
+    ContactSettings<dim>
+    completed(ContactSettings<dim>        settings,
+              const SolidModel<dim>      &solid,
+              const ContactSurfaces<dim> &surfaces)
+    {
+      if (settings.activation_distance == 0)
+        settings.activation_distance = share_of_facet * surfaces.facet_size();
+      if (settings.stiffness == 0)
+        settings.stiffness = least_modulus(solid);
+      return settings;
+    }
+
+
+    /// Is it contact of a surface with itself?
+    template <int dim>
+    bool
+    meets_itself(const ContactTerm<dim> &term, const ContactSurfaces<dim> &surfaces)
+    {
+      return term.n > 1 && surfaces.surface_of_node(term.nodes[0]) ==
+                             surfaces.surface_of_node(term.nodes[term.n - 1]);
+    }
+
+
+    /// Pairs of nodes that terms couple and elements may not: those of different surfaces, and of a
+    /// surface in contact with itself.
     template <int dim>
     typename ContactPattern<dim>::Pairs
     coupled_pairs(const std::vector<ContactTerm<dim>> &terms, const ContactSurfaces<dim> &surfaces)
     {
       typename ContactPattern<dim>::Pairs result;
+      const auto surface = [&](const unsigned int node) { return surfaces.surface_of_node(node); };
       for (const auto &term : terms)
         for (unsigned int i = 0; i < term.n; ++i)
           for (unsigned int j = i + 1; j < term.n; ++j)
             if (surfaces.moves(term.nodes[i]) && surfaces.moves(term.nodes[j]) &&
-                surfaces.surface_of_node(term.nodes[i]) != surfaces.surface_of_node(term.nodes[j]))
+                (surface(term.nodes[i]) != surface(term.nodes[j]) || meets_itself(term, surfaces)))
               result.insert({term.nodes[i], term.nodes[j]});
       return result;
     }
@@ -84,14 +111,11 @@ namespace undine
                                 const FluidModel<dim>      *fluid,
                                 const Obstacles<dim>       *obstacles)
     : solid(solid)
-    , settings(given)
     , surfaces(given, solid, fluid, obstacles)
+    , settings(completed(given, solid, surfaces))
+    , distances(surfaces, settings.activation_distance)
     , pattern(solid, surfaces.bodies())
   {
-    if (settings.activation_distance == 0)
-      settings.activation_distance = share_of_facet * surfaces.facet_size();
-    if (settings.stiffness == 0)
-      settings.stiffness = least_modulus(solid);
   }
 
 
@@ -100,8 +124,9 @@ namespace undine
                                 const SolidModel<dim>  &solid,
                                 const BodySurface<dim> &bodies)
     : solid(solid)
-    , settings(all.settings)
     , surfaces(all.surfaces, bodies)
+    , settings(all.settings)
+    , distances(all.distances, surfaces)
     , pattern(solid, surfaces.bodies())
   {
   }
@@ -112,14 +137,15 @@ namespace undine
   typename BodyContact<dim>::Terms
   BodyContact<dim>::terms(const Positions &places) const
   {
-    const auto result = find_contact_terms(surfaces, places, settings.activation_distance);
+    const auto result = find_contact_terms(surfaces, distances, places);
     for (const auto &term : result)
       if (!(term.distance > 0))
-        throw SolveError(fmt::format(
-          "'{}' runs into {}. Try: a smaller step.",
-          surfaces.surface().body_names()[surfaces.surface_of_node(term.nodes[0])],
-          term.wall == term.no_wall ? "another body"
-                                    : "wall '" + surfaces.walls()[term.wall].name + "'"));
+        throw SolveError(
+          fmt::format("'{}' runs into {}. Try: a smaller step.",
+                      surfaces.surface().body_names()[surfaces.surface_of_node(term.nodes[0])],
+                      term.wall != term.no_wall ? "wall '" + surfaces.walls()[term.wall].name + "'"
+                      : meets_itself(term, surfaces) ? "itself"
+                                                     : "another body"));
     return result;
   }
 
@@ -128,7 +154,7 @@ namespace undine
   ContactPotential<dim>
   BodyContact<dim>::potential() const
   {
-    return {settings.activation_distance, settings.stiffness};
+    return ContactPotential<dim>(settings.stiffness);
   }
 
 
@@ -229,8 +255,7 @@ namespace undine
   {
     const auto places_from = surfaces.positions(from.displacement, from.time);
     const auto places_to   = surfaces.positions(to.displacement, to.time);
-    return undine::collision_free_fraction(
-      surfaces, places_from, places_to, settings.activation_distance / 2);
+    return undine::collision_free_fraction(surfaces, distances, places_from, places_to);
   }
 
 
@@ -238,7 +263,8 @@ namespace undine
   void
   BodyContact<dim>::check_start(const Vector &displacement, const double time) const
   {
-    const std::string overlap = find_overlap(surfaces, surfaces.positions(displacement, time));
+    const std::string overlap =
+      find_overlap(surfaces, distances, surfaces.positions(displacement, time));
     if (!overlap.empty())
       throw settings.options.error(
         "",

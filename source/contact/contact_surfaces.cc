@@ -124,10 +124,10 @@ namespace undine
     for (unsigned int facet = 0; facet < all_facets.facets().size(); ++facet)
       for (const unsigned int node : all_facets.facets()[facet])
         surfaces_of_nodes[node] = all_facets.body(facet);
-    const auto rest = positions(solid.vector(), 0);
-    measure(solid, rest);
-    all_edges = find_sharp_edges(all_facets, rest);
-    find_fixed(solid, rest);
+    rest_positions = positions(solid.vector(), 0);
+    measure(solid);
+    all_edges = find_sharp_edges(all_facets, rest_positions);
+    find_fixed(solid);
   }
 
 
@@ -138,9 +138,11 @@ namespace undine
     , all_facets(all.all_facets)
     , all_walls(all.all_walls)
     , surfaces_of_nodes(all.surfaces_of_nodes)
+    , rest_positions(all.rest_positions)
     , areas(all.areas)
     , all_edges(all.all_edges)
     , fixed(all.fixed)
+    , reaching(all.reaching)
     , grown_together(all.grown_together)
     , least_size(all.least_size)
   {
@@ -166,14 +168,14 @@ namespace undine
 
   template <int dim>
   void
-  ContactSurfaces<dim>::measure(const SolidModel<dim> &solid, const Positions &rest)
+  ContactSurfaces<dim>::measure(const SolidModel<dim> &solid)
   {
     std::vector<double>       sums(all_facets.body_names().size());
     std::vector<unsigned int> counts(sums.size());
     areas.resize(all_facets.n_nodes());
     for (unsigned int facet = 0; facet < all_facets.facets().size(); ++facet)
       {
-        const double area = area_vector(all_facets, facet, rest).norm();
+        const double area = area_vector(all_facets, facet, rest_positions).norm();
         sums[all_facets.body(facet)] += area;
         ++counts[all_facets.body(facet)];
         if (!is_body(all_facets.body(facet)))
@@ -192,10 +194,8 @@ namespace undine
 
   template <int dim>
   void
-  ContactSurfaces<dim>::find_fixed(const SolidModel<dim> &solid, const Positions &rest)
+  ContactSurfaces<dim>::find_fixed(const SolidModel<dim> &solid)
   {
-    // Gaps that are nothing but rounding of places.
-    const double              rounding = 1e-9 * least_size;
     std::vector<unsigned int> fixed_nodes;
     for (unsigned int node = 0; node < body_surface.n_nodes(); ++node)
       {
@@ -206,33 +206,37 @@ namespace undine
           fixed_nodes.push_back(node);
       }
     fixed.assign(n_bodies(), std::vector<bool>(all_walls.size()));
-    for (const unsigned int node : fixed_nodes)
-      for (unsigned int wall = 0; wall < all_walls.size(); ++wall)
-        if ((rest[node] - all_walls[wall].point) * all_walls[wall].normal <= rounding)
-          fixed[surfaces_of_nodes[node]][wall] = true;
-    find_grown_together(fixed_nodes, rest);
+    reaching = fixed;
+    for (unsigned int wall = 0; wall < all_walls.size(); ++wall)
+      {
+        for (const unsigned int node : fixed_nodes)
+          if (rest_gap(node, wall) <= rounding())
+            fixed[surfaces_of_nodes[node]][wall] = true;
+        for (unsigned int node = 0; node < body_surface.n_nodes(); ++node)
+          if (rest_gap(node, wall) < -rounding())
+            reaching[surfaces_of_nodes[node]][wall] = true;
+      }
+    find_grown_together(fixed_nodes);
   }
 
 
   template <int dim>
   void
-  ContactSurfaces<dim>::find_grown_together(const std::vector<unsigned int> &fixed_nodes,
-                                            const Positions                 &rest)
+  ContactSurfaces<dim>::find_grown_together(const std::vector<unsigned int> &fixed_nodes)
   {
     const unsigned int n_surfaces = all_facets.body_names().size();
     grown_together.assign(n_surfaces, std::vector<bool>(n_surfaces));
     if (fixed_nodes.empty())
       return;
-    const double rounding = 1e-9 * least_size;
     for (unsigned int surface = 0; surface < n_surfaces; ++surface)
       {
-        const SurfaceDistance<dim> distance(one_surface(all_facets, surface), rest);
+        const SurfaceDistance<dim> distance(one_surface(all_facets, surface), rest_positions);
         const auto                 box = distance.box();
         for (const unsigned int node : fixed_nodes)
           if (const unsigned int body = surfaces_of_nodes[node];
               body != surface && !grown_together[body][surface] &&
-              box.point_inside(rest[node], 1e-9) &&
-              distance.nearest(rest[node]).distance <= rounding)
+              box.point_inside(rest_positions[node], 1e-9) &&
+              distance.nearest(rest_positions[node]).distance <= rounding())
             grown_together[body][surface] = grown_together[surface][body] = true;
       }
   }

@@ -43,11 +43,13 @@ namespace undine
         const auto &nodes   = surface.ridges()[ridge];
         const auto  segment = middle(surface.facets()[facets[ridge][1]], places) - places[nodes[0]];
         const bool  convex  = segment * a < 0;
+        const auto  outwards = a / a.norm() + b / b.norm();
         if (convex && a * b < cosine_of_sharp * a.norm() * b.norm())
           result.push_back({nodes,
                             surface.body(facets[ridge][0]),
                             places[nodes[0]].distance(places[nodes[1]]),
-                            (a.norm() + b.norm()) / 3});
+                            (a.norm() + b.norm()) / 3,
+                            outwards / outwards.norm()});
       }
     return result;
   }

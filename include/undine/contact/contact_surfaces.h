@@ -106,16 +106,38 @@ namespace undine
       return all_edges;
     }
 
-    /// Is the body fixed by a support where it rests on the wall or reaches through it? Then there
-    /// is no contact between them.
+    /// Positions of all nodes at rest [m], of obstacles those at time 0.
+    const Positions &
+    rest() const
+    {
+      return rest_positions;
+    }
+
+    /// Does a support fix the body where it rests on the wall or reaches through it?
     bool
     is_fixed_at(const unsigned int body, const unsigned int wall) const
     {
       return fixed[body][wall];
     }
 
-    /// Is there contact between these surfaces? Not if both are obstacles, or if a support of one
-    /// begins in the other or on it.
+    /// Is there contact between a body's node and the wall? Not where the body is fixed and the
+    /// node lies on the wall at rest, nor for any node if the body then reaches through the wall.
+    bool
+    meets_wall(const unsigned int node, const unsigned int wall) const
+    {
+      const unsigned int body = surfaces_of_nodes[node];
+      return !fixed[body][wall] || (!reaching[body][wall] && rest_gap(node, wall) > rounding());
+    }
+
+    /// The distance of the node from the wall at rest [m], negative behind it.
+    double
+    rest_gap(const unsigned int node, const unsigned int wall) const
+    {
+      return (rest_positions[node] - all_walls[wall].point) * all_walls[wall].normal;
+    }
+
+    /// Is there contact between these different surfaces? Not if both are obstacles, or if a
+    /// support of one begins in the other or on it.
     bool
     meet(const unsigned int a, const unsigned int b) const
     {
@@ -129,24 +151,33 @@ namespace undine
       return least_size;
     }
 
+    /// Distances at rest below this are nothing but rounding of places [m].
+    double
+    rounding() const
+    {
+      return 1e-9 * least_size;
+    }
+
   private:
     void
     add_domain_walls(const FluidModel<dim> &fluid);
     void
-    measure(const SolidModel<dim> &solid, const Positions &rest);
+    measure(const SolidModel<dim> &solid);
     void
-    find_fixed(const SolidModel<dim> &solid, const Positions &rest);
+    find_fixed(const SolidModel<dim> &solid);
     void
-    find_grown_together(const std::vector<unsigned int> &fixed_nodes, const Positions &rest);
+    find_grown_together(const std::vector<unsigned int> &fixed_nodes);
 
     const BodySurface<dim>         body_surface;
     const Obstacles<dim> *const    obstacles;
     const Surface<dim>             all_facets;
     std::vector<ContactWall<dim>>  all_walls;
     std::vector<unsigned int>      surfaces_of_nodes;
+    Positions                      rest_positions;
     std::vector<double>            areas;
     std::vector<SharpEdge>         all_edges;
     std::vector<std::vector<bool>> fixed;          ///< [body][wall]
+    std::vector<std::vector<bool>> reaching;       ///< through the wall at rest: [body][wall]
     std::vector<std::vector<bool>> grown_together; ///< [surface][surface]
     double                         least_size = 0;
   };

@@ -14,8 +14,9 @@ namespace undine
   {
     std::array<unsigned int, 2> nodes;
     unsigned int                surface;
-    double                      length; ///< [m]
-    double                      area;   ///< a third of both facets [m^2]
+    double                      length;   ///< [m]
+    double                      area;     ///< a third of both facets [m^2]
+    dealii::Tensor<1, 3>        outwards; ///< half way between the facets' normals, of length 1
   };
 
   /// Edges whose facets' normals differ by more than 30 degrees; none in the plane. @{

@@ -82,13 +82,13 @@ TEST_CASE("edges of a box are sharp, those of a ball are not", "[contact]")
 
 TEST_CASE("edges that cross push each other and do not pass", "[contact][mpi]")
 {
-  const double              gap = .04;
-  const Scene<3>            scene(cubes_on_edges(gap), .1);
-  const ContactSurfaces<3>  surfaces(scene.settings(.1, -10), scene.model, nullptr, nullptr);
-  const Vector              start  = scene.model.vector();
-  const auto                places = surfaces.positions(start, 0);
-  const auto                terms  = find_contact_terms(surfaces, places, .1);
-  const ContactPotential<3> potential(.1, 3);
+  const double             gap = .04;
+  const Scene<3>           scene(cubes_on_edges(gap), .1);
+  const ContactSurfaces<3> surfaces(scene.settings(.1, -10), scene.model, nullptr, nullptr);
+  const Vector             start  = scene.model.vector();
+  const auto               places = surfaces.positions(start, 0);
+  const auto terms = find_contact_terms(surfaces, ActivationDistances<3>(surfaces, .1), places);
+  const ContactPotential<3> potential(3);
   REQUIRE(terms.size() == 1);
   CHECK(terms[0].n == 4);
   CHECK(terms[0].distance == Approx(gap));
