@@ -2,6 +2,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/contact/body_contact.h>
 #include <undine/contact/collision_free_fraction.h>
+#include <undine/contact/domain_walls.h>
 #include <undine/contact/find_overlap.h>
 #include <undine/contact/make_contact.h>
 
@@ -27,6 +28,21 @@ namespace undine
       double result = std::numeric_limits<double>::infinity();
       for (const auto &body : solid.bodies())
         result = std::min(result, body.material->p_wave_modulus());
+      return result;
+    }
+
+
+    /// Those of the scene and, if it wants them, sides of the fluid's domain through which no fluid
+    /// passes.
+    template <int dim>
+    std::vector<ContactWall<dim>>
+    all_walls(const ContactSettings<dim> &settings, const FluidModel<dim> *fluid)
+    {
+      auto result = settings.walls;
+      if (fluid && settings.at_domain)
+        for (const auto &wall : domain_walls(*fluid))
+          if (wall.is_closed)
+            result.push_back(wall.plane);
       return result;
     }
 
@@ -111,7 +127,7 @@ namespace undine
                                 const FluidModel<dim>      *fluid,
                                 const Obstacles<dim>       *obstacles)
     : solid(solid)
-    , surfaces(given, solid, fluid, obstacles)
+    , surfaces(all_walls(given, fluid), solid, obstacles)
     , settings(completed(given, solid, surfaces))
     , distances(surfaces, settings.activation_distance)
     , pattern(solid, surfaces.bodies())

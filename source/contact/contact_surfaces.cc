@@ -39,29 +39,6 @@ namespace undine
     }
 
 
-    /// Does fluid neither enter nor leave anywhere on this side?
-    template <int dim>
-    bool
-    is_wall(const FluidModel<dim> &fluid, const Side side)
-    {
-      if (fluid.grid().periodic(side.axis))
-        return false;
-      const auto    &along = fluid.grid().cells_along();
-      GridIndex<dim> cell{};
-      for (;;)
-        {
-          const auto &boundary = fluid.boundaries().at(side, cell);
-          if (boundary.lets_fluid_pass())
-            return false;
-          unsigned int axis = 0;
-          while (axis < dim && (axis == side.axis || ++cell[axis] == along[axis]))
-            cell[axis++] = 0;
-          if (axis == dim)
-            return true;
-        }
-    }
-
-
     /// The integrals of the shape functions over the bodies' boundary at rest, with which a uniform
     /// pressure is in balance with a uniform stress.
     template <int dim>
@@ -109,18 +86,15 @@ namespace undine
 
 
   template <int dim>
-  ContactSurfaces<dim>::ContactSurfaces(const ContactSettings<dim> &settings,
-                                        const SolidModel<dim>      &solid,
-                                        const FluidModel<dim>      *fluid,
-                                        const Obstacles<dim>       *obstacles)
+  ContactSurfaces<dim>::ContactSurfaces(const std::vector<ContactWall<dim>> &walls,
+                                        const SolidModel<dim>               &solid,
+                                        const Obstacles<dim>                *obstacles)
     : body_surface(solid)
     , obstacles(obstacles)
     , all_facets(side_by_side(body_surface.surface(), obstacles))
-    , all_walls(settings.walls)
+    , all_walls(walls)
     , surfaces_of_nodes(all_facets.n_nodes())
   {
-    if (fluid && settings.at_domain)
-      add_domain_walls(*fluid);
     for (unsigned int facet = 0; facet < all_facets.facets().size(); ++facet)
       for (const unsigned int node : all_facets.facets()[facet])
         surfaces_of_nodes[node] = all_facets.body(facet);
@@ -146,23 +120,6 @@ namespace undine
     , grown_together(all.grown_together)
     , least_size(all.least_size)
   {
-  }
-
-
-  template <int dim>
-  void
-  ContactSurfaces<dim>::add_domain_walls(const FluidModel<dim> &fluid)
-  {
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      for (unsigned int end = 0; end < 2; ++end)
-        if (const Side side{axis, end}; is_wall(fluid, side))
-          {
-            ContactWall<dim> wall;
-            wall.name         = side_names()[side.number()];
-            wall.point        = end == 0 ? fluid.grid().lower() : fluid.grid().upper();
-            wall.normal[axis] = -side.sign();
-            all_walls.push_back(wall);
-          }
   }
 
 

@@ -3,8 +3,14 @@
 #include <undine/contact/find_overlap.h>
 #include <undine/surface/surface_distance.h>
 
+#include <deal.II/base/bounding_box.h>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
 
 namespace undine
 {
@@ -39,26 +45,14 @@ namespace undine
     }
 
 
-    /// Whether a node of another surface is in this one.
     template <int dim>
-    std::string
-    surface_complaint(const ContactSurfaces<dim>                     &surfaces,
-                      const typename ContactSurfaces<dim>::Positions &places,
-                      const unsigned int                              surface)
+    dealii::BoundingBox<dim>
+    box_of(const std::vector<unsigned int> &nodes, const std::vector<dealii::Point<dim>> &places)
     {
-      const SurfaceDistance<dim> distance(one_surface(surfaces.surface(), surface), places);
-      const auto                 box = distance.box();
-      for (unsigned int node = 0; node < places.size(); ++node)
-        {
-          const unsigned int other = surfaces.surface_of_node(node);
-          if (surfaces.meet(surface, other) && box.point_inside(places[node]) &&
-              !(distance.nearest(places[node]).distance > 0))
-            return fmt::format("'{}' overlaps '{}' at {}",
-                               surfaces.surface().body_names()[other],
-                               surfaces.surface().body_names()[surface],
-                               written(places[node]));
-        }
-      return "";
+      std::vector<dealii::Point<dim>> of_nodes;
+      for (const unsigned int node : nodes)
+        of_nodes.push_back(places[node]);
+      return dealii::BoundingBox<dim>(of_nodes);
     }
 
 
@@ -123,18 +117,68 @@ namespace undine
 
 
   template <int dim>
+  std::optional<NodeInSurface>
+  find_surfaces_that_overlap(const ContactSurfaces<dim>                            &surfaces,
+                             const typename ContactSurfaces<dim>::Positions        &places,
+                             const double                                           depth,
+                             const std::function<bool(unsigned int, unsigned int)> &counts)
+  {
+    std::vector<std::vector<unsigned int>> nodes(surfaces.surface().body_names().size());
+    for (unsigned int node = 0; node < places.size(); ++node)
+      nodes[surfaces.surface_of_node(node)].push_back(node);
+    for (unsigned int surface = 0; surface < nodes.size(); ++surface)
+      {
+        std::vector<unsigned int> inside; // of the box
+        const auto                box = box_of(nodes[surface], places);
+        for (unsigned int other = 0; other < nodes.size(); ++other)
+          if (other != surface && counts(surface, other))
+            std::copy_if(nodes[other].begin(),
+                         nodes[other].end(),
+                         std::back_inserter(inside),
+                         [&](const unsigned int node) { return box.point_inside(places[node]); });
+        if (inside.empty())
+          continue;
+        const SurfaceDistance<dim> distance(one_surface(surfaces.surface(), surface), places);
+        for (const unsigned int node : inside)
+          if (!(distance.nearest(places[node]).distance > -depth))
+            return NodeInSurface{node, surface};
+      }
+    return {};
+  }
+
+
+  template <int dim>
   std::string
   find_overlap(const ContactSurfaces<dim>                     &surfaces,
                const ActivationDistances<dim>                 &distances,
                const typename ContactSurfaces<dim>::Positions &places)
   {
     std::string complaint = wall_complaint(surfaces, places);
-    for (unsigned int s = 0; s < surfaces.surface().body_names().size() && complaint.empty(); ++s)
-      complaint = surface_complaint(surfaces, places, s);
-    return complaint.empty() ? own_complaint(surfaces, distances, places) : complaint;
+    if (!complaint.empty())
+      return complaint;
+    const auto overlap = find_surfaces_that_overlap<dim>(
+      surfaces, places, 0, [&](const unsigned int surface, const unsigned int other) {
+        return surfaces.meet(surface, other);
+      });
+    if (overlap)
+      return fmt::format("'{}' overlaps '{}' at {}",
+                         surfaces.surface().body_names()[surfaces.surface_of_node(overlap->node)],
+                         surfaces.surface().body_names()[overlap->surface],
+                         written(places[overlap->node]));
+    return own_complaint(surfaces, distances, places);
   }
 
 
+  template std::optional<NodeInSurface>
+  find_surfaces_that_overlap(const ContactSurfaces<2> &,
+                             const ContactSurfaces<2>::Positions &,
+                             double,
+                             const std::function<bool(unsigned int, unsigned int)> &);
+  template std::optional<NodeInSurface>
+  find_surfaces_that_overlap(const ContactSurfaces<3> &,
+                             const ContactSurfaces<3>::Positions &,
+                             double,
+                             const std::function<bool(unsigned int, unsigned int)> &);
   template std::string
   find_overlap(const ContactSurfaces<2> &,
                const ActivationDistances<2> &,

@@ -4,6 +4,7 @@
 
 #include <undine/contact/contact_pattern.h>
 #include <undine/contact/contact_potential.h>
+#include <undine/fluid/model/fluid_model.h>
 #include <undine/solid/assembly/contact.h>
 
 #include <vector>

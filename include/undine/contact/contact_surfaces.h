@@ -2,7 +2,6 @@
 #ifndef undine_contact_contact_surfaces_h
 #define undine_contact_contact_surfaces_h
 
-#include <undine/fluid/model/fluid_model.h>
 #include <undine/solid/assembly/contact_settings.h>
 #include <undine/surface/body_surface.h>
 #include <undine/surface/obstacles.h>
@@ -28,11 +27,10 @@ namespace undine
     using Positions = std::vector<dealii::Point<dim>>;
     using Vector    = typename SolidModel<dim>::Vector;
 
-    /// `fluid` and `obstacles`: nullptr if there are none. Collective. Throws InputError.
-    ContactSurfaces(const ContactSettings<dim> &settings,
-                    const SolidModel<dim>      &solid,
-                    const FluidModel<dim>      *fluid,
-                    const Obstacles<dim>       *obstacles);
+    /// `obstacles`: nullptr if there are none. Collective. Throws InputError.
+    ContactSurfaces(const std::vector<ContactWall<dim>> &walls,
+                    const SolidModel<dim>               &solid,
+                    const Obstacles<dim>                *obstacles);
 
     /// The same in which only some bodies move, or none: `bodies` has been made from
     /// `all.bodies()`. The obstacles must outlive it.
@@ -77,7 +75,7 @@ namespace undine
       return all_facets;
     }
 
-    /// The plane walls of the scene and, if the scene wants it, those of the fluid's domain.
+    /// The plane walls, as given.
     const std::vector<ContactWall<dim>> &
     walls() const
     {
@@ -120,6 +118,13 @@ namespace undine
       return fixed[body][wall];
     }
 
+    /// Is a part of the body behind the wall at rest?
+    bool
+    reaches_through(const unsigned int body, const unsigned int wall) const
+    {
+      return reaching[body][wall];
+    }
+
     /// Is there contact between a body's node and the wall? Not where the body is fixed and the
     /// node lies on the wall at rest, nor for any node if the body then reaches through the wall.
     bool
@@ -159,8 +164,6 @@ namespace undine
     }
 
   private:
-    void
-    add_domain_walls(const FluidModel<dim> &fluid);
     void
     measure(const SolidModel<dim> &solid);
     void

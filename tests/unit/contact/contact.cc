@@ -82,7 +82,7 @@ namespace
   {
     const double                   distance = .09;
     const Scene<dim>               scene(two_boxes<dim>(1, 0), .2);
-    const ContactSurfaces<dim>     surfaces(scene.settings(.2, -10), scene.model, nullptr, nullptr);
+    const ContactSurfaces<dim>     surfaces(scene.settings(.2, -10).walls, scene.model, nullptr);
     const ActivationDistances<dim> distances(surfaces, .2);
     for (const double aside : {0., 1e-9, .01, .2, .25, .5})
       {

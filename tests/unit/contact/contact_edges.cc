@@ -65,7 +65,7 @@ TEST_CASE("edges of a box are sharp, those of a ball are not", "[contact]")
 {
   const auto edges = [](const std::string &text) {
     const Scene<3> scene(text, .1);
-    return ContactSurfaces<3>(scene.settings(.1, -10), scene.model, nullptr, nullptr).sharp_edges();
+    return ContactSurfaces<3>(scene.settings(.1, -10).walls, scene.model, nullptr).sharp_edges();
   };
   const auto of_boxes = edges(two_boxes<3>(.5, .3));
   CHECK(of_boxes.size() == 2 * 12 * 2);
@@ -84,7 +84,7 @@ TEST_CASE("edges that cross push each other and do not pass", "[contact][mpi]")
 {
   const double             gap = .04;
   const Scene<3>           scene(cubes_on_edges(gap), .1);
-  const ContactSurfaces<3> surfaces(scene.settings(.1, -10), scene.model, nullptr, nullptr);
+  const ContactSurfaces<3> surfaces(scene.settings(.1, -10).walls, scene.model, nullptr);
   const Vector             start  = scene.model.vector();
   const auto               places = surfaces.positions(start, 0);
   const auto terms = find_contact_terms(surfaces, ActivationDistances<3>(surfaces, .1), places);
