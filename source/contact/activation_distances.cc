@@ -86,6 +86,9 @@ namespace undine
   bool
   ActivationDistances<dim>::meets_own(const unsigned int node, const unsigned int facet) const
   {
+    const auto &corners = surfaces.surface().facets()[facet];
+    if (std::find(corners.begin(), corners.end(), node) != corners.end())
+      return false;
     const auto normal = area_vector(surfaces.surface(), facet, surfaces.rest());
     return !is_close_behind<dim>(
       nearest_at_rest(surfaces, node, facet).from, normal / normal.norm(), general);

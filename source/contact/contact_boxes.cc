@@ -199,8 +199,17 @@ namespace undine
     Parts(std::size_t, NodesOf) -> Parts<NodesOf>;
 
 
-    /// Calls action(one, other) for parts of one body that have no common node and come near each
-    /// other, in ascending order.
+    template <class Nodes, class Others>
+    bool
+    have_common_node(const Nodes &nodes, const Others &others)
+    {
+      return std::find_first_of(nodes.begin(), nodes.end(), others.begin(), others.end()) !=
+             nodes.end();
+    }
+
+
+    /// Calls action(one, other) for parts of one body that come near each other, in ascending
+    /// order.
     template <int dim, class Ones, class Others>
     void
     for_each_near_of_own(const ContactSurfaces<dim>                            &surfaces,
@@ -229,10 +238,7 @@ namespace undine
             continue;
           find<dim>(found, tree, ends_of<dim>(nodes, from, end));
           for (const unsigned int other : found)
-            if (const auto &partners = others.nodes(other);
-                surfaces.surface_of_node(partners[0]) == surface &&
-                std::find_first_of(nodes.begin(), nodes.end(), partners.begin(), partners.end()) ==
-                  nodes.end())
+            if (surfaces.surface_of_node(others.nodes(other)[0]) == surface)
               action(one, other);
         }
     }
@@ -349,7 +355,8 @@ namespace undine
                               all,
                               all,
                               [&](const unsigned int one, const unsigned int other) {
-                                if (one < other)
+                                if (one < other &&
+                                    !have_common_node(edges[one].nodes, edges[other].nodes))
                                   action(one, other);
                               });
   }
@@ -364,7 +371,16 @@ namespace undine
   {
     const auto &facets = surfaces.surface().facets();
     const Parts all{facets.size(), [&](const unsigned int facet) { return facets[facet]; }};
-    for_each_near_of_own(surfaces, places, places, distance, all, all, action);
+    for_each_near_of_own<dim>(surfaces,
+                              places,
+                              places,
+                              distance,
+                              all,
+                              all,
+                              [&](const unsigned int one, const unsigned int other) {
+                                if (!have_common_node(facets[one], facets[other]))
+                                  action(one, other);
+                              });
   }
 
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -170,35 +171,19 @@ namespace undine
     }
 
 
-    /// The terms of nodes with the pairs that for_each(action) calls action(node, facet) for, in
-    /// ascending order of nodes; those of different surfaces do not mix.
-    template <int dim, class ForEach, class Distance>
-    void
-    add_nodes(std::vector<ContactTerm<dim>> &terms,
-              const ContactSurfaces<dim>    &surfaces,
-              const Positions<dim>          &places,
-              const Distance                &activation_distance,
-              const ForEach                 &for_each)
+    /// Facets, and of their ridges and corners those that belong to no facet that is left out: what
+    /// only one facet has counts once with that.
+    template <int dim>
+    std::set<Simplex<dim>>
+    without_rims(const std::set<Simplex<dim>> &parts, const std::set<Simplex<dim>> &left_out)
     {
-      std::map<unsigned int, std::set<Simplex<dim>>> parts; // by surface, of one node
-      unsigned int                                   last        = 0;
-      const auto                                     finish_node = [&] {
-        for (const auto &of_surface : parts)
-          add_node<dim>(terms,
-                        of_surface.second,
-                        last,
-                        places,
-                        surfaces.area(last) / 2,
-                        activation_distance(last));
-        parts.clear();
-      };
-      for_each([&](const unsigned int node, const unsigned int facet) {
-        if (node != last)
-          finish_node();
-        last = node;
-        add_parts<dim>(parts[surfaces.surface().body(facet)], surfaces.surface().facets()[facet]);
-      });
-      finish_node();
+      std::set<Simplex<dim>> result;
+      std::set_difference(parts.begin(),
+                          parts.end(),
+                          left_out.begin(),
+                          left_out.end(),
+                          std::inserter(result, result.end()));
+      return result;
     }
 
 
@@ -209,15 +194,22 @@ namespace undine
                            const ActivationDistances<dim> &distances,
                            const Positions<dim>           &places)
     {
-      const double distance = distances.of_others();
-      add_nodes(
-        terms,
-        surfaces,
-        places,
-        [&](const unsigned int) { return distance; },
-        [&](const auto &action) {
-          for_each_near_pair(surfaces, places, places, distance, action);
+      const double                                   distance = distances.of_others();
+      std::map<unsigned int, std::set<Simplex<dim>>> parts; // by surface, of one node
+      unsigned int                                   last        = 0;
+      const auto                                     finish_node = [&] {
+        for (const auto &of_surface : parts)
+          add_node<dim>(terms, of_surface.second, last, places, surfaces.area(last) / 2, distance);
+        parts.clear();
+      };
+      for_each_near_pair(
+        surfaces, places, places, distance, [&](const unsigned int node, const unsigned int facet) {
+          if (node != last)
+            finish_node();
+          last = node;
+          add_parts<dim>(parts[surfaces.surface().body(facet)], surfaces.surface().facets()[facet]);
         });
+      finish_node();
       const auto &edges = surfaces.sharp_edges();
       for_each_near_edges<dim>(
         surfaces, places, places, distance, [&](const unsigned int one, const unsigned int other) {
@@ -233,21 +225,32 @@ namespace undine
                      const ActivationDistances<dim> &distances,
                      const Positions<dim>           &places)
     {
-      add_nodes(
-        terms,
-        surfaces,
-        places,
-        [&](const unsigned int node) { return distances.of_own(node); },
-        [&](const auto &action) {
-          for_each_near_own_pair<dim>(surfaces,
-                                      places,
-                                      places,
-                                      distances.of_others(),
-                                      [&](const unsigned int node, const unsigned int facet) {
-                                        if (distances.meets_own(node, facet))
-                                          action(node, facet);
-                                      });
-        });
+      std::set<Simplex<dim>> parts, left_out; // of what one node meets, and does not meet
+      unsigned int           last        = 0;
+      const auto             finish_node = [&] {
+        if (!parts.empty())
+          add_node<dim>(terms,
+                        without_rims(parts, left_out),
+                        last,
+                        places,
+                        surfaces.area(last) / 2,
+                        distances.of_own(last));
+        parts.clear();
+        left_out.clear();
+      };
+      for_each_near_own_pair<dim>(surfaces,
+                                  places,
+                                  places,
+                                  distances.of_others(),
+                                  [&](const unsigned int node, const unsigned int facet) {
+                                    if (node != last)
+                                      finish_node();
+                                    last = node;
+                                    add_parts<dim>(distances.meets_own(node, facet) ? parts
+                                                                                    : left_out,
+                                                   surfaces.surface().facets()[facet]);
+                                  });
+      finish_node();
       const auto &edges = surfaces.sharp_edges();
       for_each_near_own_edges<dim>(
         surfaces,

@@ -50,7 +50,7 @@ namespace undine
     double
     of_own_edges(unsigned int one, unsigned int other) const;
 
-    /// Does a node meet this facet of its own surface, of which it is no corner?
+    /// Does a node meet this facet of its own surface?
     bool
     meets_own(unsigned int node, unsigned int facet) const;
 

@@ -30,8 +30,8 @@ namespace undine
                       double                                                 distance,
                       const std::function<void(unsigned int, unsigned int)> &action);
 
-  /// The same for pairs of one body's surface, whose nodes are none of the facet's: near on their
-  /// paths against the body's mean motion.
+  /// The same for pairs of one body's surface, near on their paths against the body's mean motion;
+  /// for the facets that the node is a corner of, too.
   template <int dim>
   void
   for_each_near_own_pair(const ContactSurfaces<dim>                            &surfaces,
