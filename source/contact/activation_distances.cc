@@ -13,11 +13,11 @@ namespace undine
     /// Of the distance at rest, for what belongs together.
     constexpr double share_of_rest = 0.5;
 
-    /// What lies behind a surface is met from so many D on: what is between is never squeezed that
-    /// much.
-    constexpr double squeezed = 10;
+    /// What is not in front of a facet at rest is met from so many D on: material between the two
+    /// may be squeezed to a fifth.
+    constexpr double squeezed = 5;
 
-    /// Sine of the angle with a surface from which on a place is in front of it or behind it.
+    /// Sine of the angle with a facet from which on a place is in front of it.
     constexpr double sine_of_front = 0.5;
 
 
@@ -39,15 +39,15 @@ namespace undine
     }
 
 
-    /// Is a place that is `from` away from a surface [m] close behind it?
+    /// Does a place that is `from` away from a surface at rest [m] meet it?
     template <int dim>
     bool
-    is_close_behind(const dealii::Tensor<1, dim> &from,
-                    const dealii::Tensor<1, dim> &outwards,
-                    const double                  activation_distance)
+    meets(const dealii::Tensor<1, dim> &from,
+          const dealii::Tensor<1, dim> &outwards,
+          const double                  activation_distance)
     {
-      return from.norm() < squeezed * activation_distance &&
-             from * outwards < -sine_of_front * from.norm();
+      return from.norm() >= squeezed * activation_distance ||
+             from * outwards >= sine_of_front * from.norm();
     }
   } // namespace
 
@@ -90,8 +90,7 @@ namespace undine
     if (std::find(corners.begin(), corners.end(), node) != corners.end())
       return false;
     const auto normal = area_vector(surfaces.surface(), facet, surfaces.rest());
-    return !is_close_behind<dim>(
-      nearest_at_rest(surfaces, node, facet).from, normal / normal.norm(), general);
+    return meets<dim>(nearest_at_rest(surfaces, node, facet).from, normal / normal.norm(), general);
   }
 
 
@@ -121,9 +120,9 @@ namespace undine
     dealii::Tensor<1, dim> outwards; // of the second edge, seen from both
     for (unsigned int axis = 0; axis < dim; ++axis)
       outwards[axis] = 0.5 * (b.outwards[axis] - a.outwards[axis]);
-    return is_close_behind<dim>(nearest.from, outwards, general)
-             ? 0.
-             : std::min(general, share_of_rest * nearest.distance);
+    return meets<dim>(nearest.from, outwards, general)
+             ? std::min(general, share_of_rest * nearest.distance)
+             : 0.;
   }
 
 

@@ -14,9 +14,10 @@ namespace undine
   ///
   ///     D_i = min(D, r_i / 2)                                                               (S19)
   ///
-  /// r_i being the least distance of node i at rest from what it meets there. A node meets neither
-  /// the facets that it is a corner of nor those that it lies close behind, through its own
-  /// material: these come nearer when a sheet becomes thinner.
+  /// r_i being the least distance of node i at rest from what it meets there. Of its own surface it
+  /// meets facets that are five D away at rest, and nearer ones that it is in front of: all others
+  /// are joined to it by material, which may become as thin as D, be it a sheet or the facet
+  /// beside.
   template <int dim>
   class ActivationDistances
   {
