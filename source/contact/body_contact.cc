@@ -130,6 +130,7 @@ namespace undine
     , surfaces(all_walls(given, fluid), solid, obstacles)
     , settings(completed(given, solid, surfaces))
     , distances(surfaces, settings.activation_distance)
+    , own_pairs(surfaces, distances)
     , pattern(solid, surfaces.bodies())
   {
   }
@@ -143,6 +144,7 @@ namespace undine
     , surfaces(all.surfaces, bodies)
     , settings(all.settings)
     , distances(all.distances, surfaces)
+    , own_pairs(surfaces, distances)
     , pattern(solid, surfaces.bodies())
   {
   }
@@ -153,7 +155,8 @@ namespace undine
   typename BodyContact<dim>::Terms
   BodyContact<dim>::terms(const Positions &places) const
   {
-    const auto result = find_contact_terms(surfaces, distances, places);
+    const auto result =
+      find_contact_terms(surfaces, distances, own_pairs.nearby(places, places), places);
     for (const auto &term : result)
       if (!(term.distance > 0))
         throw SolveError(
@@ -271,7 +274,8 @@ namespace undine
   {
     const auto places_from = surfaces.positions(from.displacement, from.time);
     const auto places_to   = surfaces.positions(to.displacement, to.time);
-    return undine::collision_free_fraction(surfaces, distances, places_from, places_to);
+    return undine::collision_free_fraction(
+      surfaces, distances, own_pairs.nearby(places_from, places_to), places_from, places_to);
   }
 
 

@@ -168,27 +168,22 @@ namespace undine
     double
     part_to_itself(const ContactSurfaces<dim>                     &surfaces,
                    const ActivationDistances<dim>                 &distances,
+                   const OwnPairsNearby                           &nearby,
                    const typename ContactSurfaces<dim>::Positions &from,
                    const typename ContactSurfaces<dim>::Positions &to,
                    const double                                    limit)
     {
-      double       part = limit;
-      const double most = closest(distances.of_others());
-      for_each_near_own_pair<dim>(
-        surfaces, from, to, most, [&](const unsigned int node, const unsigned int facet) {
-          if (!distances.meets_own(node, facet))
-            return;
-          const auto pair = node_and_facet<dim>(from, to, node, surfaces.surface().facets()[facet]);
-          part            = part_without_hit(pair, closest(distances.of_own(node)), part);
-        });
-      for_each_near_own_edges<dim>(
-        surfaces, from, to, most, [&](const unsigned int one, const unsigned int other) {
-          const double distance = distances.of_own_edges(one, other);
-          const auto  &edges    = surfaces.sharp_edges();
-          if (distance > 0)
-            part = part_without_hit(
-              two_edges<dim>(from, to, edges[one], edges[other]), closest(distance), part);
-        });
+      double part = limit;
+      for (const auto &pair : nearby.facets)
+        part = part_without_hit(
+          node_and_facet<dim>(from, to, pair.first, surfaces.surface().facets()[pair.second]),
+          closest(distances.of_own(pair.first)),
+          part);
+      const auto &edges = surfaces.sharp_edges();
+      for (const auto &pair : nearby.edges)
+        part = part_without_hit(two_edges<dim>(from, to, edges[pair.first], edges[pair.second]),
+                                closest(distances.of_own_edges(pair.first, pair.second)),
+                                part);
       return part;
     }
   } // namespace
@@ -198,6 +193,7 @@ namespace undine
   double
   collision_free_fraction(const ContactSurfaces<dim>                     &surfaces,
                           const ActivationDistances<dim>                 &distances,
+                          const OwnPairsNearby                           &nearby,
                           const typename ContactSurfaces<dim>::Positions &from,
                           const typename ContactSurfaces<dim>::Positions &to)
   {
@@ -213,18 +209,20 @@ namespace undine
         const auto &edges = surfaces.sharp_edges();
         part = part_without_hit(two_edges<dim>(from, to, edges[one], edges[other]), least, part);
       });
-    return std::max(part_to_itself(surfaces, distances, from, to, part), 0.);
+    return std::max(part_to_itself(surfaces, distances, nearby, from, to, part), 0.);
   }
 
 
   template double
   collision_free_fraction(const ContactSurfaces<2> &,
                           const ActivationDistances<2> &,
+                          const OwnPairsNearby &,
                           const ContactSurfaces<2>::Positions &,
                           const ContactSurfaces<2>::Positions &);
   template double
   collision_free_fraction(const ContactSurfaces<3> &,
                           const ActivationDistances<3> &,
+                          const OwnPairsNearby &,
                           const ContactSurfaces<3>::Positions &,
                           const ContactSurfaces<3>::Positions &);
 } // namespace undine

@@ -223,43 +223,33 @@ namespace undine
     add_own_surfaces(std::vector<ContactTerm<dim>>  &terms,
                      const ContactSurfaces<dim>     &surfaces,
                      const ActivationDistances<dim> &distances,
+                     const OwnPairsNearby           &nearby,
                      const Positions<dim>           &places)
     {
-      std::set<Simplex<dim>> parts, left_out; // of what one node meets, and does not meet
-      unsigned int           last        = 0;
-      const auto             finish_node = [&] {
-        if (!parts.empty())
+      const auto &facets   = surfaces.surface().facets();
+      auto        left_out = nearby.left_out.begin();
+      for (auto pair = nearby.facets.begin(); pair != nearby.facets.end();)
+        {
+          const unsigned int     node = pair->first;
+          std::set<Simplex<dim>> parts, others;
+          for (; pair != nearby.facets.end() && pair->first == node; ++pair)
+            add_parts<dim>(parts, facets[pair->second]);
+          for (; left_out != nearby.left_out.end() && left_out->first == node; ++left_out)
+            add_parts<dim>(others, facets[left_out->second]);
           add_node<dim>(terms,
-                        without_rims(parts, left_out),
-                        last,
+                        without_rims(parts, others),
+                        node,
                         places,
-                        surfaces.area(last) / 2,
-                        distances.of_own(last));
-        parts.clear();
-        left_out.clear();
-      };
-      for_each_near_own_pair<dim>(surfaces,
-                                  places,
-                                  places,
-                                  distances.of_others(),
-                                  [&](const unsigned int node, const unsigned int facet) {
-                                    if (node != last)
-                                      finish_node();
-                                    last = node;
-                                    add_parts<dim>(distances.meets_own(node, facet) ? parts
-                                                                                    : left_out,
-                                                   surfaces.surface().facets()[facet]);
-                                  });
-      finish_node();
+                        surfaces.area(node) / 2,
+                        distances.of_own(node));
+        }
       const auto &edges = surfaces.sharp_edges();
-      for_each_near_own_edges<dim>(
-        surfaces,
-        places,
-        places,
-        distances.of_others(),
-        [&](const unsigned int one, const unsigned int other) {
-          add_edges(terms, edges[one], edges[other], places, distances.of_own_edges(one, other));
-        });
+      for (const auto &pair : nearby.edges)
+        add_edges(terms,
+                  edges[pair.first],
+                  edges[pair.second],
+                  places,
+                  distances.of_own_edges(pair.first, pair.second));
     }
   } // namespace
 
@@ -268,12 +258,13 @@ namespace undine
   std::vector<ContactTerm<dim>>
   find_contact_terms(const ContactSurfaces<dim>     &surfaces,
                      const ActivationDistances<dim> &distances,
+                     const OwnPairsNearby           &nearby,
                      const Positions<dim>           &places)
   {
     std::vector<ContactTerm<dim>> terms;
     add_walls(terms, surfaces, distances, places);
     add_different_surfaces(terms, surfaces, distances, places);
-    add_own_surfaces(terms, surfaces, distances, places);
+    add_own_surfaces(terms, surfaces, distances, nearby, places);
     return terms;
   }
 
@@ -281,9 +272,11 @@ namespace undine
   template std::vector<ContactTerm<2>>
   find_contact_terms(const ContactSurfaces<2> &,
                      const ActivationDistances<2> &,
+                     const OwnPairsNearby &,
                      const std::vector<dealii::Point<2>> &);
   template std::vector<ContactTerm<3>>
   find_contact_terms(const ContactSurfaces<3> &,
                      const ActivationDistances<3> &,
+                     const OwnPairsNearby &,
                      const std::vector<dealii::Point<3>> &);
 } // namespace undine

@@ -86,6 +86,7 @@ namespace undine
     const ContactSurfaces<dim>     surfaces;
     const ContactSettings<dim>     settings; ///< D and k are set
     const ActivationDistances<dim> distances;
+    const OwnPairs<dim>            own_pairs;
     mutable ContactPattern<dim>    pattern;
   };
 } // namespace undine

@@ -4,6 +4,7 @@
 
 #include <undine/contact/activation_distances.h>
 #include <undine/contact/contact_surfaces.h>
+#include <undine/contact/own_pairs.h>
 #include <undine/surface/nearest_in_simplex.h>
 
 #include <array>
@@ -45,12 +46,14 @@ namespace undine
   /// only: for every node those with all facets, minus those with ridges, plus those with corners
   /// (in 2D facets minus ends), so that a flat or convex surface counts once wherever the rims of
   /// facets are. Where the nodes of both surfaces have terms, each counts half. Then pairs of sharp
-  /// edges; first those of different surfaces, then those of one with itself. R-trees make the time
+  /// edges; first those of different surfaces, then those of one with itself, which must be among
+  /// those `nearby`. R-trees make the time
   /// proportional to the size of the surfaces. Not collective.
   template <int dim>
   std::vector<ContactTerm<dim>>
   find_contact_terms(const ContactSurfaces<dim>                     &surfaces,
                      const ActivationDistances<dim>                 &distances,
+                     const OwnPairsNearby                           &nearby,
                      const typename ContactSurfaces<dim>::Positions &places);
 } // namespace undine
 

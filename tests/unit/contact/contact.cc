@@ -92,7 +92,11 @@ namespace
           path[axis] = aside;
         const auto   places = surfaces.positions(scene.shift(path), 0);
         unsigned int found  = 0;
-        for (const auto &term : find_contact_terms(surfaces, distances, places))
+        for (const auto &term :
+             find_contact_terms(surfaces,
+                                distances,
+                                OwnPairs<dim>(surfaces, distances).nearby(places, places),
+                                places))
           if (const auto node = term.nodes[0]; surfaces.surface_of_node(node) == 1)
             {
               const auto &x      = places[node];

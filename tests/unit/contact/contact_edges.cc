@@ -126,7 +126,7 @@ TEST_CASE("edges that cross push each other and do not pass", "[contact][mpi]")
   const ContactSurfaces<3> surfaces(scene.settings(.1, -10).walls, scene.model, nullptr);
   const Vector             start  = scene.model.vector();
   const auto               places = surfaces.positions(start, 0);
-  const auto terms = find_contact_terms(surfaces, ActivationDistances<3>(surfaces, .1), places);
+  const auto terms = find_contact_terms(surfaces, ActivationDistances<3>(surfaces, .1), {}, places);
   const ContactPotential<3> potential(3);
   REQUIRE(terms.size() == 1);
   CHECK(terms[0].n == 4);

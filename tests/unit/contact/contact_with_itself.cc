@@ -200,7 +200,7 @@ TEST_CASE("a body that ends on a wall keeps off it elsewhere", "[contact]")
       place[0] *= squeezed;
     unsigned int found = 0;
     for (const auto &term :
-         find_contact_terms(surfaces, ActivationDistances<2>(surfaces, .4), places))
+         find_contact_terms(surfaces, ActivationDistances<2>(surfaces, .4), {}, places))
       if (term.wall != term.no_wall)
         {
           ++found;
