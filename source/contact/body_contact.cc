@@ -2,6 +2,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/contact/body_contact.h>
 #include <undine/contact/collision_free_fraction.h>
+#include <undine/contact/domain_walls.h>
 #include <undine/contact/find_overlap.h>
 #include <undine/contact/make_contact.h>
 
@@ -31,17 +32,59 @@ namespace undine
     }
 
 
-    /// Pairs of nodes of different bodies that terms couple.
+    /// Those of the scene and, if it wants them, sides of the fluid's domain through which no fluid
+    /// passes.
+    template <int dim>
+    std::vector<ContactWall<dim>>
+    all_walls(const ContactSettings<dim> &settings, const FluidModel<dim> *fluid)
+    {
+      auto result = settings.walls;
+      if (fluid && settings.at_domain)
+        for (const auto &wall : domain_walls(*fluid))
+          if (wall.is_closed)
+            result.push_back(wall.plane);
+      return result;
+    }
+
+
+    /// The settings, with what the scene leaves to the mesh.
+    template <int dim>
+    ContactSettings<dim>
+    completed(ContactSettings<dim>        settings,
+              const SolidModel<dim>      &solid,
+              const ContactSurfaces<dim> &surfaces)
+    {
+      if (settings.activation_distance == 0)
+        settings.activation_distance = share_of_facet * surfaces.facet_size();
+      if (settings.stiffness == 0)
+        settings.stiffness = least_modulus(solid);
+      return settings;
+    }
+
+
+    /// Is it contact of a surface with itself?
+    template <int dim>
+    bool
+    meets_itself(const ContactTerm<dim> &term, const ContactSurfaces<dim> &surfaces)
+    {
+      return term.n > 1 && surfaces.surface_of_node(term.nodes[0]) ==
+                             surfaces.surface_of_node(term.nodes[term.n - 1]);
+    }
+
+
+    /// Pairs of nodes that terms couple and elements may not: those of different surfaces, and of a
+    /// surface in contact with itself.
     template <int dim>
     typename ContactPattern<dim>::Pairs
     coupled_pairs(const std::vector<ContactTerm<dim>> &terms, const ContactSurfaces<dim> &surfaces)
     {
       typename ContactPattern<dim>::Pairs result;
+      const auto surface = [&](const unsigned int node) { return surfaces.surface_of_node(node); };
       for (const auto &term : terms)
         for (unsigned int i = 0; i < term.n; ++i)
           for (unsigned int j = i + 1; j < term.n; ++j)
             if (surfaces.moves(term.nodes[i]) && surfaces.moves(term.nodes[j]) &&
-                surfaces.surface_of_node(term.nodes[i]) != surfaces.surface_of_node(term.nodes[j]))
+                (surface(term.nodes[i]) != surface(term.nodes[j]) || meets_itself(term, surfaces)))
               result.insert({term.nodes[i], term.nodes[j]});
       return result;
     }
@@ -84,14 +127,12 @@ namespace undine
                                 const FluidModel<dim>      *fluid,
                                 const Obstacles<dim>       *obstacles)
     : solid(solid)
-    , settings(given)
-    , surfaces(given, solid, fluid, obstacles)
+    , surfaces(all_walls(given, fluid), solid, obstacles)
+    , settings(completed(given, solid, surfaces))
+    , distances(surfaces, settings.activation_distance)
+    , own_pairs(surfaces, distances)
     , pattern(solid, surfaces.bodies())
   {
-    if (settings.activation_distance == 0)
-      settings.activation_distance = share_of_facet * surfaces.facet_size();
-    if (settings.stiffness == 0)
-      settings.stiffness = least_modulus(solid);
   }
 
 
@@ -100,8 +141,10 @@ namespace undine
                                 const SolidModel<dim>  &solid,
                                 const BodySurface<dim> &bodies)
     : solid(solid)
-    , settings(all.settings)
     , surfaces(all.surfaces, bodies)
+    , settings(all.settings)
+    , distances(all.distances, surfaces)
+    , own_pairs(surfaces, distances)
     , pattern(solid, surfaces.bodies())
   {
   }
@@ -112,8 +155,9 @@ namespace undine
   typename BodyContact<dim>::Terms
   BodyContact<dim>::terms(const Positions &places) const
   {
-    const auto result = find_contact_terms(surfaces, places, settings.activation_distance);
-    const auto owner  = [&](const unsigned int node) {
+    const auto result =
+      find_contact_terms(surfaces, distances, own_pairs.nearby(places, places), places);
+    const auto owner = [&](const unsigned int node) {
       return "'" + surfaces.surface().body_names()[surfaces.surface_of_node(node)] + "'";
     };
     for (const auto &term : result)
@@ -126,8 +170,9 @@ namespace undine
             "motion of supports or obstacles that leaves a gap, or a smaller step, in "
             "which what is pushed can give way.",
             owner(term.nodes[0]),
-            term.wall == term.no_wall ? owner(term.nodes[term.n - 1])
-                                      : "wall '" + surfaces.walls()[term.wall].name + "'",
+            term.wall != term.no_wall      ? "wall '" + surfaces.walls()[term.wall].name + "'"
+            : meets_itself(term, surfaces) ? "itself"
+                                           : owner(term.nodes[term.n - 1]),
             fmt::join(place.begin_raw(), place.begin_raw() + dim, ", "),
             term.distance));
         }
@@ -139,7 +184,7 @@ namespace undine
   ContactPotential<dim>
   BodyContact<dim>::potential() const
   {
-    return {settings.activation_distance, settings.stiffness};
+    return ContactPotential<dim>(settings.stiffness);
   }
 
 
@@ -241,7 +286,7 @@ namespace undine
     const auto places_from = surfaces.positions(from.displacement, from.time);
     const auto places_to   = surfaces.positions(to.displacement, to.time);
     return undine::collision_free_fraction(
-      surfaces, places_from, places_to, settings.activation_distance / 2);
+      surfaces, distances, own_pairs.nearby(places_from, places_to), places_from, places_to);
   }
 
 
@@ -249,7 +294,8 @@ namespace undine
   void
   BodyContact<dim>::check_start(const Vector &displacement, const double time) const
   {
-    const std::string overlap = find_overlap(surfaces, surfaces.positions(displacement, time));
+    const std::string overlap =
+      find_overlap(surfaces, distances, surfaces.positions(displacement, time));
     if (!overlap.empty())
       throw settings.options.error(
         "",

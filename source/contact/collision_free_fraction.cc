@@ -11,6 +11,14 @@ namespace undine
 {
   namespace
   {
+    /// What a gap that was wide may close to.
+    double
+    closest(const double activation_distance)
+    {
+      return activation_distance / 2;
+    }
+
+
     /// A node and a facet on their straight paths.
     template <int dim>
     struct NodeAndFacet
@@ -128,51 +136,93 @@ namespace undine
         }
       return part;
     }
+
+
+    /// The part of the paths on which nothing hits a wall.
+    template <int dim>
+    double
+    part_to_walls(const ContactSurfaces<dim>                     &surfaces,
+                  const ActivationDistances<dim>                 &distances,
+                  const typename ContactSurfaces<dim>::Positions &from,
+                  const typename ContactSurfaces<dim>::Positions &to)
+    {
+      double part = 1;
+      for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
+        for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
+          {
+            if (!surfaces.meets_wall(node, wall))
+              continue;
+            const auto  &plane  = surfaces.walls()[wall];
+            const double before = (from[node] - plane.point) * plane.normal;
+            const double after  = (to[node] - plane.point) * plane.normal;
+            const double least  = std::min(0.2 * before, closest(distances.of_wall(node, wall)));
+            if (after < least)
+              part = std::min(part, (before - least) / (before - after));
+          }
+      return part;
+    }
+
+
+    /// The part of the paths, at most `limit`, on which no body hits itself.
+    template <int dim>
+    double
+    part_to_itself(const ContactSurfaces<dim>                     &surfaces,
+                   const ActivationDistances<dim>                 &distances,
+                   const OwnPairsNearby                           &nearby,
+                   const typename ContactSurfaces<dim>::Positions &from,
+                   const typename ContactSurfaces<dim>::Positions &to,
+                   const double                                    limit)
+    {
+      double part = limit;
+      for (const auto &pair : nearby.facets)
+        part = part_without_hit(
+          node_and_facet<dim>(from, to, pair.first, surfaces.surface().facets()[pair.second]),
+          closest(distances.of_own(pair.first)),
+          part);
+      const auto &edges = surfaces.sharp_edges();
+      for (const auto &pair : nearby.edges)
+        part = part_without_hit(two_edges<dim>(from, to, edges[pair.first], edges[pair.second]),
+                                closest(distances.of_own_edges(pair.first, pair.second)),
+                                part);
+      return part;
+    }
   } // namespace
 
 
   template <int dim>
   double
   collision_free_fraction(const ContactSurfaces<dim>                     &surfaces,
+                          const ActivationDistances<dim>                 &distances,
+                          const OwnPairsNearby                           &nearby,
                           const typename ContactSurfaces<dim>::Positions &from,
-                          const typename ContactSurfaces<dim>::Positions &to,
-                          const double                                    closest)
+                          const typename ContactSurfaces<dim>::Positions &to)
   {
-    double part = 1;
-    for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
-      for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
-        {
-          if (surfaces.is_fixed_at(surfaces.surface_of_node(node), wall))
-            continue;
-          const auto  &plane  = surfaces.walls()[wall];
-          const double before = (from[node] - plane.point) * plane.normal;
-          const double after  = (to[node] - plane.point) * plane.normal;
-          const double least  = std::min(0.2 * before, closest);
-          if (after < least)
-            part = std::min(part, (before - least) / (before - after));
-        }
+    double       part  = part_to_walls(surfaces, distances, from, to);
+    const double least = closest(distances.of_others());
     for_each_near_pair<dim>(
-      surfaces, from, to, closest, [&](const unsigned int node, const unsigned int facet) {
+      surfaces, from, to, least, [&](const unsigned int node, const unsigned int facet) {
         const auto pair = node_and_facet<dim>(from, to, node, surfaces.surface().facets()[facet]);
-        part            = part_without_hit(pair, closest, part);
+        part            = part_without_hit(pair, least, part);
       });
     for_each_near_edges<dim>(
-      surfaces, from, to, closest, [&](const unsigned int one, const unsigned int other) {
+      surfaces, from, to, least, [&](const unsigned int one, const unsigned int other) {
         const auto &edges = surfaces.sharp_edges();
-        part = part_without_hit(two_edges<dim>(from, to, edges[one], edges[other]), closest, part);
+        part = part_without_hit(two_edges<dim>(from, to, edges[one], edges[other]), least, part);
       });
-    return std::max(part, 0.);
+    return std::max(part_to_itself(surfaces, distances, nearby, from, to, part), 0.);
   }
 
 
   template double
   collision_free_fraction(const ContactSurfaces<2> &,
+                          const ActivationDistances<2> &,
+                          const OwnPairsNearby &,
                           const ContactSurfaces<2>::Positions &,
-                          const ContactSurfaces<2>::Positions &,
-                          double);
+                          const ContactSurfaces<2>::Positions &);
   template double
   collision_free_fraction(const ContactSurfaces<3> &,
+                          const ActivationDistances<3> &,
+                          const OwnPairsNearby &,
                           const ContactSurfaces<3>::Positions &,
-                          const ContactSurfaces<3>::Positions &,
-                          double);
+                          const ContactSurfaces<3>::Positions &);
 } // namespace undine

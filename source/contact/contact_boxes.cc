@@ -161,6 +161,87 @@ namespace undine
         found.push_back(leaf.second);
       std::sort(found.begin(), found.end());
     }
+
+
+    /// `to` less the mean motion from `from` of each body.
+    template <int dim>
+    typename ContactSurfaces<dim>::Positions
+    without_mean_motion(const ContactSurfaces<dim>                     &surfaces,
+                        const typename ContactSurfaces<dim>::Positions &from,
+                        const typename ContactSurfaces<dim>::Positions &to)
+    {
+      auto result = to;
+      if (&from == &to)
+        return result;
+      std::vector<dealii::Tensor<1, dim>> motions(surfaces.n_bodies());
+      std::vector<unsigned int>           counts(surfaces.n_bodies());
+      for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
+        {
+          motions[surfaces.surface_of_node(node)] += to[node] - from[node];
+          ++counts[surfaces.surface_of_node(node)];
+        }
+      for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
+        if (const unsigned int body = surfaces.surface_of_node(node); counts[body] > 0)
+          result[node] -= motions[body] / counts[body];
+      return result;
+    }
+
+
+    /// Parts of surfaces, such as facets: how many there are, and the nodes of each.
+    template <class NodesOf>
+    struct Parts
+    {
+      std::size_t size;
+      NodesOf     nodes;
+    };
+
+    template <class NodesOf>
+    Parts(std::size_t, NodesOf) -> Parts<NodesOf>;
+
+
+    template <class Nodes, class Others>
+    bool
+    have_common_node(const Nodes &nodes, const Others &others)
+    {
+      return std::find_first_of(nodes.begin(), nodes.end(), others.begin(), others.end()) !=
+             nodes.end();
+    }
+
+
+    /// Calls action(one, other) for parts of one body that come near each other, in ascending
+    /// order.
+    template <int dim, class Ones, class Others>
+    void
+    for_each_near_of_own(const ContactSurfaces<dim>                            &surfaces,
+                         const typename ContactSurfaces<dim>::Positions        &from,
+                         const typename ContactSurfaces<dim>::Positions        &to,
+                         const double                                           distance,
+                         const Ones                                            &ones,
+                         const Others                                          &others,
+                         const std::function<void(unsigned int, unsigned int)> &action)
+    {
+      const auto             end = without_mean_motion(surfaces, from, to);
+      std::vector<Leaf<dim>> leaves;
+      for (unsigned int other = 0; other < others.size; ++other)
+        if (surfaces.is_body(surfaces.surface_of_node(others.nodes(other)[0])))
+          leaves.emplace_back(
+            Box<dim>(widened(ends_of<dim>(others.nodes(other), from, end), distance)), other);
+      if (leaves.empty())
+        return;
+      const auto                tree = dealii::pack_rtree(leaves);
+      std::vector<unsigned int> found;
+      for (unsigned int one = 0; one < ones.size; ++one)
+        {
+          const auto        &nodes   = ones.nodes(one);
+          const unsigned int surface = surfaces.surface_of_node(nodes[0]);
+          if (!surfaces.is_body(surface))
+            continue;
+          find<dim>(found, tree, ends_of<dim>(nodes, from, end));
+          for (const unsigned int other : found)
+            if (surfaces.surface_of_node(others.nodes(other)[0]) == surface)
+              action(one, other);
+        }
+    }
   } // namespace
 
 
@@ -241,28 +322,91 @@ namespace undine
   }
 
 
-  template void
-  for_each_near_pair(const ContactSurfaces<2> &,
-                     const std::vector<dealii::Point<2>> &,
-                     const std::vector<dealii::Point<2>> &,
-                     double,
+  template <int dim>
+  void
+  for_each_near_own_pair(const ContactSurfaces<dim>                            &surfaces,
+                         const typename ContactSurfaces<dim>::Positions        &from,
+                         const typename ContactSurfaces<dim>::Positions        &to,
+                         const double                                           distance,
+                         const std::function<void(unsigned int, unsigned int)> &action)
+  {
+    const auto &facets = surfaces.surface().facets();
+    const Parts nodes{surfaces.bodies().n_nodes(),
+                      [](const unsigned int node) { return std::array<unsigned int, 1>{{node}}; }};
+    const Parts others{facets.size(), [&](const unsigned int facet) { return facets[facet]; }};
+    for_each_near_of_own(surfaces, from, to, distance, nodes, others, action);
+  }
+
+
+  template <int dim>
+  void
+  for_each_near_own_edges(const ContactSurfaces<dim>                            &surfaces,
+                          const typename ContactSurfaces<dim>::Positions        &from,
+                          const typename ContactSurfaces<dim>::Positions        &to,
+                          const double                                           distance,
+                          const std::function<void(unsigned int, unsigned int)> &action)
+  {
+    const auto &edges = surfaces.sharp_edges();
+    const Parts all{edges.size(), [&](const unsigned int edge) { return edges[edge].nodes; }};
+    for_each_near_of_own<dim>(surfaces,
+                              from,
+                              to,
+                              distance,
+                              all,
+                              all,
+                              [&](const unsigned int one, const unsigned int other) {
+                                if (one < other &&
+                                    !have_common_node(edges[one].nodes, edges[other].nodes))
+                                  action(one, other);
+                              });
+  }
+
+
+  template <int dim>
+  void
+  for_each_near_own_facets(const ContactSurfaces<dim>                            &surfaces,
+                           const typename ContactSurfaces<dim>::Positions        &places,
+                           const double                                           distance,
+                           const std::function<void(unsigned int, unsigned int)> &action)
+  {
+    const auto &facets = surfaces.surface().facets();
+    const Parts all{facets.size(), [&](const unsigned int facet) { return facets[facet]; }};
+    for_each_near_of_own<dim>(surfaces,
+                              places,
+                              places,
+                              distance,
+                              all,
+                              all,
+                              [&](const unsigned int one, const unsigned int other) {
+                                if (!have_common_node(facets[one], facets[other]))
+                                  action(one, other);
+                              });
+  }
+
+
+#define UNDINE_INSTANTIATE(name, dim)                         \
+  template void name(const ContactSurfaces<dim> &,            \
+                     const std::vector<dealii::Point<dim>> &, \
+                     const std::vector<dealii::Point<dim>> &, \
+                     double,                                  \
                      const std::function<void(unsigned int, unsigned int)> &);
-  template void
-  for_each_near_pair(const ContactSurfaces<3> &,
-                     const std::vector<dealii::Point<3>> &,
-                     const std::vector<dealii::Point<3>> &,
-                     double,
-                     const std::function<void(unsigned int, unsigned int)> &);
-  template void
-  for_each_near_edges(const ContactSurfaces<2> &,
-                      const std::vector<dealii::Point<2>> &,
-                      const std::vector<dealii::Point<2>> &,
-                      double,
-                      const std::function<void(unsigned int, unsigned int)> &);
-  template void
-  for_each_near_edges(const ContactSurfaces<3> &,
-                      const std::vector<dealii::Point<3>> &,
-                      const std::vector<dealii::Point<3>> &,
-                      double,
-                      const std::function<void(unsigned int, unsigned int)> &);
+
+#define UNDINE_INSTANTIATE_FACETS(dim)                                            \
+  template void for_each_near_own_facets(const ContactSurfaces<dim> &,            \
+                                         const std::vector<dealii::Point<dim>> &, \
+                                         double,                                  \
+                                         const std::function<void(unsigned int, unsigned int)> &);
+
+  UNDINE_INSTANTIATE(for_each_near_pair, 2)
+  UNDINE_INSTANTIATE(for_each_near_pair, 3)
+  UNDINE_INSTANTIATE(for_each_near_edges, 2)
+  UNDINE_INSTANTIATE(for_each_near_edges, 3)
+  UNDINE_INSTANTIATE(for_each_near_own_pair, 2)
+  UNDINE_INSTANTIATE(for_each_near_own_pair, 3)
+  UNDINE_INSTANTIATE(for_each_near_own_edges, 2)
+  UNDINE_INSTANTIATE(for_each_near_own_edges, 3)
+  UNDINE_INSTANTIATE_FACETS(2)
+  UNDINE_INSTANTIATE_FACETS(3)
+#undef UNDINE_INSTANTIATE
+#undef UNDINE_INSTANTIATE_FACETS
 } // namespace undine

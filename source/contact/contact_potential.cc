@@ -129,8 +129,8 @@ namespace undine
   double
   ContactPotential<dim>::energy(const Term &term, const Positions &places) const
   {
-    return stiffness * term.area * activation_distance * Crossing<dim>(term, places).value *
-           barrier(term.distance / activation_distance);
+    return stiffness * term.area * term.activation_distance * Crossing<dim>(term, places).value *
+           barrier(term.distance / term.activation_distance);
   }
 
 
@@ -139,10 +139,10 @@ namespace undine
   ContactPotential<dim>::forces(const Term &term, const Positions &places) const
   {
     const Crossing<dim> crossing(term, places);
-    const double        s       = term.distance / activation_distance;
+    const double        s       = term.distance / term.activation_distance;
     const double        size    = stiffness * term.area;
     const double        slope   = size * crossing.value * barrier_slope(s);
-    const double        turning = size * activation_distance * crossing.slope * barrier(s);
+    const double        turning = size * term.activation_distance * crossing.slope * barrier(s);
     Vectors<dim>        result;
     for (unsigned int i = 0; i < term.n; ++i)
       result[i] = -(slope * term.shares[i]) * term.direction - turning * crossing.gradient[i];
@@ -155,16 +155,16 @@ namespace undine
   ContactPotential<dim>::second_derivatives(const Term &term, const Positions &places) const
   {
     const Crossing<dim> crossing(term, places);
-    const double        s    = term.distance / activation_distance;
+    const double        s    = term.distance / term.activation_distance;
     const double        size = stiffness * term.area;
     auto                result =
       by_distance<dim>(term,
                        places,
                        size * crossing.value * barrier_slope(s),
-                       size * crossing.value / activation_distance * barrier_curvature(s));
+                       size * crossing.value / term.activation_distance * barrier_curvature(s));
     if (crossing.slope == 0)
       return result;
-    const double energy = size * activation_distance * barrier(s);
+    const double energy = size * term.activation_distance * barrier(s);
     const double mixed  = size * barrier_slope(s) * crossing.slope;
     for (unsigned int i = 0; i < term.n; ++i)
       for (unsigned int j = 0; j < term.n; ++j)

@@ -39,29 +39,6 @@ namespace undine
     }
 
 
-    /// Does fluid neither enter nor leave anywhere on this side?
-    template <int dim>
-    bool
-    is_wall(const FluidModel<dim> &fluid, const Side side)
-    {
-      if (fluid.grid().periodic(side.axis))
-        return false;
-      const auto    &along = fluid.grid().cells_along();
-      GridIndex<dim> cell{};
-      for (;;)
-        {
-          const auto &boundary = fluid.boundaries().at(side, cell);
-          if (boundary.lets_fluid_pass())
-            return false;
-          unsigned int axis = 0;
-          while (axis < dim && (axis == side.axis || ++cell[axis] == along[axis]))
-            cell[axis++] = 0;
-          if (axis == dim)
-            return true;
-        }
-    }
-
-
     /// The integrals of the shape functions over the bodies' boundary at rest, with which a uniform
     /// pressure is in balance with a uniform stress.
     template <int dim>
@@ -109,25 +86,22 @@ namespace undine
 
 
   template <int dim>
-  ContactSurfaces<dim>::ContactSurfaces(const ContactSettings<dim> &settings,
-                                        const SolidModel<dim>      &solid,
-                                        const FluidModel<dim>      *fluid,
-                                        const Obstacles<dim>       *obstacles)
+  ContactSurfaces<dim>::ContactSurfaces(const std::vector<ContactWall<dim>> &walls,
+                                        const SolidModel<dim>               &solid,
+                                        const Obstacles<dim>                *obstacles)
     : body_surface(solid)
     , obstacles(obstacles)
     , all_facets(side_by_side(body_surface.surface(), obstacles))
-    , all_walls(settings.walls)
+    , all_walls(walls)
     , surfaces_of_nodes(all_facets.n_nodes())
   {
-    if (fluid && settings.at_domain)
-      add_domain_walls(*fluid);
     for (unsigned int facet = 0; facet < all_facets.facets().size(); ++facet)
       for (const unsigned int node : all_facets.facets()[facet])
         surfaces_of_nodes[node] = all_facets.body(facet);
-    const auto rest = positions(solid.vector(), 0);
-    measure(solid, rest);
-    all_edges = find_sharp_edges(all_facets, rest);
-    find_fixed(solid, rest);
+    rest_positions = positions(solid.vector(), 0);
+    measure(solid);
+    all_edges = find_sharp_edges(all_facets, rest_positions);
+    find_fixed(solid);
   }
 
 
@@ -138,9 +112,11 @@ namespace undine
     , all_facets(all.all_facets)
     , all_walls(all.all_walls)
     , surfaces_of_nodes(all.surfaces_of_nodes)
+    , rest_positions(all.rest_positions)
     , areas(all.areas)
     , all_edges(all.all_edges)
     , fixed(all.fixed)
+    , reaching(all.reaching)
     , grown_together(all.grown_together)
     , least_size(all.least_size)
   {
@@ -149,31 +125,14 @@ namespace undine
 
   template <int dim>
   void
-  ContactSurfaces<dim>::add_domain_walls(const FluidModel<dim> &fluid)
-  {
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      for (unsigned int end = 0; end < 2; ++end)
-        if (const Side side{axis, end}; is_wall(fluid, side))
-          {
-            ContactWall<dim> wall;
-            wall.name         = side_names()[side.number()];
-            wall.point        = end == 0 ? fluid.grid().lower() : fluid.grid().upper();
-            wall.normal[axis] = -side.sign();
-            all_walls.push_back(wall);
-          }
-  }
-
-
-  template <int dim>
-  void
-  ContactSurfaces<dim>::measure(const SolidModel<dim> &solid, const Positions &rest)
+  ContactSurfaces<dim>::measure(const SolidModel<dim> &solid)
   {
     std::vector<double>       sums(all_facets.body_names().size());
     std::vector<unsigned int> counts(sums.size());
     areas.resize(all_facets.n_nodes());
     for (unsigned int facet = 0; facet < all_facets.facets().size(); ++facet)
       {
-        const double area = area_vector(all_facets, facet, rest).norm();
+        const double area = area_vector(all_facets, facet, rest_positions).norm();
         sums[all_facets.body(facet)] += area;
         ++counts[all_facets.body(facet)];
         if (!is_body(all_facets.body(facet)))
@@ -192,10 +151,8 @@ namespace undine
 
   template <int dim>
   void
-  ContactSurfaces<dim>::find_fixed(const SolidModel<dim> &solid, const Positions &rest)
+  ContactSurfaces<dim>::find_fixed(const SolidModel<dim> &solid)
   {
-    // Gaps that are nothing but rounding of places.
-    const double              rounding = 1e-9 * least_size;
     std::vector<unsigned int> fixed_nodes;
     for (unsigned int node = 0; node < body_surface.n_nodes(); ++node)
       {
@@ -206,33 +163,37 @@ namespace undine
           fixed_nodes.push_back(node);
       }
     fixed.assign(n_bodies(), std::vector<bool>(all_walls.size()));
-    for (const unsigned int node : fixed_nodes)
-      for (unsigned int wall = 0; wall < all_walls.size(); ++wall)
-        if ((rest[node] - all_walls[wall].point) * all_walls[wall].normal <= rounding)
-          fixed[surfaces_of_nodes[node]][wall] = true;
-    find_grown_together(fixed_nodes, rest);
+    reaching = fixed;
+    for (unsigned int wall = 0; wall < all_walls.size(); ++wall)
+      {
+        for (const unsigned int node : fixed_nodes)
+          if (rest_gap(node, wall) <= rounding())
+            fixed[surfaces_of_nodes[node]][wall] = true;
+        for (unsigned int node = 0; node < body_surface.n_nodes(); ++node)
+          if (rest_gap(node, wall) < -rounding())
+            reaching[surfaces_of_nodes[node]][wall] = true;
+      }
+    find_grown_together(fixed_nodes);
   }
 
 
   template <int dim>
   void
-  ContactSurfaces<dim>::find_grown_together(const std::vector<unsigned int> &fixed_nodes,
-                                            const Positions                 &rest)
+  ContactSurfaces<dim>::find_grown_together(const std::vector<unsigned int> &fixed_nodes)
   {
     const unsigned int n_surfaces = all_facets.body_names().size();
     grown_together.assign(n_surfaces, std::vector<bool>(n_surfaces));
     if (fixed_nodes.empty())
       return;
-    const double rounding = 1e-9 * least_size;
     for (unsigned int surface = 0; surface < n_surfaces; ++surface)
       {
-        const SurfaceDistance<dim> distance(one_surface(all_facets, surface), rest);
+        const SurfaceDistance<dim> distance(one_surface(all_facets, surface), rest_positions);
         const auto                 box = distance.box();
         for (const unsigned int node : fixed_nodes)
           if (const unsigned int body = surfaces_of_nodes[node];
               body != surface && !grown_together[body][surface] &&
-              box.point_inside(rest[node], 1e-9) &&
-              distance.nearest(rest[node]).distance <= rounding)
+              box.point_inside(rest_positions[node], 1e-9) &&
+              distance.nearest(rest_positions[node]).distance <= rounding())
             grown_together[body][surface] = grown_together[surface][body] = true;
       }
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -18,26 +19,27 @@ namespace undine
 
     template <int dim>
     void
-    add_walls(std::vector<ContactTerm<dim>> &terms,
-              const ContactSurfaces<dim>    &surfaces,
-              const Positions<dim>          &places,
-              const double                   activation_distance)
+    add_walls(std::vector<ContactTerm<dim>>  &terms,
+              const ContactSurfaces<dim>     &surfaces,
+              const ActivationDistances<dim> &distances,
+              const Positions<dim>           &places)
     {
       for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
         for (unsigned int wall = 0; wall < surfaces.walls().size(); ++wall)
           {
-            const auto  &plane    = surfaces.walls()[wall];
-            const double distance = (places[node] - plane.point) * plane.normal;
-            if (distance >= activation_distance ||
-                surfaces.is_fixed_at(surfaces.surface_of_node(node), wall))
+            const auto  &plane               = surfaces.walls()[wall];
+            const double distance            = (places[node] - plane.point) * plane.normal;
+            const double activation_distance = distances.of_wall(node, wall);
+            if (distance >= activation_distance || !surfaces.meets_wall(node, wall))
               continue;
             ContactTerm<dim> term;
-            term.nodes[0]  = node;
-            term.shares[0] = 1;
-            term.direction = plane.normal;
-            term.distance  = distance;
-            term.area      = surfaces.area(node);
-            term.wall      = wall;
+            term.nodes[0]            = node;
+            term.shares[0]           = 1;
+            term.direction           = plane.normal;
+            term.distance            = distance;
+            term.area                = surfaces.area(node);
+            term.wall                = wall;
+            term.activation_distance = activation_distance;
             terms.push_back(term);
           }
     }
@@ -119,7 +121,8 @@ namespace undine
           term.distance = nearest.distance;
           if (nearest.distance > 0)
             term.direction = nearest.from / nearest.distance;
-          term.area = entry.second.times * area;
+          term.area                = entry.second.times * area;
+          term.activation_distance = activation_distance;
           terms.push_back(term);
         }
     }
@@ -161,56 +164,119 @@ namespace undine
       term.distance = nearest.distance;
       if (nearest.distance > 0)
         term.direction = nearest.from / nearest.distance;
-      term.area     = std::min(one.area, other.area);
-      term.crossing = least_crossing * std::pow(one.length * other.length, 2);
+      term.area                = std::min(one.area, other.area);
+      term.activation_distance = activation_distance;
+      term.crossing            = least_crossing * std::pow(one.length * other.length, 2);
       terms.push_back(term);
+    }
+
+
+    /// Facets, and of their ridges and corners those that belong to no facet that is left out: what
+    /// only one facet has counts once with that.
+    template <int dim>
+    std::set<Simplex<dim>>
+    without_rims(const std::set<Simplex<dim>> &parts, const std::set<Simplex<dim>> &left_out)
+    {
+      std::set<Simplex<dim>> result;
+      std::set_difference(parts.begin(),
+                          parts.end(),
+                          left_out.begin(),
+                          left_out.end(),
+                          std::inserter(result, result.end()));
+      return result;
+    }
+
+
+    template <int dim>
+    void
+    add_different_surfaces(std::vector<ContactTerm<dim>>  &terms,
+                           const ContactSurfaces<dim>     &surfaces,
+                           const ActivationDistances<dim> &distances,
+                           const Positions<dim>           &places)
+    {
+      const double                                   distance = distances.of_others();
+      std::map<unsigned int, std::set<Simplex<dim>>> parts; // by surface, of one node
+      unsigned int                                   last        = 0;
+      const auto                                     finish_node = [&] {
+        for (const auto &of_surface : parts)
+          add_node<dim>(terms, of_surface.second, last, places, surfaces.area(last) / 2, distance);
+        parts.clear();
+      };
+      for_each_near_pair(
+        surfaces, places, places, distance, [&](const unsigned int node, const unsigned int facet) {
+          if (node != last)
+            finish_node();
+          last = node;
+          add_parts<dim>(parts[surfaces.surface().body(facet)], surfaces.surface().facets()[facet]);
+        });
+      finish_node();
+      const auto &edges = surfaces.sharp_edges();
+      for_each_near_edges<dim>(
+        surfaces, places, places, distance, [&](const unsigned int one, const unsigned int other) {
+          add_edges(terms, edges[one], edges[other], places, distance);
+        });
+    }
+
+
+    template <int dim>
+    void
+    add_own_surfaces(std::vector<ContactTerm<dim>>  &terms,
+                     const ContactSurfaces<dim>     &surfaces,
+                     const ActivationDistances<dim> &distances,
+                     const OwnPairsNearby           &nearby,
+                     const Positions<dim>           &places)
+    {
+      const auto &facets   = surfaces.surface().facets();
+      auto        left_out = nearby.left_out.begin();
+      for (auto pair = nearby.facets.begin(); pair != nearby.facets.end();)
+        {
+          const unsigned int     node = pair->first;
+          std::set<Simplex<dim>> parts, others;
+          for (; pair != nearby.facets.end() && pair->first == node; ++pair)
+            add_parts<dim>(parts, facets[pair->second]);
+          for (; left_out != nearby.left_out.end() && left_out->first == node; ++left_out)
+            add_parts<dim>(others, facets[left_out->second]);
+          add_node<dim>(terms,
+                        without_rims(parts, others),
+                        node,
+                        places,
+                        surfaces.area(node) / 2,
+                        distances.of_own(node));
+        }
+      const auto &edges = surfaces.sharp_edges();
+      for (const auto &pair : nearby.edges)
+        add_edges(terms,
+                  edges[pair.first],
+                  edges[pair.second],
+                  places,
+                  distances.of_own_edges(pair.first, pair.second));
     }
   } // namespace
 
 
   template <int dim>
   std::vector<ContactTerm<dim>>
-  find_contact_terms(const ContactSurfaces<dim> &surfaces,
-                     const Positions<dim>       &places,
-                     const double                activation_distance)
+  find_contact_terms(const ContactSurfaces<dim>     &surfaces,
+                     const ActivationDistances<dim> &distances,
+                     const OwnPairsNearby           &nearby,
+                     const Positions<dim>           &places)
   {
     std::vector<ContactTerm<dim>> terms;
-    add_walls(terms, surfaces, places, activation_distance);
-    std::map<unsigned int, std::set<Simplex<dim>>> parts; // by surface, of one node
-    unsigned int                                   last        = 0;
-    const auto                                     finish_node = [&] {
-      for (const auto &of_surface : parts)
-        add_node<dim>(
-          terms, of_surface.second, last, places, surfaces.area(last) / 2, activation_distance);
-      parts.clear();
-    };
-    for_each_near_pair(surfaces,
-                       places,
-                       places,
-                       activation_distance,
-                       [&](const unsigned int node, const unsigned int facet) {
-                         if (node != last)
-                           finish_node();
-                         last = node;
-                         add_parts<dim>(parts[surfaces.surface().body(facet)],
-                                        surfaces.surface().facets()[facet]);
-                       });
-    finish_node();
-    for_each_near_edges<dim>(surfaces,
-                             places,
-                             places,
-                             activation_distance,
-                             [&](const unsigned int one, const unsigned int other) {
-                               const auto &edges = surfaces.sharp_edges();
-                               add_edges<dim>(
-                                 terms, edges[one], edges[other], places, activation_distance);
-                             });
+    add_walls(terms, surfaces, distances, places);
+    add_different_surfaces(terms, surfaces, distances, places);
+    add_own_surfaces(terms, surfaces, distances, nearby, places);
     return terms;
   }
 
 
   template std::vector<ContactTerm<2>>
-  find_contact_terms(const ContactSurfaces<2> &, const std::vector<dealii::Point<2>> &, double);
+  find_contact_terms(const ContactSurfaces<2> &,
+                     const ActivationDistances<2> &,
+                     const OwnPairsNearby &,
+                     const std::vector<dealii::Point<2>> &);
   template std::vector<ContactTerm<3>>
-  find_contact_terms(const ContactSurfaces<3> &, const std::vector<dealii::Point<3>> &, double);
+  find_contact_terms(const ContactSurfaces<3> &,
+                     const ActivationDistances<3> &,
+                     const OwnPairsNearby &,
+                     const std::vector<dealii::Point<3>> &);
 } // namespace undine

@@ -6,8 +6,8 @@
 
 namespace undine
 {
-  /// Bodies repel each other, walls and obstacles without friction, by a barrier that begins at a
-  /// small distance (BodyContact), and never overlap.
+  /// Bodies repel each other, themselves, walls and obstacles without friction, by a barrier that
+  /// begins at a small distance (BodyContact), and never overlap.
   template <int dim>
   class ContactEffect : public Effect<dim>
   {

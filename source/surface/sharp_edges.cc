@@ -7,8 +7,16 @@ namespace undine
 {
   namespace
   {
-    /// Cosine of 30 degrees.
+    /// Cosines of 30 degrees and of one.
     constexpr double cosine_of_sharp = 0.8660254037844387;
+    constexpr double cosine_of_flat  = 0.9998476951563913;
+
+
+    double
+    share_of_area(const double cosine)
+    {
+      return cosine < cosine_of_sharp ? 1 : (1 - cosine) / (1 - cosine_of_sharp);
+    }
 
 
     dealii::Point<3>
@@ -43,11 +51,14 @@ namespace undine
         const auto &nodes   = surface.ridges()[ridge];
         const auto  segment = middle(surface.facets()[facets[ridge][1]], places) - places[nodes[0]];
         const bool  convex  = segment * a < 0;
-        if (convex && a * b < cosine_of_sharp * a.norm() * b.norm())
+        const auto  outwards = a / a.norm() + b / b.norm();
+        const double cosine  = a * b / (a.norm() * b.norm());
+        if (convex && cosine < cosine_of_flat)
           result.push_back({nodes,
                             surface.body(facets[ridge][0]),
                             places[nodes[0]].distance(places[nodes[1]]),
-                            (a.norm() + b.norm()) / 3});
+                            share_of_area(cosine) * ((a.norm() + b.norm()) / 3),
+                            outwards / outwards.norm()});
       }
     return result;
   }

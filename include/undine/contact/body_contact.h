@@ -4,14 +4,16 @@
 
 #include <undine/contact/contact_pattern.h>
 #include <undine/contact/contact_potential.h>
+#include <undine/fluid/model/fluid_model.h>
 #include <undine/solid/assembly/contact.h>
 
 #include <vector>
 
 namespace undine
 {
-  /// Frictionless contact of bodies with each other, with obstacles and with plane walls, by a
-  /// barrier: the potential of a node of area A at the distance d from another surface is
+  /// Frictionless contact of bodies with each other, with themselves, with obstacles and with plane
+  /// walls, by a barrier: the potential of a node of area A at the distance d from another surface
+  /// is
   ///
   ///     E = k A D b(d / D),   b(s) = -(s - 1)^2 ln s for s < 1, else 0                     (S16)
   ///
@@ -19,7 +21,8 @@ namespace undine
   /// Schneider, Langlois, Zorin, Panozzo, Jiang, Kaufman, ACM Trans. Graph. 39 (2020)]. d is the
   /// distance to the nearest point of a facet, on whose nodes the opposite force is distributed by
   /// that point's weights: forces and moments between bodies cancel, whatever the step. In 3D sharp
-  /// edges meet sharp edges too (SharpEdge), by (S17). A body does not meet itself.
+  /// edges meet sharp edges too (SharpEdge), by (S17). A body meets itself alike, with a smaller
+  /// activation distance where parts of it are close at rest (ActivationDistances).
   template <int dim>
   class BodyContact : public Contact<dim>
   {
@@ -79,10 +82,12 @@ namespace undine
     ContactPotential<dim>
     potential() const;
 
-    const SolidModel<dim>      &solid; ///< of the bodies that move
-    ContactSettings<dim>        settings;
-    const ContactSurfaces<dim>  surfaces;
-    mutable ContactPattern<dim> pattern;
+    const SolidModel<dim>         &solid; ///< of the bodies that move
+    const ContactSurfaces<dim>     surfaces;
+    const ContactSettings<dim>     settings; ///< D and k are set
+    const ActivationDistances<dim> distances;
+    const OwnPairs<dim>            own_pairs;
+    mutable ContactPattern<dim>    pattern;
   };
 } // namespace undine
 

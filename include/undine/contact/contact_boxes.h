@@ -29,6 +29,33 @@ namespace undine
                       const typename ContactSurfaces<dim>::Positions        &to,
                       double                                                 distance,
                       const std::function<void(unsigned int, unsigned int)> &action);
+
+  /// The same for pairs of one body's surface, near on their paths against the body's mean motion;
+  /// for the facets that the node is a corner of, too.
+  template <int dim>
+  void
+  for_each_near_own_pair(const ContactSurfaces<dim>                            &surfaces,
+                         const typename ContactSurfaces<dim>::Positions        &from,
+                         const typename ContactSurfaces<dim>::Positions        &to,
+                         double                                                 distance,
+                         const std::function<void(unsigned int, unsigned int)> &action);
+
+  /// The same for sharp edges of one body without a common node.
+  template <int dim>
+  void
+  for_each_near_own_edges(const ContactSurfaces<dim>                            &surfaces,
+                          const typename ContactSurfaces<dim>::Positions        &from,
+                          const typename ContactSurfaces<dim>::Positions        &to,
+                          double                                                 distance,
+                          const std::function<void(unsigned int, unsigned int)> &action);
+
+  /// The same for facets of one body without a common node, at `places`.
+  template <int dim>
+  void
+  for_each_near_own_facets(const ContactSurfaces<dim>                            &surfaces,
+                           const typename ContactSurfaces<dim>::Positions        &places,
+                           double                                                 distance,
+                           const std::function<void(unsigned int, unsigned int)> &action);
 } // namespace undine
 
 #endif

@@ -24,10 +24,9 @@ namespace undine
     using Term      = ContactTerm<dim>;
     using Positions = typename ContactSurfaces<dim>::Positions;
 
-    /// D [m] and k [Pa].
-    ContactPotential(const double activation_distance, const double stiffness)
-      : activation_distance(activation_distance)
-      , stiffness(stiffness)
+    /// k [Pa].
+    explicit ContactPotential(const double stiffness)
+      : stiffness(stiffness)
     {
     }
 
@@ -44,7 +43,6 @@ namespace undine
     second_derivatives(const Term &term, const Positions &places) const;
 
   private:
-    double activation_distance;
     double stiffness;
   };
 } // namespace undine

@@ -2,7 +2,6 @@
 #ifndef undine_contact_contact_surfaces_h
 #define undine_contact_contact_surfaces_h
 
-#include <undine/fluid/model/fluid_model.h>
 #include <undine/solid/assembly/contact_settings.h>
 #include <undine/surface/body_surface.h>
 #include <undine/surface/obstacles.h>
@@ -28,11 +27,10 @@ namespace undine
     using Positions = std::vector<dealii::Point<dim>>;
     using Vector    = typename SolidModel<dim>::Vector;
 
-    /// `fluid` and `obstacles`: nullptr if there are none. Collective. Throws InputError.
-    ContactSurfaces(const ContactSettings<dim> &settings,
-                    const SolidModel<dim>      &solid,
-                    const FluidModel<dim>      *fluid,
-                    const Obstacles<dim>       *obstacles);
+    /// `obstacles`: nullptr if there are none. Collective. Throws InputError.
+    ContactSurfaces(const std::vector<ContactWall<dim>> &walls,
+                    const SolidModel<dim>               &solid,
+                    const Obstacles<dim>                *obstacles);
 
     /// The same in which only some bodies move, or none: `bodies` has been made from
     /// `all.bodies()`. The obstacles must outlive it.
@@ -77,7 +75,7 @@ namespace undine
       return all_facets;
     }
 
-    /// The plane walls of the scene and, if the scene wants it, those of the fluid's domain.
+    /// The plane walls, as given.
     const std::vector<ContactWall<dim>> &
     walls() const
     {
@@ -106,16 +104,45 @@ namespace undine
       return all_edges;
     }
 
-    /// Is the body fixed by a support where it rests on the wall or reaches through it? Then there
-    /// is no contact between them.
+    /// Positions of all nodes at rest [m], of obstacles those at time 0.
+    const Positions &
+    rest() const
+    {
+      return rest_positions;
+    }
+
+    /// Does a support fix the body where it rests on the wall or reaches through it?
     bool
     is_fixed_at(const unsigned int body, const unsigned int wall) const
     {
       return fixed[body][wall];
     }
 
-    /// Is there contact between these surfaces? Not if both are obstacles, or if a support of one
-    /// begins in the other or on it.
+    /// Is a part of the body behind the wall at rest?
+    bool
+    reaches_through(const unsigned int body, const unsigned int wall) const
+    {
+      return reaching[body][wall];
+    }
+
+    /// Is there contact between a body's node and the wall? Not where the body is fixed and the
+    /// node lies on the wall at rest, nor for any node if the body then reaches through the wall.
+    bool
+    meets_wall(const unsigned int node, const unsigned int wall) const
+    {
+      const unsigned int body = surfaces_of_nodes[node];
+      return !fixed[body][wall] || (!reaching[body][wall] && rest_gap(node, wall) > rounding());
+    }
+
+    /// The distance of the node from the wall at rest [m], negative behind it.
+    double
+    rest_gap(const unsigned int node, const unsigned int wall) const
+    {
+      return (rest_positions[node] - all_walls[wall].point) * all_walls[wall].normal;
+    }
+
+    /// Is there contact between these different surfaces? Not if both are obstacles, or if a
+    /// support of one begins in the other or on it.
     bool
     meet(const unsigned int a, const unsigned int b) const
     {
@@ -129,24 +156,31 @@ namespace undine
       return least_size;
     }
 
+    /// Distances at rest below this are nothing but rounding of places [m].
+    double
+    rounding() const
+    {
+      return 1e-9 * least_size;
+    }
+
   private:
     void
-    add_domain_walls(const FluidModel<dim> &fluid);
+    measure(const SolidModel<dim> &solid);
     void
-    measure(const SolidModel<dim> &solid, const Positions &rest);
+    find_fixed(const SolidModel<dim> &solid);
     void
-    find_fixed(const SolidModel<dim> &solid, const Positions &rest);
-    void
-    find_grown_together(const std::vector<unsigned int> &fixed_nodes, const Positions &rest);
+    find_grown_together(const std::vector<unsigned int> &fixed_nodes);
 
     const BodySurface<dim>         body_surface;
     const Obstacles<dim> *const    obstacles;
     const Surface<dim>             all_facets;
     std::vector<ContactWall<dim>>  all_walls;
     std::vector<unsigned int>      surfaces_of_nodes;
+    Positions                      rest_positions;
     std::vector<double>            areas;
     std::vector<SharpEdge>         all_edges;
     std::vector<std::vector<bool>> fixed;          ///< [body][wall]
+    std::vector<std::vector<bool>> reaching;       ///< through the wall at rest: [body][wall]
     std::vector<std::vector<bool>> grown_together; ///< [surface][surface]
     double                         least_size = 0;
   };

@@ -2,7 +2,9 @@
 #ifndef undine_contact_contact_terms_h
 #define undine_contact_contact_terms_h
 
+#include <undine/contact/activation_distances.h>
 #include <undine/contact/contact_surfaces.h>
+#include <undine/contact/own_pairs.h>
 #include <undine/surface/nearest_in_simplex.h>
 
 #include <array>
@@ -10,7 +12,8 @@
 
 namespace undine
 {
-  /// A node near a simplex of another surface or near a wall, or two sharp edges near each other.
+  /// A node near a simplex of another surface, of another part of its own, or near a wall; or two
+  /// sharp edges near each other.
   template <int dim>
   struct ContactTerm
   {
@@ -34,21 +37,24 @@ namespace undine
     double                          distance = 0; ///< [m]
     double                          area     = 0; ///< on which it acts, negative if it is taken
                                                   ///< off what others count twice [m^(dim-1)]
-    double       crossing = 0;                    ///< of edges: e in (S17) [m^4]; 0: no edges
-    unsigned int wall     = no_wall;
+    double       activation_distance = 0;         ///< D of this term [m]
+    double       crossing            = 0;         ///< of edges: e in (S17) [m^4]; 0: no edges
+    unsigned int wall                = no_wall;
   };
 
-  /// All terms with a distance below `activation_distance` [m], in an order that depends on
-  /// `places` only: for every node those with all facets, minus those with ridges, plus those with
-  /// corners (in 2D facets minus ends), so that a flat or convex surface counts once wherever the
-  /// rims of facets are. Where the nodes of both surfaces have terms, each counts half. Then pairs
-  /// of sharp edges. R-trees make the time proportional to the size of the surfaces. Not
-  /// collective.
+  /// All terms with a distance below that of their activation, in an order that depends on `places`
+  /// only: for every node those with all facets, minus those with ridges, plus those with corners
+  /// (in 2D facets minus ends), so that a flat or convex surface counts once wherever the rims of
+  /// facets are. Where the nodes of both surfaces have terms, each counts half. Then pairs of sharp
+  /// edges; first those of different surfaces, then those of one with itself, which must be among
+  /// those `nearby`. R-trees make the time
+  /// proportional to the size of the surfaces. Not collective.
   template <int dim>
   std::vector<ContactTerm<dim>>
   find_contact_terms(const ContactSurfaces<dim>                     &surfaces,
-                     const typename ContactSurfaces<dim>::Positions &places,
-                     double                                          activation_distance);
+                     const ActivationDistances<dim>                 &distances,
+                     const OwnPairsNearby                           &nearby,
+                     const typename ContactSurfaces<dim>::Positions &places);
 } // namespace undine
 
 #endif

@@ -73,6 +73,8 @@ namespace undine
     else
       physics = make_physics(models, timing);
 
+    start_passage_check(models);
+
     Report report;
     if (tolerance > 0)
       step_error = std::make_unique<const StepError<dim>>(
@@ -137,6 +139,7 @@ namespace undine
           assert_finite(report.columns);
           energy_monitor.judge(state.account, report, can_be_cut(report));
           judge_error(state, saved, report);
+          check_passages(saved, state, report.dt);
           state.clock.longest_step = report.cuts > 0 ? report.dt : 2 * state.clock.longest_step;
           report.warn("step cuts", cause);
           return report;
@@ -157,6 +160,41 @@ namespace undine
           state = saved;
           throw;
         }
+  }
+
+
+  template <int dim>
+  void
+  SteppingScheme<dim>::start_passage_check(const Models<dim> &models)
+  {
+    if (!models.solid || !models.fluid)
+      return;
+    const auto                        contact = models.requests_of_effects().contact_settings;
+    typename PassageCheck<dim>::Scope scope;
+    scope.contact   = contact.has_value();
+    scope.sides     = !contact || contact->at_domain;
+    scope.obstacles = !contact;
+    scene_name      = models.surface->scene_name();
+    if (scope.sides || scope.obstacles)
+      passage_check = std::make_unique<const PassageCheck<dim>>(
+        *models.solid, *models.fluid, &models.surface->obstacles(), scope);
+  }
+
+
+  /// Throws InputError if a body has passed a wall in the step, or entered an obstacle.
+  template <int dim>
+  void
+  SteppingScheme<dim>::check_passages(const State<dim> &saved,
+                                      const State<dim> &state,
+                                      const double      dt) const
+  {
+    if (!passage_check)
+      return;
+    const double      end = saved.clock.time + dt;
+    const std::string complaint =
+      passage_check->complaint(saved.solid.displacement, state.solid.displacement, end);
+    if (!complaint.empty())
+      throw InputError(fmt::format("{}: by {:.6g} s {}", scene_name, end, complaint));
   }
 
 

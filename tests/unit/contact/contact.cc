@@ -80,9 +80,10 @@ namespace
   void
   check_flat_face()
   {
-    const double               distance = .09;
-    const Scene<dim>           scene(two_boxes<dim>(1, 0), .2);
-    const ContactSurfaces<dim> surfaces(scene.settings(.2, -10), scene.model, nullptr, nullptr);
+    const double                   distance = .09;
+    const Scene<dim>               scene(two_boxes<dim>(1, 0), .2);
+    const ContactSurfaces<dim>     surfaces(scene.settings(.2, -10).walls, scene.model, nullptr);
+    const ActivationDistances<dim> distances(surfaces, .2);
     for (const double aside : {0., 1e-9, .01, .2, .25, .5})
       {
         dealii::Tensor<1, dim> path;
@@ -91,7 +92,11 @@ namespace
           path[axis] = aside;
         const auto   places = surfaces.positions(scene.shift(path), 0);
         unsigned int found  = 0;
-        for (const auto &term : find_contact_terms(surfaces, places, .2))
+        for (const auto &term :
+             find_contact_terms(surfaces,
+                                distances,
+                                OwnPairs<dim>(surfaces, distances).nearby(places, places),
+                                places))
           if (const auto node = term.nodes[0]; surfaces.surface_of_node(node) == 1)
             {
               const auto &x      = places[node];

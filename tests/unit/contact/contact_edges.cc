@@ -61,11 +61,11 @@ TEST_CASE("the points of two edges nearest to each other", "[contact]")
 }
 
 
-TEST_CASE("edges of a box are sharp, those of a ball are not", "[contact]")
+TEST_CASE("edges of a box are sharp, those of a smooth ball ever less", "[contact]")
 {
   const auto edges = [](const std::string &text) {
     const Scene<3> scene(text, .1);
-    return ContactSurfaces<3>(scene.settings(.1, -10), scene.model, nullptr, nullptr).sharp_edges();
+    return ContactSurfaces<3>(scene.settings(.1, -10).walls, scene.model, nullptr).sharp_edges();
   };
   const auto of_boxes = edges(two_boxes<3>(.5, .3));
   CHECK(of_boxes.size() == 2 * 12 * 2);
@@ -74,21 +74,60 @@ TEST_CASE("edges of a box are sharp, those of a ball are not", "[contact]")
       CHECK(edge.length == Approx(.5));
       CHECK(edge.area == Approx(2. / 3 * .125));
     }
-  CHECK(edges("subsection Bodies\nsubsection ball\nset Shape = ball\nset Refinements = 2\nset "
-              "Density = 1\nset Young's modulus = 1\nset Poisson's ratio = 0\nend\nend\n")
-          .empty());
+  // Their areas together, as a share of what they would be if all were sharp.
+  const auto share = [&](const unsigned int refinements) {
+    double sum = 0;
+    for (const auto &edge :
+         edges("subsection Bodies\nsubsection ball\nset Shape = ball\nset Density = 1\nset Young's "
+               "modulus = 1\nset Poisson's ratio = 0\nset Refinements = " +
+               std::to_string(refinements) + "\nend\nend\n"))
+      sum += edge.area;
+    return sum / (4 * M_PI);
+  };
+  CHECK(share(2) < .3);
+  CHECK(share(3) < .27 * share(2));
+}
+
+
+TEST_CASE("blunt edges that cross do not pass each other", "[contact][mpi]")
+{
+  // Roofs of 20 degrees, one upside down over the other, across it; nodes are far.
+  const std::string keys = "\nset Density = 1\nset Young's modulus = 1\nset Poisson's ratio = "
+                           "0\nset Cells = 2, 2, 1\n";
+  const double      gap  = .02;
+  const Scene<3>    scene(
+    "subsection Bodies\nsubsection low" + keys +
+      "set Lower corner = -1, -1, -1\nset Upper corner = 1, 1, 0\nset Map = x; y; z - "
+         ".17632698 * abs(x)\nend\nsubsection high" +
+      keys + "set Lower corner = -1, -1, 0\nset Upper corner = 1, 1, 1\n" +
+      fmt::format("set Map = x + .4; y + .3; z + .17632698 * abs(y) + {}\n", gap) +
+      "end\nend\nsubsection Solid numerics\nset Element degree = 1\nend\n",
+    .03);
+  const Vector start = scene.model.vector();
+  CHECK(scene.contact.energy(start, 0) > 0);
+  for (const double length : {.03, 1., 30.})
+    {
+      Vector fall = start;
+      for (const auto dof : scene.model.locally_owned())
+        if (scene.model.axis(dof) == 2 && scene.model.rest_position(dof)[2] > 0)
+          fall(dof) = -length;
+      fall.compress(dealii::VectorOperation::insert);
+      const double path = scene.contact.collision_free_fraction({start, 0.}, {fall, 0.}) * length;
+      CHECK(path < .8 * gap * (1 + 1e-12));
+      CHECK(path > .25 * gap);
+    }
 }
 
 
 TEST_CASE("edges that cross push each other and do not pass", "[contact][mpi]")
 {
-  const double              gap = .04;
-  const Scene<3>            scene(cubes_on_edges(gap), .1);
-  const ContactSurfaces<3>  surfaces(scene.settings(.1, -10), scene.model, nullptr, nullptr);
-  const Vector              start  = scene.model.vector();
-  const auto                places = surfaces.positions(start, 0);
-  const auto                terms  = find_contact_terms(surfaces, places, .1);
-  const ContactPotential<3> potential(.1, 3);
+  const double             gap = .04;
+  const Scene<3>           scene(cubes_on_edges(gap), .1);
+  const ContactSurfaces<3> surfaces(scene.settings(.1, -10).walls, scene.model, nullptr);
+  const Vector             start  = scene.model.vector();
+  const auto               places = surfaces.positions(start, 0);
+  const auto terms = find_contact_terms(surfaces, ActivationDistances<3>(surfaces, .1), {}, places);
+  const ContactPotential<3> potential(3);
   REQUIRE(terms.size() == 1);
   CHECK(terms[0].n == 4);
   CHECK(terms[0].distance == Approx(gap));

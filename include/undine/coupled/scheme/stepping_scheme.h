@@ -3,6 +3,7 @@
 #define undine_coupled_scheme_stepping_scheme_h
 
 #include <undine/base/core/errors.h>
+#include <undine/contact/passage_check.h>
 #include <undine/coupled/adaptivity/step_error.h>
 #include <undine/coupled/budget/budget.h>
 #include <undine/coupled/budget/energy_monitor.h>
@@ -22,7 +23,8 @@ namespace undine
   /// below the shortest one, Time/Step halved `Maximum cuts` times. The next step has the length
   /// that went well, and those after it double it up to the length asked for. The limit is one of
   /// lengths, not of cuts of each step: short of a time that no step gets past, every accepted step
-  /// would allow yet shorter ones. Wrong input fails at once.
+  /// would allow yet shorter ones. Wrong input fails at once, and so does a body that passes a wall
+  /// or enters an obstacle from which no contact keeps it.
   ///
   /// A step that creates energy is redone like one that fails (EnergyMonitor), but accepted, with a
   /// warning, where shorter ones are not better.
@@ -64,6 +66,10 @@ namespace undine
 
   private:
     void
+    start_passage_check(const Models<dim> &models);
+    void
+    check_passages(const State<dim> &saved, const State<dim> &state, double dt) const;
+    void
     judge_error(State<dim> &state, const State<dim> &saved, Report &report) const;
     void
     add_error(Report &report, const State<dim> &state) const;
@@ -88,7 +94,9 @@ namespace undine
     std::unique_ptr<Budget<dim>>    budget;
     std::unique_ptr<Physics<dim>>   physics;
 
-    std::unique_ptr<const StepError<dim>> step_error; // nullptr: constant steps
+    std::unique_ptr<const StepError<dim>>    step_error;    // nullptr: constant steps
+    std::unique_ptr<const PassageCheck<dim>> passage_check; // nullptr: there is nothing to check
+    std::string                              scene_name;
   };
 } // namespace undine
 
