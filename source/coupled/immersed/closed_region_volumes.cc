@@ -66,7 +66,7 @@ namespace undine
   ClosedRegionVolumes<dim>::swept(const Positions &from, const Vectors &increment) const
   {
     return regions.sums_on_components(geometry.cut_topology().of_fluid_topology(
-      swept_volumes(geometry.cut_cells(), surface, geometry.surface_positions(), from, increment)));
+      swept_volumes(geometry.cut_cells(), surface, geometry.cut_positions(), from, increment)));
   }
 
 

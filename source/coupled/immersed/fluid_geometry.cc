@@ -45,7 +45,7 @@ namespace undine
   void
   FluidGeometry<dim>::cut_beyond_planes()
   {
-    const auto cut_at = beyond_planes(cells.block.planes(), surface.surface(), positions);
+    cut_at = beyond_planes(cells.block.planes(), surface.surface(), positions);
     cut_block(cells, work, {surface.surface(), cut_at}, model.grid().cells()->blocks());
     if (cut_at == positions)
       return;
@@ -257,6 +257,7 @@ namespace undine
                             parts.cut_components,
                             parts.open_components,
                             positions,
+                            cut_at,
                             was_at,
                             velocities) +
                       work.cache.memory_consumption();
