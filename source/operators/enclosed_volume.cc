@@ -21,32 +21,56 @@ namespace undine
     }
 
 
-    /// The integral of x_a - c over the part of a facet inside the domain, over the area of the
-    /// whole facet.
+    /// Of the part of a facet inside the domain.
+    struct Inside
+    {
+      double share  = 0; ///< its area
+      double moment = 0; ///< the integral of x_a - c [m], both over the area of the whole facet
+    };
+
+
     template <int dim>
-    class MomentInside
+    class PartInside
     {
     public:
       using Simplex = std::array<dealii::Point<dim>, dim>;
 
-      MomentInside(const MacGrid<dim> &grid, const unsigned int axis, const double c)
+      PartInside(const MacGrid<dim> &grid, const unsigned int axis, const double c)
         : grid(grid)
         , axis(axis)
         , c(c)
       {
       }
 
-      /// Of a part that is `share` of the facet and does not reach beyond the first `n_clipped`
-      /// sides.
-      double
-      operator()(const Simplex &part, const double share, const unsigned int n_clipped = 0) const
+      Inside
+      operator()(const Surface<dim>                    &surface,
+                 const unsigned int                     facet,
+                 const std::vector<dealii::Point<dim>> &positions) const
+      {
+        Simplex corners;
+        for (unsigned int k = 0; k < dim; ++k)
+          corners[k] = positions[surface.facets()[facet][k]];
+        Inside result;
+        add(result, corners, 1, 0);
+        return result;
+      }
+
+    private:
+      /// A part that is `share` of the facet and does not reach beyond the first `n_clipped` sides.
+      void
+      add(Inside            &result,
+          const Simplex     &part,
+          const double       share,
+          const unsigned int n_clipped) const
       {
         if (n_clipped == 2 * dim)
           {
             double mean = 0;
             for (const auto &corner : part)
               mean += corner[axis] / dim;
-            return share * (mean - c);
+            result.share += share;
+            result.moment += share * (mean - c);
+            return;
           }
         unsigned int least = 0, most = 0;
         for (unsigned int k = 1; k < dim; ++k)
@@ -56,9 +80,12 @@ namespace undine
           }
         const double below = depth(part[least], n_clipped), above = depth(part[most], n_clipped);
         if (above <= 0)
-          return 0;
+          return;
         if (below >= 0)
-          return (*this)(part, share, n_clipped + 1);
+          {
+            add(result, part, share, n_clipped + 1);
+            return;
+          }
         // Where the edge between these corners passes the side the part is divided.
         const double t     = below / (below - above);
         auto         place = part[least] + t * (part[most] - part[least]);
@@ -67,10 +94,10 @@ namespace undine
         auto inner = part, outer = part;
         inner[least] = place;
         outer[most]  = place;
-        return (*this)(inner, share * (1 - t), n_clipped) + (*this)(outer, share * t, n_clipped);
+        add(result, inner, share * (1 - t), n_clipped);
+        add(result, outer, share * t, n_clipped);
       }
 
-    private:
       /// How far a place is within a side [m].
       double
       depth(const dealii::Point<dim> &place, const unsigned int side) const
@@ -124,39 +151,33 @@ namespace undine
     const double       c        = at_lower ? grid.lower()[axis] : grid.upper()[axis];
     const std::size_t  n_facets = surface.facets().size();
 
-    // Of each facet: what of it bounds the region, what lies in the domain, and moments of the
-    // fragments of the former.
-    std::vector<double> sums(3 * n_facets, 0.);
+    // Of each facet: what of it bounds the region, and the moment of that.
+    std::vector<double> sums(2 * n_facets, 0.);
     for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
       for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
-        if (cut.block.owned().contains(cut.cells[cell].index))
+        if (const auto &fragment = cut.fragments[f];
+            cut.block.owned().contains(cut.cells[cell].index) &&
+            fragment.component != cut.no_component && boundary.has_component[fragment.component])
           {
-            const auto  &fragment = cut.fragments[f];
-            const double share    = share_of_facet(fragment, surface, cut_at);
-            sums[n_facets + fragment.facet] += share;
-            if (fragment.component == cut.no_component ||
-                !boundary.has_component[fragment.component])
-              continue;
-            double mean = 0;
+            const double share = share_of_facet(fragment, surface, cut_at);
+            double       mean  = 0;
             for (unsigned int k = 0; k < dim; ++k)
               mean += fragment.mean[k] * positions[surface.facets()[fragment.facet][k]][axis];
             sums[fragment.facet] += share;
-            sums[2 * n_facets + fragment.facet] += share * (mean - c);
+            sums[n_facets + fragment.facet] += share * (mean - c);
           }
     dealii::Utilities::MPI::sum(sums, grid.communicator(), sums);
 
-    constexpr double        rounding = 1e-9; // of shares; smaller fragments may have been dropped
-    const MomentInside<dim> moment_inside(grid, axis, c);
-    double                  volume = boundary.side_areas[2 * axis + 1] * (grid.upper()[axis] - c);
-    typename MomentInside<dim>::Simplex corners;
+    constexpr double      rounding = 1e-9; // of shares; smaller fragments may have been dropped
+    const PartInside<dim> part_inside(grid, axis, c);
+    double                volume = boundary.side_areas[2 * axis + 1] * (grid.upper()[axis] - c);
     for (std::size_t facet = 0; facet < n_facets; ++facet)
       if (sums[facet] > 0)
         {
-          for (unsigned int k = 0; k < dim; ++k)
-            corners[k] = positions[surface.facets()[facet][k]];
-          const bool is_all = sums[n_facets + facet] - sums[facet] <= rounding;
-          volume -= area_vector(surface, facet, positions)[axis] *
-                    (is_all ? moment_inside(corners, 1) : sums[2 * n_facets + facet]);
+          const bool is_all = part_inside(surface, facet, cut_at).share - sums[facet] <= rounding;
+          volume -=
+            area_vector(surface, facet, positions)[axis] *
+            (is_all ? part_inside(surface, facet, positions).moment : sums[n_facets + facet]);
         }
     return volume;
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/parallel/throw_together.h>
-#include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/coupled/immersed/measure_region.h>
 #include <undine/fluid/boundary/side_faces.h>
 #include <undine/fluid/grid/field_algebra.h>
@@ -158,25 +157,30 @@ namespace undine
   template <int dim>
   std::vector<std::optional<double>>
   region_volumes(const Models<dim>                     &models,
-                 const std::vector<dealii::Point<dim>> &positions,
+                 const FluidGeometry<dim>              &geometry,
                  const std::vector<dealii::Point<dim>> &points)
   {
-    const auto                         geometry = cut_at(models, positions);
     std::vector<std::optional<double>> result(points.size());
     for (std::size_t k = 0; k < points.size(); ++k)
       try
         {
-          const auto                &grid = models.fluid->grid();
-          const auto                &open = geometry->cut_topology().open;
-          const PressureNumbers<dim> numbers(grid, open);
-          result[k] =
-            volume_of(region_around(points[k], grid, numbers, geometry->bodies()), grid, open);
+          result[k] = volume_around(points[k], models, geometry);
         }
       catch (const SolveError &)
         {
           // Not in the fluid, on all ranks together.
         }
     return result;
+  }
+
+
+  template <int dim>
+  std::vector<std::optional<double>>
+  region_volumes(const Models<dim>                     &models,
+                 const std::vector<dealii::Point<dim>> &positions,
+                 const std::vector<dealii::Point<dim>> &points)
+  {
+    return region_volumes(models, *cut_at(models, positions), points);
   }
 
 
@@ -204,8 +208,16 @@ namespace undine
 
   template std::vector<std::optional<double>>
   region_volumes(const Models<2> &,
+                 const FluidGeometry<2> &,
+                 const std::vector<dealii::Point<2>> &);
+  template std::vector<std::optional<double>>
+  region_volumes(const Models<2> &,
                  const std::vector<dealii::Point<2>> &,
                  const std::vector<dealii::Point<2>> &);
+  template std::vector<std::optional<double>>
+  region_volumes(const Models<3> &,
+                 const FluidGeometry<3> &,
+                 const std::vector<dealii::Point<3>> &);
   template std::vector<std::optional<double>>
   region_volumes(const Models<3> &,
                  const std::vector<dealii::Point<3>> &,
