@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/contact/contact_surfaces.h>
-#include <undine/surface/surface_distance.h>
+#include <undine/surface/held_pairs.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -96,19 +96,6 @@ namespace undine
 
 
   template <int dim>
-  Surface<dim>
-  one_surface(const Surface<dim> &all, const unsigned int surface)
-  {
-    std::vector<typename Surface<dim>::Facet> facets;
-    for (unsigned int facet = 0; facet < all.facets().size(); ++facet)
-      if (all.body(facet) == surface)
-        facets.push_back(all.facets()[facet]);
-    const std::vector<unsigned int> owners(facets.size(), 0);
-    return Surface<dim>(all.n_nodes(), facets, owners, {all.body_names()[surface]});
-  }
-
-
-  template <int dim>
   ContactSurfaces<dim>::ContactSurfaces(const ContactSettings<dim> &settings,
                                         const SolidModel<dim>      &solid,
                                         const FluidModel<dim>      *fluid,
@@ -195,46 +182,17 @@ namespace undine
   ContactSurfaces<dim>::find_fixed(const SolidModel<dim> &solid, const Positions &rest)
   {
     // Gaps that are nothing but rounding of places.
-    const double              rounding = 1e-9 * least_size;
-    std::vector<unsigned int> fixed_nodes;
-    for (unsigned int node = 0; node < body_surface.n_nodes(); ++node)
-      {
-        const auto &dofs = body_surface.dofs_of_node(node);
-        if (std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) {
-              return solid.all_fixed().is_element(dof);
-            }))
-          fixed_nodes.push_back(node);
-      }
+    const double rounding = 1e-9 * least_size;
+    const auto   held     = fixed_nodes(solid, body_surface);
     fixed.assign(n_bodies(), std::vector<bool>(all_walls.size()));
-    for (const unsigned int node : fixed_nodes)
+    for (const unsigned int node : held)
       for (unsigned int wall = 0; wall < all_walls.size(); ++wall)
         if ((rest[node] - all_walls[wall].point) * all_walls[wall].normal <= rounding)
           fixed[surfaces_of_nodes[node]][wall] = true;
-    find_grown_together(fixed_nodes, rest);
-  }
-
-
-  template <int dim>
-  void
-  ContactSurfaces<dim>::find_grown_together(const std::vector<unsigned int> &fixed_nodes,
-                                            const Positions                 &rest)
-  {
     const unsigned int n_surfaces = all_facets.body_names().size();
     grown_together.assign(n_surfaces, std::vector<bool>(n_surfaces));
-    if (fixed_nodes.empty())
-      return;
-    const double rounding = 1e-9 * least_size;
-    for (unsigned int surface = 0; surface < n_surfaces; ++surface)
-      {
-        const SurfaceDistance<dim> distance(one_surface(all_facets, surface), rest);
-        const auto                 box = distance.box();
-        for (const unsigned int node : fixed_nodes)
-          if (const unsigned int body = surfaces_of_nodes[node];
-              body != surface && !grown_together[body][surface] &&
-              box.point_inside(rest[node], 1e-9) &&
-              distance.nearest(rest[node]).distance <= rounding)
-            grown_together[body][surface] = grown_together[surface][body] = true;
-      }
+    for (const auto &[a, b] : held_pairs(all_facets, held, rest, rounding))
+      grown_together[a][b] = grown_together[b][a] = true;
   }
 
 
@@ -250,10 +208,6 @@ namespace undine
   }
 
 
-  template Surface<2>
-  one_surface(const Surface<2> &, const unsigned int);
-  template Surface<3>
-  one_surface(const Surface<3> &, const unsigned int);
   template class ContactSurfaces<2>;
   template class ContactSurfaces<3>;
 } // namespace undine

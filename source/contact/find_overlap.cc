@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/contact/find_overlap.h>
+#include <undine/surface/held_pairs.h>
 #include <undine/surface/surface_distance.h>
 
 #include <fmt/format.h>

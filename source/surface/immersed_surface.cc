@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace undine
 {
@@ -41,6 +42,18 @@ namespace undine
                           facets,
                           bodies,
                           joined(first.body_names(), second.body_names()));
+    }
+
+
+    /// Gaps that are nothing but rounding of places [m].
+    template <int dim>
+    double
+    rounding(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions)
+    {
+      double sum = 0;
+      for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
+        sum += area_vector(surface, facet, positions).norm();
+      return 1e-9 * std::pow(sum / surface.facets().size(), 1. / (dim - 1));
     }
 
 
@@ -99,6 +112,9 @@ namespace undine
       {
         throw InputError(fmt::format("{}: {}", file_name, error.what()));
       }
+    if (solid != nullptr)
+      held_in_each_other = held_pairs(
+        *all_facets, fixed_nodes(*solid, *body_surface), rest, -rounding(*all_facets, rest));
   }
 
 
@@ -109,6 +125,7 @@ namespace undine
     , body_surface(bodies)
     , all_obstacles(all.all_obstacles)
     , all_facets(all.all_facets)
+    , held_in_each_other(all.held_in_each_other)
   {
   }
 

@@ -12,13 +12,6 @@
 
 namespace undine
 {
-  /// One of several surfaces by itself; nodes keep their numbers. `surface`: its number in
-  /// all.body_names().
-  template <int dim>
-  Surface<dim>
-  one_surface(const Surface<dim> &all, unsigned int surface);
-
-
   /// All that bodies may touch: the surfaces of bodies, then those of obstacles, and plane walls.
   /// Replicated on all ranks, constant during a run.
   template <int dim>
@@ -136,8 +129,6 @@ namespace undine
     measure(const SolidModel<dim> &solid, const Positions &rest);
     void
     find_fixed(const SolidModel<dim> &solid, const Positions &rest);
-    void
-    find_grown_together(const std::vector<unsigned int> &fixed_nodes, const Positions &rest);
 
     const BodySurface<dim>         body_surface;
     const Obstacles<dim> *const    obstacles;

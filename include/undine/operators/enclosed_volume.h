@@ -23,7 +23,7 @@ namespace undine
   /// The volume [m^dim] of a region of fluid between surfaces whose nodes are at `positions` [m],
   /// by the divergence theorem along one axis a that is not periodic,
   ///
-  ///     V = A_upper (upper_a - c) - sum over facets of N_a (mean x_a - c), (I9)
+  ///     V = A_upper (upper_a - c) - sum over facets of N_a (mean x_a - c), (C4)
   ///
   /// N being the area vector, out of the solid, of the part of a facet inside the domain, and c the
   /// place of a side that bounds the region, so that it contributes nothing. The grid, cut with the
