@@ -16,8 +16,10 @@ namespace undine
     public:
       using Edge = std::array<unsigned int, 2>;
 
-      explicit Triangulation(const FacetWithPoints<3> &facet)
+      /// Edges that pass a point by less than `rounding`, in coordinates, are not taken in.
+      Triangulation(const FacetWithPoints<3> &facet, const double rounding)
         : points(facet.points)
+        , rounding(rounding)
         , is_edge(points.size(), std::vector<bool>(points.size(), false))
       {
         for (const auto &line : facet.lines)
@@ -45,12 +47,24 @@ namespace undine
       }
 
     private:
-      /// Twice the area of a triangle in the plane of the coordinates, counter-clockwise positive.
+      /// Twice the area of a triangle in the plane of the coordinates, counter-clockwise positive;
+      /// the same to the bit, but for the sign, in whatever order the points are given.
       double
-      turn(const unsigned int a, const unsigned int b, const unsigned int c) const
+      turn(unsigned int a, unsigned int b, unsigned int c) const
       {
+        double     sign     = 1;
+        const auto in_order = [&](unsigned int &low, unsigned int &high) {
+          if (low > high)
+            {
+              std::swap(low, high);
+              sign = -sign;
+            }
+        };
+        in_order(a, b);
+        in_order(b, c);
+        in_order(a, b);
         const auto &p = points[a], &q = points[b], &r = points[c];
-        return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
+        return sign * ((q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]));
       }
 
       bool
@@ -146,9 +160,8 @@ namespace undine
             take(edge);
       }
 
-      static constexpr double rounding = 1e-11; ///< of coordinates
-
       const std::vector<std::array<double, 3>> &points;
+      const double                              rounding;
       std::vector<std::vector<bool>>            is_edge; ///< between two points
       std::vector<Edge>                         edges;
       std::size_t                               n_on_sides = 0;
@@ -174,6 +187,8 @@ namespace undine
   std::vector<std::array<unsigned int, 3>>
   divided(const FacetWithPoints<3> &facet)
   {
-    return Triangulation(facet).triangles();
+    // Points on a line need edges that pass them, or none: it depends on what is beside the line.
+    auto result = Triangulation(facet, 1e-11).triangles();
+    return result.empty() ? Triangulation(facet, -1).triangles() : result;
   }
 } // namespace undine

@@ -3,6 +3,7 @@
 #include <undine/surface/surface_distance.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace undine
@@ -38,6 +39,17 @@ namespace undine
 
 
   template <int dim>
+  double
+  rounding_of_places(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions)
+  {
+    double sum = 0;
+    for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
+      sum += area_vector(surface, facet, positions).norm();
+    return 1e-9 * std::pow(sum / surface.facets().size(), 1. / (dim - 1));
+  }
+
+
+  template <int dim>
   std::vector<PairOfSurfaces>
   held_pairs(const Surface<dim>                    &all,
              const std::vector<unsigned int>       &fixed,
@@ -68,13 +80,15 @@ namespace undine
   }
 
 
-#define UNDINE_INSTANTIATE(dim)                                                            \
-  template Surface<dim>                one_surface(const Surface<dim> &, unsigned int);    \
-  template std::vector<unsigned int>   fixed_nodes(const SolidModel<dim> &,                \
-                                                   const BodySurface<dim> &);              \
-  template std::vector<PairOfSurfaces> held_pairs(const Surface<dim> &,                    \
-                                                  const std::vector<unsigned int> &,       \
-                                                  const std::vector<dealii::Point<dim>> &, \
+#define UNDINE_INSTANTIATE(dim)                                                                     \
+  template double                      rounding_of_places(const Surface<dim> &,                     \
+                                                          const std::vector<dealii::Point<dim>> &); \
+  template Surface<dim>                one_surface(const Surface<dim> &, unsigned int);             \
+  template std::vector<unsigned int>   fixed_nodes(const SolidModel<dim> &,                         \
+                                                   const BodySurface<dim> &);                       \
+  template std::vector<PairOfSurfaces> held_pairs(const Surface<dim> &,                             \
+                                                  const std::vector<unsigned int> &,                \
+                                                  const std::vector<dealii::Point<dim>> &,          \
                                                   double);
 
   UNDINE_INSTANTIATE(2)

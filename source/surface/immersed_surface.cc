@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace undine
 {
@@ -42,18 +41,6 @@ namespace undine
                           facets,
                           bodies,
                           joined(first.body_names(), second.body_names()));
-    }
-
-
-    /// Gaps that are nothing but rounding of places [m].
-    template <int dim>
-    double
-    rounding(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions)
-    {
-      double sum = 0;
-      for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
-        sum += area_vector(surface, facet, positions).norm();
-      return 1e-9 * std::pow(sum / surface.facets().size(), 1. / (dim - 1));
     }
 
 
@@ -113,8 +100,10 @@ namespace undine
         throw InputError(fmt::format("{}: {}", file_name, error.what()));
       }
     if (solid != nullptr)
-      held_in_each_other = held_pairs(
-        *all_facets, fixed_nodes(*solid, *body_surface), rest, -rounding(*all_facets, rest));
+      held_in_each_other = held_pairs(*all_facets,
+                                      fixed_nodes(*solid, *body_surface),
+                                      rest,
+                                      -rounding_of_places(*all_facets, rest));
   }
 
 

@@ -34,9 +34,12 @@ namespace undine
       using Edge  = std::array<unsigned int, 2>;
       using Box   = std::array<dealii::Point<dim>, 2>; ///< lower and upper corner
 
-      CrossingFinder(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions)
+      CrossingFinder(const Surface<dim>                    &surface,
+                     const std::vector<dealii::Point<dim>> &positions,
+                     const double                           uncertainty)
         : surface(surface)
         , positions(positions)
+        , uncertainty(uncertainty)
       {
       }
 
@@ -112,7 +115,7 @@ namespace undine
 
       /// dim! times the volume of the simplex of these nodes, with its sign [m^dim].
       double
-      volume(const std::array<unsigned int, dim + 1> &nodes) const
+      volume(const std::array<unsigned int, dim + 1> &nodes)
       {
         auto sorted = nodes;
         bool is_odd = false;
@@ -126,14 +129,19 @@ namespace undine
         dealii::Tensor<2, dim> sides;
         for (unsigned int k = 0; k < dim; ++k)
           sides[k] = positions[sorted[k + 1]] - positions[sorted[0]];
-        const double result = dealii::determinant(sides);
-        return is_odd ? -result : result;
+        const double volume = dealii::determinant(sides);
+        double       box    = 1;
+        for (unsigned int k = 0; k < dim; ++k)
+          box *= sides[k].norm();
+        if (std::abs(volume) < uncertainty * box)
+          result.are_sure = false;
+        return is_odd ? -volume : volume;
       }
 
       /// Of an edge and a facet without one of its nodes, the sign alternating with the latter, so
       /// that all have one sign if the edge's line passes through the facet.
       double
-      volume_beside(const Edge &edge, const Facet &facet, const unsigned int without) const
+      volume_beside(const Edge &edge, const Facet &facet, const unsigned int without)
       {
         std::array<unsigned int, dim + 1> nodes{{edge[0], edge[1]}};
         unsigned int                      n = 2;
@@ -144,7 +152,7 @@ namespace undine
       }
 
       double
-      volume_above(const Facet &facet, const unsigned int node) const
+      volume_above(const Facet &facet, const unsigned int node)
       {
         std::array<unsigned int, dim + 1> nodes;
         std::copy(facet.begin(), facet.end(), nodes.begin());
@@ -184,8 +192,7 @@ namespace undine
           }
         for (double &weight : piercing.weights)
           weight = sum != 0 ? weight / sum : 1. / dim;
-        const auto &from = positions[edge[0]], &to = positions[edge[1]];
-        result.new_nodes.push_back(from + piercing.part * (to - from));
+        result.new_nodes.push_back({edge, piercing.part});
         all.push_back(piercing);
         return positions.size() + all.size() - 1;
       }
@@ -206,7 +213,7 @@ namespace undine
           return;
         if (hits.size() != dim - 1)
           {
-            result.are_closed = false;
+            result.are_sure = false;
             return;
           }
         typename Surface<dim>::Ridge line;
@@ -242,8 +249,9 @@ namespace undine
         return result;
       }
 
-      const Surface<dim>                              &surface;
-      const std::vector<dealii::Point<dim>>           &positions;
+      const Surface<dim>                    &surface;
+      const std::vector<dealii::Point<dim>> &positions;
+      const double uncertainty; ///< of volumes, over the product of edges [1]
       std::map<std::array<unsigned int, dim + 2>, int> found; ///< by all nodes, ascending
       std::vector<Piercing>                            all;   ///< of the new nodes
     };
@@ -254,9 +262,10 @@ namespace undine
   SurfaceCrossings<dim>
   find_crossings(const Surface<dim>                    &surface,
                  const std::vector<dealii::Point<dim>> &positions,
-                 const std::vector<PairOfSurfaces>     &pairs)
+                 const std::vector<PairOfSurfaces>     &pairs,
+                 const double                           uncertainty)
   {
-    CrossingFinder<dim> finder(surface, positions);
+    CrossingFinder<dim> finder(surface, positions, uncertainty);
     for (const auto &pair : pairs)
       finder.find(pair);
     return finder.result;
@@ -267,7 +276,8 @@ namespace undine
   template struct SurfaceCrossings<dim>;                                                 \
   template SurfaceCrossings<dim> find_crossings(const Surface<dim> &,                    \
                                                 const std::vector<dealii::Point<dim>> &, \
-                                                const std::vector<PairOfSurfaces> &);
+                                                const std::vector<PairOfSurfaces> &,     \
+                                                double);
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

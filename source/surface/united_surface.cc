@@ -6,13 +6,39 @@
 #include <undine/surface/united_surface.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
+#include <random>
 
 namespace undine
 {
   namespace
   {
+    /// Of a new node on an edge [m].
+    template <int dim>
+    dealii::Point<dim>
+    place_of(const typename SurfaceCrossings<dim>::NewNode &node,
+             const std::vector<dealii::Point<dim>>         &positions)
+    {
+      const auto &from = positions[node.edge[0]], &to = positions[node.edge[1]];
+      return from + node.part * (to - from);
+    }
+
+
+    /// Positions that differ by less than `distance` [m], at random but always the same.
+    template <int dim>
+    std::vector<dealii::Point<dim>>
+    disturbed(std::vector<dealii::Point<dim>> positions, const double distance, const unsigned seed)
+    {
+      std::mt19937 engine(seed);
+      for (auto &position : positions)
+        for (unsigned int d = 0; d < dim; ++d)
+          position[d] += distance * (engine() / 4294967296. - 0.5);
+      return positions;
+    }
+
+
     template <int dim>
     class Union
     {
@@ -22,14 +48,17 @@ namespace undine
 
       Union(const Surface<dim>                    &surface,
             const std::vector<dealii::Point<dim>> &old_positions,
+            const double                           rounding,
             const std::vector<PairOfSurfaces>     &pairs,
             const SurfaceCrossings<dim>           &crossings)
         : surface(surface)
+        , rounding(rounding)
         , crossings(crossings)
         , pairs(pairs)
         , positions(old_positions)
       {
-        positions.insert(positions.end(), crossings.new_nodes.begin(), crossings.new_nodes.end());
+        for (const auto &node : crossings.new_nodes)
+          positions.push_back(place_of<dim>(node, old_positions));
         for (unsigned int facet = 0; facet < surface.facets().size() && !has_failed; ++facet)
           divide(facet);
       }
@@ -43,6 +72,8 @@ namespace undine
         std::vector<unsigned int>   bodies;
         std::vector<FacetPart<dim>> kept_parts;
         const auto                  covered = is_covered();
+        if (has_failed)
+          return std::nullopt;
         for (std::size_t k = 0; k < facets.size(); ++k)
           if (!covered[k])
             {
@@ -181,7 +212,9 @@ namespace undine
               if (!distance)
                 distance = std::make_unique<const SurfaceDistance<dim>>(
                   one_surface(surface, body == a ? b : a), positions_of_old());
-              if (distance->nearest(middle).distance < 0)
+              const double height = distance->nearest(middle).distance;
+              has_failed          = has_failed || std::abs(height) <= rounding;
+              if (height < 0)
                 return true;
             }
         return false;
@@ -206,6 +239,7 @@ namespace undine
       }
 
       const Surface<dim>                &surface;
+      const double                       rounding; ///< of distances [m]
       const SurfaceCrossings<dim>       &crossings;
       const std::vector<PairOfSurfaces> &pairs;
       std::vector<dealii::Point<dim>>    positions; ///< old nodes, then new ones
@@ -227,10 +261,32 @@ namespace undine
   {
     if (pairs.empty())
       return std::nullopt;
-    const auto crossings = find_crossings(surface, positions, pairs);
-    if (crossings.in_facets.empty() || !crossings.are_closed)
-      return std::nullopt;
-    return Union<dim>(surface, positions, pairs, crossings).united();
+    const double       rounding    = rounding_of_places(surface, positions);
+    constexpr unsigned n_trials    = 5;
+    double             distance    = rounding;
+    constexpr double   uncertainty = 1e-12;
+    auto               judged_at   = positions;
+    for (unsigned int trial = 0; trial < n_trials; ++trial)
+      {
+        if (trial > 0)
+          judged_at = disturbed(positions, distance *= 10, trial);
+        const auto crossings =
+          find_crossings(surface, judged_at, pairs, trial == 0 ? uncertainty : 0.);
+        if (crossings.in_facets.empty())
+          return std::nullopt;
+        if (!crossings.are_sure)
+          continue;
+        if (auto result =
+              Union<dim>(surface, judged_at, 1e-3 * rounding, pairs, crossings).united())
+          {
+            std::copy(positions.begin(), positions.end(), result->positions.begin());
+            for (std::size_t k = 0; k < crossings.new_nodes.size(); ++k)
+              result->positions[positions.size() + k] =
+                place_of<dim>(crossings.new_nodes[k], positions);
+            return result;
+          }
+      }
+    return std::nullopt;
   }
 
 

@@ -24,6 +24,12 @@ namespace undine
   fixed_nodes(const SolidModel<dim> &solid, const BodySurface<dim> &bodies);
 
 
+  /// Gaps that are nothing but rounding of places: 1e-9 of the mean extent of facets [m].
+  template <int dim>
+  double
+  rounding_of_places(const Surface<dim> &surface, const std::vector<dealii::Point<dim>> &positions);
+
+
   /// Numbers of two surfaces, the lower first.
   using PairOfSurfaces = std::array<unsigned int, 2>;
 

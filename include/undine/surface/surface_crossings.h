@@ -27,9 +27,16 @@ namespace undine
       std::set<Ridge>                 lines; ///< between these, the lower node first
     };
 
-    std::vector<dealii::Point<dim>> new_nodes;         ///< numbered after those of the surface [m]
-    std::map<unsigned int, InFacet> in_facets;         ///< by the number of the facet
-    bool                            are_closed = true; ///< else rounding has spoilt them
+    /// A node on an edge between two others.
+    struct NewNode
+    {
+      std::array<unsigned int, 2> edge;
+      double                      part; ///< of the edge, up to there [1]
+    };
+
+    std::vector<NewNode>            new_nodes;       ///< numbered after those of the surface
+    std::map<unsigned int, InFacet> in_facets;       ///< by the number of the facet
+    bool                            are_sure = true; ///< else rounding decides on some
   };
 
   /// Those of all pairs of surfaces. On which side of a facet a node lies is decided by the sign of
@@ -39,7 +46,8 @@ namespace undine
   SurfaceCrossings<dim>
   find_crossings(const Surface<dim>                    &surface,
                  const std::vector<dealii::Point<dim>> &positions,
-                 const std::vector<PairOfSurfaces>     &pairs);
+                 const std::vector<PairOfSurfaces>     &pairs,
+                 double                                 uncertainty);
 } // namespace undine
 
 #endif

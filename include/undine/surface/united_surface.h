@@ -39,8 +39,10 @@ namespace undine
   };
 
   /// The surface in which the bodies of each pair, which may overlap, are one: their facets end
-  /// where they cross, and what lies in the other one is left out. Nothing if no facets cross, or
-  /// if rounding leaves the result open (nodes or edges of one body in facets of the other).
+  /// where they cross, and what lies in the other one is left out. Where nodes or edges of one body
+  /// lie in facets of the other, they cross as if places differed from the given ones by rounding
+  /// (rounding_of_places()). Nothing if no facets cross, or if that leaves the result open all the
+  /// same.
   template <int dim>
   std::optional<UnitedSurface<dim>>
   united_surface(const Surface<dim>                    &surface,

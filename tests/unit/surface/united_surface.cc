@@ -135,3 +135,37 @@ TEMPLATE_TEST_CASE_SIG(
   bodies.append(box<dim>(lower, all_equal<dim>(.5), random));
   CHECK_FALSE(united_surface<dim>(bodies.surface(), bodies.nodes, {{{0, 1}}}));
 }
+
+
+TEMPLATE_TEST_CASE_SIG(
+  "Where rounding decides a union is right or there is none", "[surface]", ((int dim), dim), 2, 3)
+{
+  Random       random(9);
+  unsigned int n_united = 0, n_crossing = 0;
+  for (unsigned int trial = 0; trial < 200; ++trial)
+    {
+      // Edges and nodes of one box lie in sides and edges of the other.
+      dealii::Point<dim> lower, sides;
+      double             size = 1, both = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = .25 * random.below(4);
+          sides[d] = .25 * (1 + random.below(4));
+          size *= sides[d];
+          both *= std::min(1., lower[d] + sides[d]) - lower[d];
+        }
+      auto bodies = box<dim>({}, all_equal<dim>(1), random);
+      bodies.append(box<dim>(lower, sides, random));
+      if (random.below(2) == 1)
+        bodies.rotate(random);
+      INFO(trial);
+      n_crossing += both > 0 && both < size;
+      if (const auto united = united_surface<dim>(bodies.surface(), bodies.nodes, {{{0, 1}}}))
+        {
+          ++n_united;
+          CHECK(volume(*united) == Approx(1 + size - both).epsilon(1e-6));
+        }
+    }
+  INFO(n_united << " " << n_crossing);
+  CHECK(n_united > .9 * n_crossing);
+}
