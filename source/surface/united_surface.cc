@@ -261,10 +261,12 @@ namespace undine
   {
     if (pairs.empty())
       return std::nullopt;
-    const double       rounding    = rounding_of_places(surface, positions);
+    // Where rounding decides, other places do: the nearer ones first, but they must differ by much
+    // more than what rounding leaves of nearly parallel facets.
     constexpr unsigned n_trials    = 5;
-    double             distance    = rounding;
     constexpr double   uncertainty = 1e-12;
+    const double       rounding    = rounding_of_places(surface, positions);
+    double             distance    = rounding;
     auto               judged_at   = positions;
     for (unsigned int trial = 0; trial < n_trials; ++trial)
       {

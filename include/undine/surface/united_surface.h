@@ -40,9 +40,9 @@ namespace undine
 
   /// The surface in which the bodies of each pair, which may overlap, are one: their facets end
   /// where they cross, and what lies in the other one is left out. Where nodes or edges of one body
-  /// lie in facets of the other, they cross as if places differed from the given ones by rounding
-  /// (rounding_of_places()). Nothing if no facets cross, or if that leaves the result open all the
-  /// same.
+  /// lie in facets of the other, they cross as if places differed from the given ones by 1e-8 to
+  /// 1e-5 of the facets' size. Nothing if no facets cross, or if that leaves the result open all
+  /// the same.
   template <int dim>
   std::optional<UnitedSurface<dim>>
   united_surface(const Surface<dim>                    &surface,
