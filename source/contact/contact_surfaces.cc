@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/contact/contact_surfaces.h>
-#include <undine/surface/surface_distance.h>
+#include <undine/surface/held_pairs.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -73,19 +73,6 @@ namespace undine
 
 
   template <int dim>
-  Surface<dim>
-  one_surface(const Surface<dim> &all, const unsigned int surface)
-  {
-    std::vector<typename Surface<dim>::Facet> facets;
-    for (unsigned int facet = 0; facet < all.facets().size(); ++facet)
-      if (all.body(facet) == surface)
-        facets.push_back(all.facets()[facet]);
-    const std::vector<unsigned int> owners(facets.size(), 0);
-    return Surface<dim>(all.n_nodes(), facets, owners, {all.body_names()[surface]});
-  }
-
-
-  template <int dim>
   ContactSurfaces<dim>::ContactSurfaces(const std::vector<ContactWall<dim>> &walls,
                                         const SolidModel<dim>               &solid,
                                         const Obstacles<dim>                *obstacles)
@@ -153,49 +140,22 @@ namespace undine
   void
   ContactSurfaces<dim>::find_fixed(const SolidModel<dim> &solid)
   {
-    std::vector<unsigned int> fixed_nodes;
-    for (unsigned int node = 0; node < body_surface.n_nodes(); ++node)
-      {
-        const auto &dofs = body_surface.dofs_of_node(node);
-        if (std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) {
-              return solid.all_fixed().is_element(dof);
-            }))
-          fixed_nodes.push_back(node);
-      }
+    const auto held = fixed_nodes(solid, body_surface);
     fixed.assign(n_bodies(), std::vector<bool>(all_walls.size()));
     reaching = fixed;
     for (unsigned int wall = 0; wall < all_walls.size(); ++wall)
       {
-        for (const unsigned int node : fixed_nodes)
+        for (const unsigned int node : held)
           if (rest_gap(node, wall) <= rounding())
             fixed[surfaces_of_nodes[node]][wall] = true;
         for (unsigned int node = 0; node < body_surface.n_nodes(); ++node)
           if (rest_gap(node, wall) < -rounding())
             reaching[surfaces_of_nodes[node]][wall] = true;
       }
-    find_grown_together(fixed_nodes);
-  }
-
-
-  template <int dim>
-  void
-  ContactSurfaces<dim>::find_grown_together(const std::vector<unsigned int> &fixed_nodes)
-  {
     const unsigned int n_surfaces = all_facets.body_names().size();
     grown_together.assign(n_surfaces, std::vector<bool>(n_surfaces));
-    if (fixed_nodes.empty())
-      return;
-    for (unsigned int surface = 0; surface < n_surfaces; ++surface)
-      {
-        const SurfaceDistance<dim> distance(one_surface(all_facets, surface), rest_positions);
-        const auto                 box = distance.box();
-        for (const unsigned int node : fixed_nodes)
-          if (const unsigned int body = surfaces_of_nodes[node];
-              body != surface && !grown_together[body][surface] &&
-              box.point_inside(rest_positions[node], 1e-9) &&
-              distance.nearest(rest_positions[node]).distance <= rounding())
-            grown_together[body][surface] = grown_together[surface][body] = true;
-      }
+    for (const auto &[a, b] : held_pairs(all_facets, held, rest_positions, rounding()))
+      grown_together[a][b] = grown_together[b][a] = true;
   }
 
 
@@ -211,10 +171,6 @@ namespace undine
   }
 
 
-  template Surface<2>
-  one_surface(const Surface<2> &, const unsigned int);
-  template Surface<3>
-  one_surface(const Surface<3> &, const unsigned int);
   template class ContactSurfaces<2>;
   template class ContactSurfaces<3>;
 } // namespace undine

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/contact/contact_boxes.h>
 #include <undine/contact/find_overlap.h>
+#include <undine/surface/held_pairs.h>
 #include <undine/surface/surface_distance.h>
 
 #include <deal.II/base/bounding_box.h>

@@ -139,6 +139,25 @@ namespace undine
       const std::vector<dealii::Point<dim>>                   &positions;
       std::map<std::tuple<unsigned int, int>, FlushPlane<dim>> all; ///< by axis and plane
     };
+
+
+    /// Nodes that are as close to a side of the grid as rounding are put onto it: a body that ends
+    /// there leaves no gap through which fluid on one side of it would be joined to the other.
+    template <int dim>
+    void
+    put_onto_sides(std::vector<dealii::Point<dim>> &nodes, const GridPlanes<dim> &planes)
+    {
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        for (const int plane : {0, planes.n_cells(axis)})
+          {
+            const int    cell     = std::min(plane, planes.n_cells(axis) - 1);
+            const double place    = planes.position(axis, plane);
+            const double rounding = planes.rounding(axis, cell) * planes.width(axis, cell);
+            for (auto &node : nodes)
+              if (std::abs(node[axis] - place) <= rounding)
+                node[axis] = place;
+          }
+    }
   } // namespace
 
 
@@ -148,7 +167,9 @@ namespace undine
                 const Surface<dim>                    &surface,
                 const std::vector<dealii::Point<dim>> &positions)
   {
-    return FlushFacets<dim>(planes, surface, positions).moved();
+    auto result = FlushFacets<dim>(planes, surface, positions).moved();
+    put_onto_sides(result, planes);
+    return result;
   }
 
 

@@ -99,6 +99,11 @@ namespace undine
       {
         throw InputError(fmt::format("{}: {}", file_name, error.what()));
       }
+    if (solid != nullptr)
+      held_in_each_other = held_pairs(*all_facets,
+                                      fixed_nodes(*solid, *body_surface),
+                                      rest,
+                                      -rounding_of_places(*all_facets, rest));
   }
 
 
@@ -109,6 +114,7 @@ namespace undine
     , body_surface(bodies)
     , all_obstacles(all.all_obstacles)
     , all_facets(all.all_facets)
+    , held_in_each_other(all.held_in_each_other)
   {
   }
 

@@ -11,13 +11,6 @@
 
 namespace undine
 {
-  /// One of several surfaces by itself; nodes keep their numbers. `surface`: its number in
-  /// all.body_names().
-  template <int dim>
-  Surface<dim>
-  one_surface(const Surface<dim> &all, unsigned int surface);
-
-
   /// All that bodies may touch: the surfaces of bodies, then those of obstacles, and plane walls.
   /// Replicated on all ranks, constant during a run.
   template <int dim>
@@ -168,8 +161,6 @@ namespace undine
     measure(const SolidModel<dim> &solid);
     void
     find_fixed(const SolidModel<dim> &solid);
-    void
-    find_grown_together(const std::vector<unsigned int> &fixed_nodes);
 
     const BodySurface<dim>         body_surface;
     const Obstacles<dim> *const    obstacles;

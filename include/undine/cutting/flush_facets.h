@@ -19,7 +19,8 @@ namespace undine
   /// components of almost no thickness, each with a pressure of its own, through which fluid flows
   /// around the corners of bodies; two sides of a body, one on either side of a plane, would
   /// differ. Facets stay where two of them face each other at the same plane: the gap of fluid
-  /// between them must stay open.
+  /// between them must stay open. Nodes that are next to a side of the grid but for rounding are
+  /// put onto it.
   template <int dim>
   std::vector<dealii::Point<dim>>
   beyond_planes(const GridPlanes<dim>                 &planes,

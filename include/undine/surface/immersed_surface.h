@@ -5,6 +5,7 @@
 #include <undine/fluid/grid/mac_grid.h>
 #include <undine/solid/mesh/solid_state.h>
 #include <undine/surface/body_surface.h>
+#include <undine/surface/held_pairs.h>
 #include <undine/surface/obstacles.h>
 
 #include <memory>
@@ -49,6 +50,14 @@ namespace undine
     obstacles() const
     {
       return *all_obstacles;
+    }
+
+    /// The pairs of surfaces of which one is held in the other by a support: together they are one
+    /// body for the fluid.
+    const std::vector<PairOfSurfaces> &
+    held() const
+    {
+      return held_in_each_other;
     }
 
     /// The sections of the scene that describe them, in the order of surface().body_names().
@@ -119,6 +128,7 @@ namespace undine
     std::optional<const BodySurface<dim>>       body_surface;
     const std::shared_ptr<const Obstacles<dim>> all_obstacles;
     std::shared_ptr<const Surface<dim>>         all_facets;
+    std::vector<PairOfSurfaces>                 held_in_each_other;
   };
 } // namespace undine
 

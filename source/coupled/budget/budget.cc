@@ -419,6 +419,7 @@ namespace undine
           -dt, {power, force});
         books.impulse_of_fluid += dt * force.norm();
       }
+    acting[BudgetTerm::interface].energy -= dt * surfaces.power_beside_velocities;
     for (std::size_t node = 0; node < n_body; ++node)
       {
         if (!surface->moves(node))

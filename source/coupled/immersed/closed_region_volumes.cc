@@ -43,18 +43,18 @@ namespace undine
     Vectors     increment(cut_at.size());
     for (std::size_t node = 0; node < increment.size(); ++node)
       increment[node] = cut_at[node] - before[node];
-    auto        result   = swept(before, increment);
-    const auto  at_start = region_volumes(models, before, regions.places_within());
-    const auto &volumes  = regions.volumes_of_regions();
+    auto       result   = swept(before, increment);
+    const auto places   = regions.places_within();
+    const auto at_start = region_volumes(models, before, places);
+    const auto at_cut   = region_volumes(models, geometry, places);
     for (std::size_t region = 0; region < result.size(); ++region)
-      if (at_start[region])
+      if (at_start[region] && at_cut[region])
         {
           // If regions have parted or merged since, the volume at the begin is that of another
-          // region. And where a surface comes to a plane of the grid or leaves it, the cut grid
-          // gains or loses what lies between.
-          constexpr double the_same = 1e-7;
-          const double     exact    = volumes[region] - *at_start[region];
-          if (std::abs(exact - result[region]) <= the_same * volumes[region])
+          // region. What facets sweep is exact unless they slide along sides of the domain.
+          constexpr double the_same = 1e-5;
+          const double     exact    = *at_cut[region] - *at_start[region];
+          if (std::abs(exact - result[region]) <= the_same * *at_cut[region])
             result[region] = exact;
         }
     return result;
@@ -66,7 +66,7 @@ namespace undine
   ClosedRegionVolumes<dim>::swept(const Positions &from, const Vectors &increment) const
   {
     return regions.sums_on_components(geometry.cut_topology().of_fluid_topology(
-      swept_volumes(geometry.cut_cells(), surface, geometry.surface_positions(), from, increment)));
+      swept_volumes(geometry.cut_cells(), surface, geometry.cut_positions(), from, increment)));
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/cutting/flush_facets.h>
+#include <undine/cutting/whole_facets.h>
 #include <undine/operators/body_forces.h>
 #include <undine/operators/sampled_regions.h>
 
@@ -45,8 +46,15 @@ namespace undine
   void
   FluidGeometry<dim>::cut_beyond_planes()
   {
-    const auto cut_at = beyond_planes(cells.block.planes(), surface.surface(), positions);
-    cut_block(cells, work, {surface.surface(), cut_at}, model.grid().cells()->blocks());
+    cut_at             = beyond_planes(cells.block.planes(), surface.surface(), positions);
+    const auto &blocks = model.grid().cells()->blocks();
+    if (const auto united = united_surface(surface.surface(), cut_at, surface.held()))
+      {
+        cut_block(cells, work, {united->surface, united->positions}, blocks);
+        refer_to_whole_facets(cells, united->parts);
+      }
+    else
+      cut_block(cells, work, {surface.surface(), cut_at}, blocks);
     if (cut_at == positions)
       return;
     Velocities back(cut_at.size());
@@ -257,6 +265,7 @@ namespace undine
                             parts.cut_components,
                             parts.open_components,
                             positions,
+                            cut_at,
                             was_at,
                             velocities) +
                       work.cache.memory_consumption();

@@ -168,6 +168,17 @@ namespace undine
 
 
   template <int dim>
+  double
+  SurfaceFlux<dim>::power_beside_velocities(const Field<dim> &pressure) const
+  {
+    double result = 0;
+    for (std::size_t c = 0; c < further.size(); ++c)
+      result += further[c] * pressure.parts()[c];
+    return dealii::Utilities::MPI::sum(result, models.communicator());
+  }
+
+
+  template <int dim>
   typename FluidGeometry<dim>::Velocities
   SurfaceFlux<dim>::nodal_forces(const Field<dim> &pressure) const
   {

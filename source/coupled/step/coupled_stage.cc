@@ -222,13 +222,14 @@ namespace undine
   SurfaceExchange<dim>
   CoupledStage<dim>::exchange() const
   {
-    const auto pressure    = pressures.field(x.block(1));
-    auto       result      = surfaces;
-    result.by_fluid        = parts.geometry.pressure_forces(pressure);
-    result.by_surface_flux = surface->nodal_forces(pressure);
-    result.velocities      = surface->node_velocities();
-    result.on_bodies       = result.by_surface_flux;
-    result.increment       = parts.models.surface->with_bodies(
+    const auto pressure            = pressures.field(x.block(1));
+    auto       result              = surfaces;
+    result.by_fluid                = parts.geometry.pressure_forces(pressure);
+    result.by_surface_flux         = surface->nodal_forces(pressure);
+    result.velocities              = surface->node_velocities();
+    result.power_beside_velocities = surface->power_beside_velocities(pressure);
+    result.on_bodies               = result.by_surface_flux;
+    result.increment               = parts.models.surface->with_bodies(
       equations.increment(x.block(0)),
       typename SurfaceExchange<dim>::Vectors(result.by_fluid.size()));
     return result;

@@ -11,14 +11,16 @@ from law_report import Finding, Plan, Point, largest
 
 VOLUME = 1e-8  # of the chamber's, that it may differ from what it had and what has flown in
 CLOSURE = 1e-7  # of energy
+END = 10  # s, of runs
 JUMP = 3  # times the median difference of final displacements between neighbouring grids
 NOTHING = 1e-7  # of the displacement, below which differences between grids are rounding
+TUBE_LENGTH = 0.25  # m
 
 # Where a plane lies beside the face of a body, in cells: at it, beside it on either side, and so far on.
 BESIDE = (-1e-3, -1e-6, 0.0, 1e-6, 1e-3)
 CROSSING = (1 / 6, 2 / 6, 3 / 6, 4 / 6, 5 / 6)
 QUICK_OFFSETS = {"membrane": (0.0, 1e-6, 0.5), "shell": (0.0, 1e-3), "three membranes": (0.0, 1e-6, 1 / 6),
-                 "ring": (0.0, 1e-6, 1 / 6)}
+                 "ring": (0.0, 1e-6, 1 / 6), "tube": (0.0, 1e-6, 1 / 6)}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,6 +40,14 @@ def ramp(time):
     return 0.5 - 0.5 * math.cos(math.pi * time) if time < 1 else 1.0
 
 
+def breath(time):
+    """In and out again, so that faces pass planes in both directions."""
+    return math.sin(math.pi * time) ** 2 * math.cos(math.pi * time / 8)
+
+
+BREATH = "sin(pi*t)^2*cos(pi*t/8)"
+
+
 def shifted(lower, size, faces, axes):
     """Grids of a box that are moved along `axes` until a plane lies at the coordinate `faces`, and on by the offset."""
     def settings(cells, offset):
@@ -53,28 +63,34 @@ def shifted(lower, size, faces, axes):
 
 
 def stretched(cells, offset):
-    """Grids of the quarter ring: it must end on the sides of the domain, so that its inner radius, 1 m, is passed by
-    cells that become smaller."""
+    """Grids of the quarter ring and the quarter tube: they must end on the sides of the domain, so that the inner
+    radius, 1 m, is passed by cells that become smaller."""
     length = cells[0] / (cells[0] // 3 + offset)
-    return {"Domain/Upper corner": law_scenes.point((length, length)), "Domain/Cells": ", ".join(map(str, cells)),
-            "Fluid/Void regions/air/Seed": law_scenes.point((0.99 * length, 0.99 * length))}
+    depth = (TUBE_LENGTH,) * (len(cells) - 2)
+    return {"Domain/Upper corner": law_scenes.point((length, length) + depth),
+            "Domain/Cells": ", ".join(map(str, cells)),
+            "Fluid/Void regions/air/Seed": law_scenes.point((0.99 * length, 0.99 * length)
+                                                            + tuple(0.4 * size for size in depth))}
 
 
 CASES = {
     "membrane": Case(os.path.join(law_scenes.ROOT, "prm", "closed_chamber.prm"), ("chamber",), ("membrane",),
-                     lambda time: math.sin(math.pi * time) ** 2, ((32, 32), (40, 40)),
-                     shifted((0.0, 0.0), (1.0, 1.0), (None, 0.4), (1,)), 0.2),
+                     breath, ((32, 32), (40, 40)), shifted((0.0, 0.0), (1.0, 1.0), (None, 0.4), (1,)), 0.2,
+                     {"Fluid/Boundaries/inlet/Velocity": "0; 0.15*" + BREATH}),
     "shell": Case("chamber_flush_with_planes.prm", ("inside",), ("shell",), ramp, ((74, 59), (37, 30)),
                   shifted((-2.0, 0.1), (7.4, 5.9), (0.0, 0.2), (0, 1)), 0.1,
                   {"Fluid/Void regions/air/Seed": "-1.5, 5.5",
+                   "Fluid/Boundaries/inlet/Velocity": "0; 0.5*if(t<1, 0.5-0.5*cos(pi*t), 1)",
                    # Faces below the shell, too, so that what flows in is the same wherever they lie.
                    "Fluid/Boundaries/inlet/Region": "(x-1.9)*(3.1-x)"}),
     "three membranes": Case("chambers_at_grid_planes.prm", ("c0", "c1", "c2"), ("m0", "m1", "m2"),
-                            lambda time: math.sin(math.pi * time) ** 2, ((32, 32), (40, 40)),
-                            shifted((0.0, 0.0), (1.0, 1.0), (0.25, None), (0,)), 0.15),
+                            breath, ((32, 32), (40, 40)), shifted((0.0, 0.0), (1.0, 1.0), (0.25, None), (0,)), 0.15,
+                            {"Fluid/Boundaries/in/Velocity": "0.025*" + BREATH + "; 0"}),
     "ring": Case("ring_ends_on_symmetry_planes.prm", ("cavity",), ("ring",), ramp, ((45, 45), (60, 60)), stretched,
-                 # No face's centre may lie at the end of the inlet, where rounding would decide.
+                 # No face's centre may come to the end of the inlet on any of the grids: its area would jump.
                  0.5, {"Fluid/Boundaries/source/Region": "0.53 - y"}),
+    "tube": Case("tube_ends_on_symmetry_planes.prm", ("cavity",), ("tube",), ramp, ((18, 18, 2), (24, 24, 3)),
+                 stretched, 0.3, {"Fluid/Boundaries/source/Region": "0.5 - y"}),
 }
 
 
@@ -107,7 +123,7 @@ def volume_error(run, case):
 def motion(run, case):
     """Of the centres of mass of all bodies, from the start to the end [m]."""
     return [column[-1] - column[0] for body in case.bodies for column in
-            (run.column(f"centre of mass {body} {axis}") for axis in "xy")]
+            (run.column(f"centre of mass {body} {axis}") for axis in "xyz") if column]
 
 
 def length(vector):
@@ -118,10 +134,10 @@ class Sequence:
     """Neighbouring grids of a case; keeps the final displacements."""
 
     def __init__(self, name, case, cells, offsets, settings):
-        self.name, self.case = f"{name}, {cells[0]} x {cells[1]}", case
+        self.name, self.case = f"{name}, {' x '.join(map(str, cells))}", case
         self.offsets = offsets
         base = law_scenes.read(os.path.join(law_scenes.SCENES, case.file))
-        self.scenes = [law_scenes.with_settings(base, {"Output/Budget": "true"}, case.settings, settings,
+        self.scenes = [law_scenes.with_settings(base, {"Output/Budget": "true", "Time/End": END}, case.settings, settings,
                                                 case.grid(cells, offset)) for offset in offsets]
         self.motions = [None] * len(offsets)
         self.lock = threading.Lock()

@@ -23,12 +23,13 @@ namespace undine
     using Vectors = std::vector<dealii::Tensor<1, dim>>;
 
     Vectors by_fluid; ///< B^T p with the B of the cut grid and the p that accelerated the fluid [N]
-    Vectors by_surface_flux; ///< the same with the B of the surface flux [N]
-    Vectors velocities;      ///< w, the velocity in the surface flux B w [m/s]
-    Vectors on_bodies;       ///< J p, the load on the bodies [N]
-    Vectors at_rest;         ///< the other loads on bodies: weight of the fluid, void regions [N]
-    Vectors friction;        ///< forces of friction on surfaces [N]; empty without
-    Vectors increment;       ///< d^{n+1} - d^n of bodies [m]
+    Vectors by_surface_flux;             ///< the same with the B of the surface flux [N]
+    Vectors velocities;                  ///< w, the velocity in the surface flux B w [m/s]
+    double  power_beside_velocities = 0; ///< of p and what the surface flux is besides B w [W]
+    Vectors on_bodies;                   ///< J p, the load on the bodies [N]
+    Vectors at_rest;   ///< the other loads on bodies: weight of the fluid, void regions [N]
+    Vectors friction;  ///< forces of friction on surfaces [N]; empty without
+    Vectors increment; ///< d^{n+1} - d^n of bodies [m]
   };
 
 

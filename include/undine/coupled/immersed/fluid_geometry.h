@@ -65,6 +65,13 @@ namespace undine
       return positions;
     }
 
+    /// Where the nodes were put to cut the grid, see beyond_planes() [m].
+    const Positions &
+    cut_positions() const
+    {
+      return cut_at;
+    }
+
     /// `velocities` of place() [m/s].
     const Velocities &
     surface_velocities() const
@@ -150,6 +157,7 @@ namespace undine
     const VoidRegions<dim>                    *void_regions; ///< nullptr: none
     VoidMask                                   voids;        ///< for `positions`
     Positions                                  positions;    ///< for which `cells` holds
+    Positions                                  cut_at;       ///< the same beyond planes
     Positions                                  was_at;       ///< as place() was told
     Velocities                                 velocities;
     CutCells<dim>                              cells;

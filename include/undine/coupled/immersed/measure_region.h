@@ -2,6 +2,7 @@
 #ifndef undine_coupled_immersed_measure_region_h
 #define undine_coupled_immersed_measure_region_h
 
+#include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/coupled/model/models.h>
 #include <undine/coupled/state/state.h>
 
@@ -26,14 +27,20 @@ namespace undine
                  const State<dim>         &state,
                  const dealii::Point<dim> &point);
 
-  /// The volumes of the regions around `points`, [points] [m^dim], for surfaces with their nodes
-  /// at `positions` [m]; nothing for points that are not in the fluid then. Cuts the grid once.
-  /// Collective.
+  /// The volumes of the regions around `points`, [points] [m^dim], between surfaces as `geometry`
+  /// has them, or with their nodes at `positions` [m], for which the grid is cut once; nothing for
+  /// points that are not in the fluid then. Collective. @{
+  template <int dim>
+  std::vector<std::optional<double>>
+  region_volumes(const Models<dim>                     &models,
+                 const FluidGeometry<dim>              &geometry,
+                 const std::vector<dealii::Point<dim>> &points);
   template <int dim>
   std::vector<std::optional<double>>
   region_volumes(const Models<dim>                     &models,
                  const std::vector<dealii::Point<dim>> &positions,
                  const std::vector<dealii::Point<dim>> &points);
+  /// @}
 } // namespace undine
 
 #endif

@@ -54,6 +54,11 @@ namespace undine
     std::vector<double>
     fluxes() const;
 
+    /// What the pressure does to what is added to B u, (C3), for the volumes of closed regions:
+    /// the sum of both over all components [W]. Collective.
+    double
+    power_beside_velocities(const Field<dim> &pressure) const;
+
     /// B^T p in all nodes [N]. Collective.
     typename FluidGeometry<dim>::Velocities
     nodal_forces(const Field<dim> &pressure) const;
