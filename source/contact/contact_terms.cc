@@ -128,8 +128,14 @@ namespace undine
     }
 
 
-    /// The sine of 1.8 degrees, squared: edges that enclose less count less (S17).
-    constexpr double least_crossing = 1e-3;
+    /// The squared sine of the angle from which on two edges count in full (S17): 1.8 degrees, or a
+    /// right angle if one is blunt. Meshes of smooth surfaces have many edges that are nearly
+    /// parallel: their forces must not change much with that angle.
+    double
+    least_crossing(const SharpEdge &one, const SharpEdge &other)
+    {
+      return one.blunt || other.blunt ? 1 : 1e-3;
+    }
 
 
     template <int dim>
@@ -166,7 +172,7 @@ namespace undine
         term.direction = nearest.from / nearest.distance;
       term.area                = std::min(one.area, other.area);
       term.activation_distance = activation_distance;
-      term.crossing            = least_crossing * std::pow(one.length * other.length, 2);
+      term.crossing = least_crossing(one, other) * std::pow(one.length * other.length, 2);
       terms.push_back(term);
     }
 

@@ -58,7 +58,8 @@ namespace undine
                             surface.body(facets[ridge][0]),
                             places[nodes[0]].distance(places[nodes[1]]),
                             share_of_area(cosine) * ((a.norm() + b.norm()) / 3),
-                            outwards / outwards.norm()});
+                            outwards / outwards.norm(),
+                            cosine >= cosine_of_sharp});
       }
     return result;
   }

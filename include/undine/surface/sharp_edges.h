@@ -17,6 +17,7 @@ namespace undine
     double                      length;   ///< [m]
     double                      area;     ///< a third of both facets, less if it is blunt [m^2]
     dealii::Tensor<1, 3>        outwards; ///< half way between the facets' normals, of length 1
+    bool                        blunt;    ///< less than 30 degrees
   };
 
   /// Edges whose facets' normals enclose an angle theta of more than one degree; none in the plane.
