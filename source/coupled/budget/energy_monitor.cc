@@ -123,7 +123,10 @@ namespace undine
                                       "goes in and out",
                                       created,
                                       share);
-        if (share > largest_share)
+        // Where a power rises within a few steps, forces that act at their end do more work.
+        const double by_end =
+          (now.energy - last.energy - report.dt * now.power) / scale(last, now, report.dt);
+        if (std::min(share, by_end) > largest_share)
           {
             if (response == "redo" && can_be_cut && (earlier == 0 || share < worthwhile * earlier))
               {

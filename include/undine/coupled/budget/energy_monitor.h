@@ -22,8 +22,9 @@ namespace undine
   ///     created = E^{n+1} - E^n - h (P^n + P^{n+1}) / 2                            [J]     (B3)
   ///
   /// It may be a tenth of E^n and of the work of the sizes of all powers: so much is the error of
-  /// that rule in steps that only just resolve what happens. The first step of a run, which may
-  /// begin with a jump and for which there is no P^n, is not judged.
+  /// that rule in steps that only just resolve what happens. The work may also be h P^{n+1}, that
+  /// of forces which act at the end of the step, where a power rises within few steps. The first
+  /// step of a run, which may begin with a jump and for which there is no P^n, is not judged.
   class EnergyMonitor
   {
   public:

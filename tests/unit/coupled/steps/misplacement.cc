@@ -68,7 +68,7 @@ TEST_CASE("What ends a step elsewhere than the grid was cut is named, with what 
 }
 
 
-TEST_CASE("A light block that shakes stops with the advice that lets it rise", "[coupled]")
+TEST_CASE("A light block that shakes rises in long steps, none of which is cut", "[coupled]")
 {
   const auto rise = [](const std::string &integrator) {
     return message_of([&] {
@@ -87,8 +87,6 @@ TEST_CASE("A light block that shakes stops with the advice that lets it rise", "
         run.step();
     });
   };
-  const auto message = rise("");
-  CHECK_THAT(message, Contains("'block'") && Contains("0.001 of the fluid's density"));
-  REQUIRE_THAT(message, Contains("'Time / Integrator = theta' with 'Theta = 1'"));
+  CHECK(rise("") == "no error"); // the grid is cut where it comes to, after some rounds
   CHECK(rise("set Integrator = theta\nset Theta = 1") == "no error");
 }

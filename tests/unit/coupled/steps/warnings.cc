@@ -16,15 +16,15 @@ namespace
                              section("open",
                                      "set Sides = left, top\nset Kind = pressure\n"
                                      "set Pressure = 0"))) +
-           section("Obstacles",
-                   section("pillar",
-                           "set Shape = box\nset Lower corner = .6, .2\nset Upper corner = "
-                           ".8, .8")) +
            section("Bodies",
                    section("block",
                            "set Lower corner = .33, .33\nset Upper corner = .58, .6\n"
                            "set Cells = 2, 2\nset Density = 1000\nset Young's modulus = 1e6\n"
-                           "set Poisson's ratio = .3\nset Initial velocity = 2; 0")) +
+                           "set Poisson's ratio = .3\nset Initial velocity = 2; 0") +
+                     section("pillar",
+                             "set Lower corner = .6, .2\nset Upper corner = .8, .8\n"
+                             "set Cells = 1, 3\nset Density = 1000\nset Young's modulus = 1e6\n"
+                             "set Poisson's ratio = .3")) +
            section("Coupling", coupling);
   }
 } // namespace
