@@ -106,9 +106,8 @@ namespace undine
                        Report                       &report,
                        const bool                    can_be_cut) const
   {
-    if (!report
-           .account) // off, or the energies of fluid and bodies have nothing to do with each other
-      return;
+    if (!report.account)
+      return; // off, or a coupling in one direction, which keeps no energy
     const auto &last = *account;
     auto       &now  = *report.account;
     now.energy       = energy_of(report.columns);
@@ -128,15 +127,18 @@ namespace undine
           (now.energy - last.energy - report.dt * now.power) / scale(last, now, report.dt);
         if (std::min(share, by_end) > largest_share)
           {
-            if (response == "redo" && can_be_cut && (earlier == 0 || share < worthwhile * earlier))
+            const bool helps = earlier <= largest_share || share < worthwhile * earlier;
+            if (response == "redo" && can_be_cut && helps)
               {
                 ++report.creations;
                 throw SolveError(text);
               }
-            report.warn(
-              "energy created in a step",
-              text + (earlier > 0 ? fmt::format(", as one twice as long ({:.2g})", earlier) : "") +
-                ". Try: shorter steps, a finer grid, or the integrator trapezoid_bdf2.");
+            report.warn("energy created in a step",
+                        text +
+                          (earlier > largest_share
+                             ? fmt::format(", as one twice as long ({:.2g})", earlier)
+                             : "") +
+                          ". Try: shorter steps, a finer grid, or the integrator trapezoid_bdf2.");
           }
         now.created = std::max(0., last.created + created);
         if (now.created > largest_share * now.largest)

@@ -8,16 +8,14 @@ namespace undine
   StateArray
   pack_account(const EnergyAccount &account, const MPI_Comm communicator)
   {
-    const std::vector<double> numbers{account.energy,
-                                      account.power,
-                                      account.exchange,
-                                      account.largest,
-                                      account.created,
-                                      account.known ? 1. : 0.};
-    const hsize_t             size = numbers.size();
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      return {account_array, {{size}, {0}, {size}}, numbers};
-    return {account_array, {{size}, {0}, {0}}, {}};
+    return numbers_of_first_rank(account_array,
+                                 {account.energy,
+                                  account.power,
+                                  account.exchange,
+                                  account.largest,
+                                  account.created,
+                                  account.known ? 1. : 0.},
+                                 communicator);
   }
 
 

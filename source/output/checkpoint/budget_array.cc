@@ -15,10 +15,7 @@ namespace undine
         numbers.push_back(term.energy);
         numbers.insert(numbers.end(), term.momentum.begin_raw(), term.momentum.end_raw());
       }
-    const hsize_t size = numbers.size();
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      return {budget_array, {{size}, {0}, {size}}, numbers};
-    return {budget_array, {{size}, {0}, {0}}, {}};
+    return numbers_of_first_rank(budget_array, numbers, communicator);
   }
 
 

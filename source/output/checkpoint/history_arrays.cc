@@ -30,10 +30,7 @@ namespace undine
   {
     std::vector<double> numbers{double(history.n_samples)};
     for_each_number(history, [&](const double number) { numbers.push_back(number); });
-    const hsize_t size = numbers.size();
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      return {"history/numbers", {{size}, {0}, {size}}, numbers};
-    return {"history/numbers", {{size}, {0}, {0}}, {}};
+    return numbers_of_first_rank("history/numbers", numbers, communicator);
   }
 
 

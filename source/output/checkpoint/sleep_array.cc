@@ -15,10 +15,7 @@ namespace undine
     numbers.insert(numbers.end(), sleep.slow_time.begin(), sleep.slow_time.end());
     for (const auto &load : sleep.loads)
       numbers.insert(numbers.end(), load.begin_raw(), load.end_raw());
-    const hsize_t size = numbers.size();
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      return {"sleep", {{size}, {0}, {size}}, numbers};
-    return {"sleep", {{size}, {0}, {0}}, {}};
+    return numbers_of_first_rank("sleep", numbers, communicator);
   }
 
 

@@ -242,6 +242,18 @@ namespace undine
   } // namespace
 
 
+  StateArray
+  numbers_of_first_rank(const std::string         &name,
+                        const std::vector<double> &numbers,
+                        const MPI_Comm             communicator)
+  {
+    const hsize_t size = numbers.size();
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      return {name, {{size}, {0}, {size}}, numbers};
+    return {name, {{size}, {0}, {0}}, {}};
+  }
+
+
   template <int dim>
   std::vector<StateArray>
   pack_surface(const Models<dim> &models, const State<dim> &state)

@@ -88,6 +88,38 @@ namespace undine_tests
     const SolidModel<dim>  model;
     const BodyContact<dim> contact;
   };
+
+
+  /// At the displacement `place` forces are the derivative of the energy along `change`, to
+  /// `tolerance`, and the stiffness is that of the forces.
+  template <int dim>
+  void
+  check_derivatives_along(const Scene<dim> &scene,
+                          const Vector     &place,
+                          const Vector     &change,
+                          const double      tolerance)
+  {
+    const auto at = [&](const double path) {
+      Vector result = place;
+      result.add(path, change);
+      return result;
+    };
+    const double step   = 1e-6;
+    const Vector forces = scene.contact.forces(place, 0);
+    REQUIRE(forces.size() > 0);
+    CHECK((scene.contact.energy(at(step), 0) - scene.contact.energy(at(-step), 0)) / (2 * step) ==
+          Approx(-(forces * change)).epsilon(tolerance));
+
+    auto matrix = scene.model.matrix();
+    scene.contact.add_stiffness(matrix, 2, place, 0);
+    Vector by_matrix = scene.model.vector();
+    matrix.vmult(by_matrix, change);
+    Vector by_difference = scene.contact.forces(at(step), 0);
+    by_difference.add(-1., scene.contact.forces(at(-step), 0));
+    by_difference *= -2 / (2 * step);
+    by_difference.add(-1., by_matrix);
+    CHECK(by_difference.l2_norm() < 1e-6 * by_matrix.l2_norm());
+  }
 } // namespace undine_tests
 
 #endif

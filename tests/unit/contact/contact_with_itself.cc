@@ -61,27 +61,8 @@ namespace
     INFO(dim << "D, degree " << degree);
     const Scene<dim> scene(slit_ring<dim>(.2, .3, degree), .1);
     const Vector     place = closed_to(scene, .2, .06, .004), change = scene.field(1, 1);
-    const auto       at = [&](const double path) {
-      Vector result = place;
-      result.add(path, change);
-      return result;
-    };
-    const double step   = 1e-6;
-    const Vector forces = scene.contact.forces(place, 0);
-    REQUIRE(forces.size() > 0);
     REQUIRE(scene.contact.energy(place, 0) > 1e-4);
-    CHECK((scene.contact.energy(at(step), 0) - scene.contact.energy(at(-step), 0)) / (2 * step) ==
-          Approx(-(forces * change)).epsilon(1e-6));
-
-    auto matrix = scene.model.matrix();
-    scene.contact.add_stiffness(matrix, 2, place, 0);
-    Vector by_matrix = scene.model.vector();
-    matrix.vmult(by_matrix, change);
-    Vector by_difference = scene.contact.forces(at(step), 0);
-    by_difference.add(-1., scene.contact.forces(at(-step), 0));
-    by_difference *= -2 / (2 * step);
-    by_difference.add(-1., by_matrix);
-    CHECK(by_difference.l2_norm() < 1e-6 * by_matrix.l2_norm());
+    check_derivatives_along(scene, place, change, 1e-6);
   }
 
   /// A thin sheet becomes thinner by `factor`: its two faces come nearer than the activation

@@ -75,6 +75,36 @@ TEMPLATE_TEST_CASE_SIG(
 }
 
 
+TEST_CASE("checkpoint: what the energy monitor knows is read back, or nothing is known",
+          "[checkpoint][mpi]")
+{
+  TemporaryFolder      folder;
+  const SampleScene<2> scene(MPI_COMM_WORLD);
+  auto                 watched = state_at(scene, 11);
+  write_checkpoint(folder.path / "unwatched", scene.models, watched);
+  watched.account = EnergyAccount{1. / 3, -2. / 3, 4, 5, 6, true};
+  write_checkpoint(folder.path / "watched", scene.models, watched);
+
+  auto read = scene.zero_state();
+  read_checkpoint(folder.path / "watched", scene.models, read);
+  CHECK(!read.account); // the run that goes on has no monitor
+  read         = scene.zero_state();
+  read.account = EnergyAccount();
+  read_checkpoint(folder.path / "watched", scene.models, read);
+  REQUIRE(read.account);
+  CHECK(read.account->energy == 1. / 3);
+  CHECK(read.account->power == -2. / 3);
+  CHECK(read.account->exchange == 4);
+  CHECK(read.account->largest == 5);
+  CHECK(read.account->created == 6);
+  CHECK(read.account->known);
+
+  read_checkpoint(folder.path / "unwatched", scene.models, read);
+  REQUIRE(read.account);
+  CHECK(!read.account->known); // so that the first step is not judged
+}
+
+
 TEMPLATE_TEST_CASE_SIG("checkpoint: any number of ranks reads what any other wrote",
                        "[checkpoint][mpi]",
                        ((int dim), dim),

@@ -19,6 +19,12 @@ namespace undine
     std::vector<double> values;
   };
 
+  /// `numbers`, the same on all ranks, of which the first rank writes all.
+  StateArray
+  numbers_of_first_rank(const std::string         &name,
+                        const std::vector<double> &numbers,
+                        MPI_Comm                   communicator);
+
   /// Positions of the nodes of all surfaces in the fluid when its fields were computed [m]: they
   /// determine the topology of the fields of pack(). No array if there is no surface.
   /// unpack_surface() cuts the grid by them and sets all fields to zero on it. Collective. @{
