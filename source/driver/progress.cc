@@ -83,8 +83,9 @@ namespace undine
       readable(seconds_since(begin) * (1 - done) / std::max(done, 1e-12)),
       (report.cuts > 0 ? fmt::format("   step cut {} time(s)", report.cuts) : "") +
         (report.rejections > 0 ? fmt::format(", {} for its error", report.rejections) : "") +
-        (report.creations > 0 ? fmt::format(", {} for the energy that it created", report.creations)
-                              : "") +
+        (report.creations.number > 0
+           ? fmt::format(", {} for the energy that it created", report.creations.number)
+           : "") +
         (report.error_in_time ? fmt::format("   error in time {:.2g}", *report.error_in_time)
                               : ""));
     log.print_notes(report);

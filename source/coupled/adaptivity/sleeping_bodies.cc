@@ -148,6 +148,8 @@ namespace undine
           {
             whole       = state.solid;
             state.solid = part->of_awake->taken_from(whole);
+            if (state.step_begin.displacement.size() > 0)
+              state.step_begin = part->of_awake->taken_from(state.step_begin);
           }
       }
     if (physics)

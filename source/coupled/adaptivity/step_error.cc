@@ -153,7 +153,7 @@ namespace undine
         if (history.n_samples == n_samples)
           estimate(history, allowed_rate(state, time));
       }
-    if (report.cuts > 0)
+    if (report.halvings > 0)
       history.step = dt;
     else if (history.best_step > 0)
       history.step = std::min(2 * history.step, history.next_step);

@@ -17,8 +17,18 @@ namespace undine
     // Of the energy and of what goes in and out.
     constexpr double largest_share = 0.1;
 
-    // A shorter step is worth its time only if its share is less by this.
-    constexpr double worthwhile = 0.8;
+    // Of the largest energy, by all steps together, and of the energy and of what goes in and out
+    // by a step that adds to them.
+    constexpr double largest_sum = 0.005, share_in_sum = 0.002;
+
+    // A step of half the length is worth its time only if it creates less than half as much, and
+    // where that is still too much for one step if it is less. After one that is not the next may
+    // be.
+    constexpr double       half_as_much = 0.4, less = 0.8;
+    constexpr unsigned int most_vain = 2;
+
+    // In the first step, of all works.
+    constexpr double small_work_of_powers = 1e-3;
 
     // Speeds at which fluid and bodies move by this share of their extent in a step are rounding.
     constexpr double least_way = 1e-8;
@@ -35,14 +45,6 @@ namespace undine
           sum += column.value;
       return sum;
     }
-
-
-    /// (B3).
-    double
-    created_energy(const EnergyAccount &last, const EnergyAccount &now, const double dt)
-    {
-      return now.energy - last.energy - dt / 2 * (last.power + now.power);
-    }
   } // namespace
 
 
@@ -50,13 +52,15 @@ namespace undine
   EnergyMonitor::add_options(const Options &time, const Response usual)
   {
     response = usual == Response::none ? "off" : usual == Response::warn ? "warn" : "redo";
-    time.add("Energy monitor",
-             response,
-             "",
-             Allowed::one_of({"off", "warn", "redo"}),
-             "What to do about a step in which fluid and bodies gain more energy than has been put "
-             "into them from outside, by more than a tenth of it and of what goes in and out: "
-             "nothing; a warning; or redo it with half its length, as long as that creates less.");
+    time.add(
+      "Energy monitor",
+      response,
+      "",
+      Allowed::one_of({"off", "warn", "redo"}),
+      "What to do about a step in which fluid and bodies gain more energy than has been put "
+      "into them from outside, by more than a tenth of it and of what goes in and out: "
+      "nothing; a warning; or redo it with half its length, as long as that creates less. Smaller "
+      "amounts add up to a two-hundredth of the largest energy before that.");
   }
 
 
@@ -85,76 +89,134 @@ namespace undine
   }
 
 
+  template <int dim>
   void
-  EnergyMonitor::begin_step(Report &report) const
+  EnergyMonitor::begin_step(State<dim> &state, Report &report) const
   {
-    if (response != "off")
-      report.account.emplace();
+    if (response == "off")
+      return;
+    report.account.emplace();
+    state.step_begin = state.solid;
   }
 
 
-  double
-  EnergyMonitor::scale(const EnergyAccount &last, const EnergyAccount &now, const double dt) const
+  /// What a step creates.
+  struct EnergyMonitor::Creation
   {
-    return last.energy + dt / 2 * (last.exchange + now.exchange) +
-           inertia * std::pow(least_way / dt, 2);
+    bool   is_known  = false;
+    double energy    = 0; ///< (B3) [J]
+    double share     = 0; ///< of the energy and of what goes in and out [1]
+    double least     = 0; ///< the same, if that is less with the powers at the end of the step
+    double uncertain = 0; ///< how far `energy` may be off, since powers are known at both ends [J]
+    bool   exceeds_sum = false; ///< that all steps together may create
+
+    bool
+    is_allowed() const
+    {
+      return !is_known || (least <= largest_share && !exceeds_sum);
+    }
+  };
+
+
+  EnergyMonitor::Creation
+  EnergyMonitor::created(const EnergyAccount &last, const EnergyAccount &now, const double dt) const
+  {
+    const auto  &first    = last.known ? last : now;
+    const double gain     = now.energy - last.energy - now.work;
+    const double exchange = dt / 2 * (first.exchange + now.exchange);
+    const double scale =
+      last.energy + now.work_exchange + exchange + inertia * std::pow(least_way / dt, 2);
+
+    Creation step;
+    step.is_known  = last.known || exchange <= small_work_of_powers * (scale - exchange);
+    step.energy    = gain - dt / 2 * (first.power + now.power);
+    step.share     = step.energy / scale;
+    step.least     = std::min(step.share, (gain - dt * now.power) / scale);
+    step.uncertain = largest_share * exchange;
+    step.exceeds_sum =
+      step.share > share_in_sum && last.created - last.excused + step.energy >
+                                     largest_sum * now.largest + last.uncertain + step.uncertain;
+    return step;
   }
 
 
+  /// Throws SolveError if the step is to be redone with a shorter one, NoShorterStep if with a
+  /// longer one; else warns.
   void
-  EnergyMonitor::judge(std::optional<EnergyAccount> &account,
-                       Report                       &report,
-                       const bool                    can_be_cut) const
+  EnergyMonitor::respond(const Creation &step, Report &report, const bool can_be_cut) const
   {
+    const auto text  = fmt::format("the step creates {:.3g} J, {:.2g} of the energy and of what "
+                                   "goes in and out",
+                                  step.energy,
+                                  step.share);
+    auto      &tries = report.creations;
+    if (response == "redo" && !tries.are_over)
+      {
+        const double worthwhile = tries.best_share > largest_share ? less : half_as_much;
+        if (tries.number == 0 || step.energy < worthwhile * tries.least_energy)
+          {
+            tries.least_energy  = step.energy;
+            tries.best_share    = step.least;
+            tries.best_halvings = report.halvings;
+            tries.vain          = 0;
+          }
+        else
+          ++tries.vain;
+        const bool goes_on =
+          can_be_cut && (tries.vain < most_vain || tries.best_share > largest_share);
+        tries.are_over = !goes_on;
+        if (goes_on || tries.vain > 0)
+          ++tries.number;
+        if (goes_on)
+          throw SolveError(text);
+        if (tries.vain > 0)
+          throw NoShorterStep(text);
+      }
+    if (step.least > largest_share)
+      report.warn("energy created in a step",
+                  text + (tries.number > 0 ? ", in shorter ones no less" : "") +
+                    ". Try: shorter steps, a finer grid, or the integrator trapezoid_bdf2.");
+  }
+
+
+  template <int dim>
+  void
+  EnergyMonitor::judge(State<dim> &state, Report &report, const bool can_be_cut) const
+  {
+    state.step_begin = {};
     if (!report.account)
       return; // off, or a coupling in one direction, which keeps no energy
-    const auto &last = *account;
+    const auto &last = *state.account;
     auto       &now  = *report.account;
     now.energy       = energy_of(report.columns);
     now.largest      = std::max(last.largest, now.energy);
     now.known        = true;
-    if (last.known)
+    const auto step  = created(last, now, report.dt);
+    if (!step.is_allowed())
+      respond(step, report, can_be_cut);
+    report.share_created = step.is_known ? step.share : 0;
+    if (step.is_known)
       {
-        const double created = created_energy(last, now, report.dt);
-        const double share   = created / scale(last, now, report.dt);
-        const double earlier = std::exchange(report.created_share, share);
-        const auto text = fmt::format("the step creates {:.3g} J, {:.2g} of the energy and of what "
-                                      "goes in and out",
-                                      created,
-                                      share);
-        // Where a power rises within a few steps, forces that act at their end do more work.
-        const double by_end =
-          (now.energy - last.energy - report.dt * now.power) / scale(last, now, report.dt);
-        if (std::min(share, by_end) > largest_share)
-          {
-            const bool helps = earlier <= largest_share || share < worthwhile * earlier;
-            if (response == "redo" && can_be_cut && helps)
-              {
-                ++report.creations;
-                throw SolveError(text);
-              }
-            report.warn("energy created in a step",
-                        text +
-                          (earlier > largest_share
-                             ? fmt::format(", as one twice as long ({:.2g})", earlier)
-                             : "") +
-                          ". Try: shorter steps, a finer grid, or the integrator trapezoid_bdf2.");
-          }
-        now.created = std::max(0., last.created + created);
-        if (now.created > largest_share * now.largest)
-          report.warn(
-            "energy created",
-            fmt::format("steps have created {:.3g} J, {:.2g} of the largest energy so far. "
-                        "Try: shorter steps.",
-                        now.created,
-                        now.created / now.largest));
+        now.created   = std::max(0., last.created + step.energy);
+        now.excused   = std::min(now.created, last.excused + (step.is_allowed() ? 0 : step.energy));
+        now.uncertain = last.uncertain + step.uncertain;
       }
-    account = now;
+    if (now.created > largest_share * now.largest + now.uncertain)
+      report.warn("energy created",
+                  fmt::format("steps have created {:.3g} J, {:.2g} of the largest energy so far. "
+                              "Try: shorter steps.",
+                              now.created,
+                              now.created / now.largest));
+    state.account = now;
   }
 
 
-  template void
-  EnergyMonitor::start(const Models<2> &, State<2> &, const Columns &);
-  template void
-  EnergyMonitor::start(const Models<3> &, State<3> &, const Columns &);
+#define INSTANTIATE(dim)                                                                  \
+  template void EnergyMonitor::start(const Models<dim> &, State<dim> &, const Columns &); \
+  template void EnergyMonitor::begin_step(State<dim> &, Report &) const;                  \
+  template void EnergyMonitor::judge(State<dim> &, Report &, bool) const;
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace undine

@@ -183,6 +183,15 @@ namespace undine
 
   template <int dim>
   typename FluidGeometry<dim>::Velocities
+  FluidGeometry<dim>::uniform_pressure_forces(const double pressure) const
+  {
+    const std::vector<double> pressures(parts.open->cells.all().size(), pressure);
+    return nodal_forces(*flux_operator, parts.of_cut_cells(pressures), model.grid().communicator());
+  }
+
+
+  template <int dim>
+  typename FluidGeometry<dim>::Velocities
   FluidGeometry<dim>::gravity_forces(const dealii::Tensor<1, dim> &gravity) const
   {
     const std::vector<double> densities(parts.open->cells.all().size(), model.density());

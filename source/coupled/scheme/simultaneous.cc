@@ -141,20 +141,20 @@ namespace undine
       fluid_side.finish(*fluid, state, report, coupled.divergence());
       budget.end_stage();
       if (stage.is_last && report.account)
-        add_power(*report.account, state, fluid->end, coupled);
+        add_work(*report.account, state, fluid->end, coupled);
       if (stage.is_last)
         add_solver_columns(report);
       solid_side.finish(state, stage, solid, report);
     }
 
     void
-    add_power(EnergyAccount           &account,
-              const State<dim>        &state,
-              const double             time,
-              const CoupledStage<dim> &step) const
+    add_work(EnergyAccount           &account,
+             const State<dim>        &state,
+             const double             time,
+             const CoupledStage<dim> &step) const
     {
       const auto measured = timing.section("measure");
-      fluid_side.add_power(account, state, time, step.pressure_balance());
+      fluid_side.add_work(account, state, time, step.pressure_balance());
     }
 
     void

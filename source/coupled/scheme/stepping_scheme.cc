@@ -129,28 +129,36 @@ namespace undine
     for (Report report;; ++report.cuts)
       try
         {
-          report.dt = asked / (1u << report.cuts);
-          energy_monitor.begin_step(report);
+          report.dt = asked / (1u << report.halvings);
+          energy_monitor.begin_step(state, report);
           budget->start(state.budget_rates);
           const auto rates = state.clock.step > 0 ? RatesAtBegin::known : RatesAtBegin::unknown;
           physics->advance(state, integrator->stages(report.dt, rates), report);
           append(report.columns, budget->columns());
           state.budget_rates = budget->rates();
           assert_finite(report.columns);
-          energy_monitor.judge(state.account, report, can_be_cut(report));
+          energy_monitor.judge(state, report, can_be_cut(report));
           judge_error(state, saved, report);
           check_passages(saved, state, report.dt);
-          state.clock.longest_step = report.cuts > 0 ? report.dt : 2 * state.clock.longest_step;
+          state.clock.longest_step = report.halvings > 0 ? report.dt : 2 * state.clock.longest_step;
           report.warn("step cuts", cause);
           return report;
         }
+      catch (const EnergyMonitor::NoShorterStep &)
+        {
+          start_again(state, saved, report);
+          report.halvings = report.creations.best_halvings;
+          if (report.halvings == 0)
+            cause.clear();
+        }
       catch (const SolveError &error)
         {
-          state                    = saved;
-          report.newton_iterations = report.linear_iterations = 0;
-          report.columns.clear();
-          report.warnings.clear();
-          if (!can_be_cut(report))
+          start_again(state, saved, report);
+          if (can_be_cut(report))
+            ++report.halvings;
+          else if (report.creations.end())
+            report.halvings = report.creations.best_halvings;
+          else
             throw SolveError(complaint(asked, report, error));
           if (report.rejections < report.cuts + 1)
             cause = fmt::format("a step of {:.4g} s was cut: {}", report.dt, error.what());
@@ -160,6 +168,17 @@ namespace undine
           state = saved;
           throw;
         }
+  }
+
+
+  template <int dim>
+  void
+  SteppingScheme<dim>::start_again(State<dim> &state, const State<dim> &saved, Report &report)
+  {
+    state                    = saved;
+    report.newton_iterations = report.linear_iterations = 0;
+    report.columns.clear();
+    report.warnings.clear();
   }
 
 

@@ -86,7 +86,7 @@ namespace undine
       if (stage.is_last && report.account)
         {
           const auto phase = timing.section("measure");
-          fluid_side.add_power(
+          fluid_side.add_work(
             *report.account, state, fluid->end, projected.balance(*models.fluid, state.fluid));
         }
       solid_side.finish(state, stage, solid, report);

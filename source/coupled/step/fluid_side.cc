@@ -3,6 +3,7 @@
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/physics.h>
 #include <undine/fluid/model/fluid_quantities.h>
+#include <undine/operators/static_pressure.h>
 
 #include <algorithm>
 #include <cmath>
@@ -272,16 +273,18 @@ namespace undine
 
   template <int dim>
   void
-  FluidSide<dim>::add_power(EnergyAccount              &account,
-                            const State<dim>           &state,
-                            const double                time,
-                            const PressureBalance<dim> &pressures) const
+  FluidSide<dim>::add_work(EnergyAccount              &account,
+                           const State<dim>           &state,
+                           const double                time,
+                           const PressureBalance<dim> &pressures) const
   {
     account.add_power(pressures.power_of_sides);
-    account.add_power(pressures.power_of_openings);
+    const std::size_t n_body_nodes = cut && models.solid ? models.surface->n_body_nodes() : 0;
+    if (n_body_nodes == 0)
+      account.add_power(pressures.power_of_openings);
     if (!cut)
       return;
-    auto              velocities = cut->surface_velocities();
+    const auto        velocities = cut->surface_velocities();
     const std::size_t n_bodies   = models.surface->n_body_nodes();
     const auto        are_still  = [](const auto &velocity) { return velocity.norm() == 0; };
     if (!std::all_of(velocities.begin() + n_bodies, velocities.end(), are_still))
@@ -292,14 +295,49 @@ namespace undine
           power -= forces[node] * velocities[node];
         account.add_power(power);
       }
-    if (n_bodies == 0 || !models.solid)
-      return;
-    velocities        = models.surface->with_bodies(state.solid.velocity, std::move(velocities));
-    const auto weight = cut->other_forces(environment.gravity, time);
-    double     power  = 0;
-    for (std::size_t node = 0; node < n_bodies; ++node)
-      power += weight[node] * velocities[node];
-    account.add_power(power);
+    if (n_body_nodes > 0)
+      add_work_on_bodies(account, state, time, pressures);
+  }
+
+
+  /// The pressure of the fluid at rest at the height of the openings: a uniform one, which does no
+  /// work on the fluid, is left out of the power of openings instead. Its work and that of weight
+  /// follow from where bodies have come to. Where they bound void regions, the power of the forces
+  /// at the end of the step stands for it.
+  template <int dim>
+  void
+  FluidSide<dim>::add_work_on_bodies(EnergyAccount              &account,
+                                     const State<dim>           &state,
+                                     const double                time,
+                                     const PressureBalance<dim> &pressures) const
+  {
+    const auto &surface = *models.surface;
+    const auto  power   = [&](const auto &forces) {
+      const auto velocities =
+        surface.with_bodies(state.solid.velocity, typename FluidGeometry<dim>::Velocities(forces));
+      double sum = 0;
+      for (unsigned int node = 0; node < surface.n_body_nodes(); ++node)
+        sum += forces[node] * velocities[node];
+      return sum;
+    };
+    if (cut->has_void_regions())
+      {
+        account.add_power(power(cut->other_forces(environment.gravity, time)));
+        account.add_power(pressures.power_of_openings);
+        return;
+      }
+    account.add_power(pressures.power_of_openings -
+                      power(cut->uniform_pressure_forces(pressures.mean_at_openings)));
+    const StaticPressure<dim> pressure{pressures.mean_at_openings,
+                                       model.density() * environment.gravity};
+    const auto                against = [&](const SolidState &bodies, const double at) {
+      return work_against(pressure,
+                          model.grid(),
+                          surface.surface(),
+                          surface.positions(bodies, at),
+                          surface.n_body_nodes());
+    };
+    account.add_work(against(state.step_begin, state.clock.time) - against(state.solid, time));
   }
 
 

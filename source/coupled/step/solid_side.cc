@@ -127,21 +127,27 @@ namespace undine
   }
 
 
-  /// Of loads, supports and obstacles that bodies touch.
+  /// Of loads, by the mean of those at both ends of the step, supports and obstacles that bodies
+  /// touch.
   template <int dim>
   void
-  SolidSide<dim>::add_power(EnergyAccount          &account,
-                            const State<dim>       &state,
-                            const Stage            &stage,
-                            const SolidReport<dim> &solid) const
+  SolidSide<dim>::add_work(EnergyAccount          &account,
+                           const State<dim>       &state,
+                           const Stage            &stage,
+                           const SolidReport<dim> &solid) const
   {
-    const double time     = state.clock.time + stage.end;
-    const auto  &velocity = state.solid.velocity;
-    account.add_power(dead_loads(model, surroundings, time) * velocity);
+    const double begin = state.clock.time, time = begin + stage.end;
+    auto         way = state.solid.displacement;
+    way -= state.step_begin.displacement;
+    account.add_work(
+      (dead_loads(model, surroundings, begin) * way + dead_loads(model, surroundings, time) * way) /
+      2);
     if (has_pressure_loads(model))
-      account.add_power(pressure_loads(model, state.solid.displacement, time) * velocity);
+      account.add_work((pressure_loads(model, state.step_begin.displacement, begin) * way +
+                        pressure_loads(model, state.solid.displacement, time) * way) /
+                       2);
     if (solid.reactions.size() > 0)
-      account.add_power(solid.reactions * velocity);
+      account.add_power(solid.reactions * state.solid.velocity);
     if (!surroundings.contact)
       return;
     // What the potential gains as obstacles move and bodies do not.
@@ -169,7 +175,7 @@ namespace undine
     if (report.account)
       {
         const auto measured = timing.section("measure");
-        add_power(*report.account, state, stage, solid);
+        add_work(*report.account, state, stage, solid);
       }
   }
 

@@ -75,7 +75,29 @@ namespace undine
   {
     if (const auto seen = samples->along(part.index, part.place, foot))
       return *seen;
-    return axis < dim ? tracer.bodies().obstruction->nearest_velocity(foot.point)[axis] : unknown;
+    if (axis >= dim)
+      return unknown;
+    if (const auto hidden = mean_before(part.index))
+      return *hidden;
+    return tracer.bodies().obstruction->nearest_velocity(foot.point)[axis];
+  }
+
+
+  /// A surface may shake, and fluid that took its velocity would gain energy from nowhere.
+  template <int dim>
+  std::optional<double>
+  NearBodies<dim>::mean_before(const GridIndex<dim> &index) const
+  {
+    using Kind          = typename SubLattice<dim>::Kind;
+    const auto *divided = source.divided();
+    if (!divided || divided->kind(index) == Kind::whole)
+      return source(index);
+    double sum = 0, measure = 0;
+    for_each_part(*divided, index, [&](const int k) {
+      sum += divided->all()[k].measure * source.parts()[k];
+      measure += divided->all()[k].measure;
+    });
+    return measure > 0 ? std::optional<double>(sum / measure) : std::nullopt;
   }
 
 

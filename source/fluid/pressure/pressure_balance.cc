@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
+
 namespace undine
 {
   template <int dim>
@@ -25,9 +27,13 @@ namespace undine
       result.sides[face.side.axis] += force;
       result.power_of_sides -= force * value_on(velocity, face);
     });
+    double area = 0, force_on_area = 0;
     for (const auto &opening : openings)
       {
-        const double force = opening.pressure * signed_area(grid, open, opening);
+        const double signed_by_side = signed_area(grid, open, opening);
+        const double force          = opening.pressure * signed_by_side;
+        area += std::abs(signed_by_side);
+        force_on_area += opening.pressure * std::abs(signed_by_side);
         result.openings[opening.side.axis] += force;
         result.power_of_openings -= force * value_on(velocity, opening);
       }
@@ -36,6 +42,9 @@ namespace undine
     result.openings          = dealii::Utilities::MPI::sum(result.openings, communicator);
     result.power_of_sides    = dealii::Utilities::MPI::sum(result.power_of_sides, communicator);
     result.power_of_openings = dealii::Utilities::MPI::sum(result.power_of_openings, communicator);
+    area                     = dealii::Utilities::MPI::sum(area, communicator);
+    if (area > 0)
+      result.mean_at_openings = dealii::Utilities::MPI::sum(force_on_area, communicator) / area;
     return result;
   }
 

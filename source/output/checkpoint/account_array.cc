@@ -14,6 +14,8 @@ namespace undine
                                   account.exchange,
                                   account.largest,
                                   account.created,
+                                  account.excused,
+                                  account.uncertain,
                                   account.known ? 1. : 0.},
                                  communicator);
   }
@@ -24,12 +26,14 @@ namespace undine
   {
     const auto    numbers = dealii::Utilities::MPI::broadcast(communicator, array.values);
     EnergyAccount account;
-    account.energy   = numbers[0];
-    account.power    = numbers[1];
-    account.exchange = numbers[2];
-    account.largest  = numbers[3];
-    account.created  = numbers[4];
-    account.known    = numbers[5] != 0;
+    account.energy    = numbers[0];
+    account.power     = numbers[1];
+    account.exchange  = numbers[2];
+    account.largest   = numbers[3];
+    account.created   = numbers[4];
+    account.excused   = numbers[5];
+    account.uncertain = numbers[6];
+    account.known     = numbers[7] != 0;
     return account;
   }
 } // namespace undine

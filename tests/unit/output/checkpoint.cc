@@ -82,7 +82,7 @@ TEST_CASE("checkpoint: what the energy monitor knows is read back, or nothing is
   const SampleScene<2> scene(MPI_COMM_WORLD);
   auto                 watched = state_at(scene, 11);
   write_checkpoint(folder.path / "unwatched", scene.models, watched);
-  watched.account = EnergyAccount{1. / 3, -2. / 3, 4, 5, 6, true};
+  watched.account = EnergyAccount{1. / 3, -2. / 3, 4, 0, 0, 5, 6, 7, 8, true};
   write_checkpoint(folder.path / "watched", scene.models, watched);
 
   auto read = scene.zero_state();

@@ -3,6 +3,7 @@
 #define undine_coupled_budget_energy_monitor_h
 
 #include <undine/base/core/column.h>
+#include <undine/base/core/errors.h>
 #include <undine/base/options/options.h>
 #include <undine/coupled/model/models.h>
 #include <undine/coupled/state/energy_account.h>
@@ -16,15 +17,18 @@ namespace undine
 {
   /// Compares the energy that fluid and bodies gain in a step with the work that is put into them
   /// from outside, and rejects steps that create energy. It knows nothing of how a step is made,
-  /// nor of the terms of Budget: energies are those of the columns, and the work is that of the
-  /// mean of the powers at both ends of the step,
+  /// nor of the terms of Budget: energies are those of the columns, the work W is that of forces
+  /// over the way of bodies, and where only powers are known that of their mean at both ends,
   ///
-  ///     created = E^{n+1} - E^n - h (P^n + P^{n+1}) / 2                            [J]     (B3)
+  ///     created = E^{n+1} - E^n - W - h (P^n + P^{n+1}) / 2                        [J]     (B3)
   ///
-  /// It may be a tenth of E^n and of the work of the sizes of all powers: so much is the error of
-  /// that rule in steps that only just resolve what happens. The work may also be h P^{n+1}, that
-  /// of forces which act at the end of the step, where a power rises within few steps. The first
-  /// step of a run, which may begin with a jump and for which there is no P^n, is not judged.
+  /// A step may create a tenth of E^n, of the works and of the work of the sizes of all powers: so
+  /// much is the error of that rule in steps that only just resolve what happens. Instead of the
+  /// mean the work may also be h P^{n+1}, that of forces which act at the end of the step, where a
+  /// power rises within few steps. Steps that create less add up: together, less what is lost
+  /// again, they may create a two-hundredth of the largest energy so far and a tenth of the work of
+  /// powers. For the first step of a run, which may begin with a jump, there is no P^n. It is not
+  /// judged if powers matter in it.
   class EnergyMonitor
   {
   public:
@@ -33,6 +37,13 @@ namespace undine
       none, ///< there is no monitor, and no cost
       warn,
       redo ///< with a shorter step, as long as that creates less
+    };
+
+    /// A step has been cut as often as that helps: it is to be redone with the length that created
+    /// least, and accepted.
+    struct NoShorterStep : SolveError
+    {
+      using SolveError::SolveError;
     };
 
     /// `Energy monitor` of the section `Time`, with the response as its default.
@@ -45,20 +56,26 @@ namespace undine
     void
     start(const Models<dim> &models, State<dim> &state, const Columns &columns);
 
-    /// A step is tried: its report gets an empty account, if there is a monitor.
+    /// A step from `state` is tried: its report gets an empty account, if there is a monitor.
+    template <int dim>
     void
-    begin_step(Report &report) const;
+    begin_step(State<dim> &state, Report &report) const;
 
-    /// The step has led from the time of `account` to the columns of `report`, whose account
-    /// becomes `account` if the step is accepted. Adds a warning where energy is created all the
-    /// same. Throws SolveError if the step is to be redone, which it never is unless `can_be_cut`.
+    /// The step has led to `state`, but for its account, and to the columns of `report`, whose
+    /// account that of `state` becomes if the step is accepted. Adds a warning where energy is
+    /// created all the same. Throws SolveError if the step is to be redone, which it never is
+    /// unless `can_be_cut`.
+    template <int dim>
     void
-    judge(std::optional<EnergyAccount> &account, Report &report, bool can_be_cut) const;
+    judge(State<dim> &state, Report &report, bool can_be_cut) const;
 
   private:
-    /// What the energy created in a step of the account `now` is compared with [J].
-    double
-    scale(const EnergyAccount &last, const EnergyAccount &now, double dt) const;
+    struct Creation;
+
+    Creation
+    created(const EnergyAccount &last, const EnergyAccount &now, double dt) const;
+    void
+    respond(const Creation &step, Report &report, bool can_be_cut) const;
 
     std::string response;    ///< off | warn | redo
     double      inertia = 0; ///< sum of mass and the square of its extent [kg m^2]

@@ -117,6 +117,10 @@ namespace undine
     Velocities
     pressure_forces(const Field<dim> &pressure) const;
 
+    /// The same of a uniform pressure [Pa]. Collective.
+    Velocities
+    uniform_pressure_forces(double pressure) const;
+
     /// All other forces in the nodes of the surfaces but friction [N]: the weight that the reduced
     /// pressure leaves out, and the pressures of void regions at `time` [s]. Collective.
     Velocities
@@ -136,6 +140,13 @@ namespace undine
     cut_report() const
     {
       return last_report;
+    }
+
+    /// May there be regions that are no part of the fluid (VoidRegions)?
+    bool
+    has_void_regions() const
+    {
+      return void_regions != nullptr;
     }
 
     /// Memory of the lists of cut cells, pieces, components and entries of B on this rank [bytes].

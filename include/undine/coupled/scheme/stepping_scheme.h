@@ -65,6 +65,9 @@ namespace undine
     }
 
   private:
+    /// From `saved`, with another length of the step.
+    static void
+    start_again(State<dim> &state, const State<dim> &saved, Report &report);
     void
     start_passage_check(const Models<dim> &models);
     void

@@ -6,9 +6,11 @@
 
 namespace undine
 {
-  /// The energy of fluid and bodies at the end of a step, and the power that is put into them there
-  /// from outside: by loads, supports, moving walls and obstacles, forces on the fluid, and what
-  /// flows in and out. EnergyMonitor compares the two.
+  /// The energy of fluid and bodies at the end of a step, and what is put into them from outside.
+  /// EnergyMonitor compares the two. The work of loads, of weight and of a uniform pressure follows
+  /// from where bodies were at the begin and are at the end of the step. Of supports, moving walls
+  /// and obstacles, of forces on the fluid, and of what flows in and out, the power at the end of
+  /// the step is known.
   struct EnergyAccount
   {
     /// A power at the end of the step [W].
@@ -19,12 +21,24 @@ namespace undine
       exchange += std::abs(more);
     }
 
-    double energy   = 0; ///< kinetic, elastic and of contact [J]
-    double power    = 0; ///< sum of powers [W]
-    double exchange = 0; ///< sum of their sizes [W]
-    double largest  = 0; ///< energy so far [J]
-    double created  = 0; ///< by all steps since it last was lost again [J]
-    bool   known    = false;
+    /// The work of a force in the step [J].
+    void
+    add_work(const double more)
+    {
+      work += more;
+      work_exchange += std::abs(more);
+    }
+
+    double energy        = 0; ///< kinetic, elastic and of contact [J]
+    double power         = 0; ///< sum of powers [W]
+    double exchange      = 0; ///< sum of their sizes [W]
+    double work          = 0; ///< sum of works in the step [J]
+    double work_exchange = 0; ///< sum of their sizes [J]
+    double largest       = 0; ///< energy so far [J]
+    double created       = 0; ///< by all steps since it last was lost again [J]
+    double excused       = 0; ///< of these what shorter steps would not avoid [J]
+    double uncertain     = 0; ///< how far that may be off, since work follows from powers [J]
+    bool   known         = false;
   };
 } // namespace undine
 

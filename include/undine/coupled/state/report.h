@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace undine
@@ -18,6 +19,7 @@ namespace undine
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0; ///< of all linear solves of the step
     unsigned int cuts              = 0; ///< how often the asked step was cut and redone
+    unsigned int halvings          = 0; ///< of the asked step
     unsigned int rejections        = 0; ///< those of the cuts that the error in time asked for
     unsigned int stages_again = 0; ///< stages solved again, bodies being elsewhere than expected
     double       newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
@@ -40,8 +42,25 @@ namespace undine
 
     /// The energy of the new state, if EnergyMonitor asks for it.
     std::optional<EnergyAccount> account;
-    unsigned int creations = 0; ///< those of the cuts that the energy created asked for
-    double created_share   = 0; ///< in the last try, of the energy and of what goes in and out [1]
+    double share_created = 0; ///< of the energy and of what goes in and out [1]
+
+    /// The tries of the step that EnergyMonitor did not accept.
+    struct Creations
+    {
+      unsigned int number        = 0;
+      unsigned int vain          = 0; ///< the last ones, which have created no less
+      double       least_energy  = 0; ///< the least that was created [J]
+      double       best_share    = 0; ///< of the energy and of what goes in and out, in that try
+      unsigned int best_halvings = 0; ///< of the asked step, in that try
+      bool         are_over      = false; ///< that try is carried out again, and accepted
+
+      /// Shorter steps cannot be computed: is there a try to go back to? Then it is gone back to.
+      bool
+      end()
+      {
+        return number > 0 && !std::exchange(are_over, true);
+      }
+    } creations;
 
     Columns columns; ///< energies, forces, fluxes, ... of the new state
   };

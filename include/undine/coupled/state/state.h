@@ -37,6 +37,9 @@ namespace undine
     ContactStart                          contact;       ///< of the bodies in the stage
     /// @}
 
+    /// Only within a step, if there is an EnergyMonitor: the bodies at its begin.
+    SolidState step_begin;
+
     /// Positions of the nodes of ImmersedSurface when the fluid's fields were computed [m].
     std::vector<dealii::Point<dim>> surface_positions;
 

@@ -55,14 +55,15 @@ namespace undine
     void
     finish(FluidStage<dim> &fluid, State<dim> &state, Report &report, double divergence);
 
-    /// Add to `account` the powers that act on the fluid at the end of the step, after finish():
-    /// those of sides, whose balance of `pressures` that is, of obstacles, and of the weight that
-    /// the reduced pressure leaves out on bodies. Collective.
+    /// Add to `account`, after finish() of the last stage, the powers of sides, whose balance of
+    /// `pressures` that is, and of obstacles at the end of the step, and the work of what acts on
+    /// bodies through the fluid: the weight that the reduced pressure leaves out, and the mean
+    /// pressure at openings, against which they take their volume. Collective.
     void
-    add_power(EnergyAccount              &account,
-              const State<dim>           &state,
-              double                      time,
-              const PressureBalance<dim> &pressures) const;
+    add_work(EnergyAccount              &account,
+             const State<dim>           &state,
+             double                      time,
+             const PressureBalance<dim> &pressures) const;
 
     /// Forces of pressure, weight and friction in the nodes of all surfaces [N], after finish(), at
     /// `time` [s]; empty if there is no surface in the fluid. Collective.
@@ -84,6 +85,11 @@ namespace undine
     }
 
   private:
+    void
+    add_work_on_bodies(EnergyAccount              &account,
+                       const State<dim>           &state,
+                       double                      time,
+                       const PressureBalance<dim> &pressures) const;
     template <class Action, class Book>
     void
     run_phase(FluidStage<dim> &fluid, const Action &act, const Book &book);

@@ -48,7 +48,7 @@ namespace undine
     end(State<dim> &state, const Stage &stage) const;
 
     /// Add to the report how the stage went and, after the last one, the columns of the bodies and,
-    /// to its account if it has one, the power of their loads and supports.
+    /// to its account if it has one, the work of their loads and the power of their supports.
     /// Collective.
     void
     finish(const State<dim>       &state,
@@ -81,10 +81,10 @@ namespace undine
 
   private:
     void
-    add_power(EnergyAccount          &account,
-              const State<dim>       &state,
-              const Stage            &stage,
-              const SolidReport<dim> &solid) const;
+    add_work(EnergyAccount          &account,
+             const State<dim>       &state,
+             const Stage            &stage,
+             const SolidReport<dim> &solid) const;
     double
     work_of_kept_rate(const State<dim> &state) const;
     void

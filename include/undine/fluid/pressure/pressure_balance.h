@@ -21,6 +21,7 @@ namespace undine
     dealii::Tensor<1, dim> openings;              ///< sum a p n where the pressure is [N]
     double                 power_of_sides    = 0; ///< - sum a p v.n [W]
     double                 power_of_openings = 0; ///< [W]
+    double                 mean_at_openings  = 0; ///< of the pressure, over their area [Pa]
   };
 
   /// Of `pressure`, which has led to `velocity`; `openings` with the pressures that have acted.
