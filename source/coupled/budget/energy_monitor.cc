@@ -103,17 +103,17 @@ namespace undine
   /// What a step creates.
   struct EnergyMonitor::Creation
   {
-    bool   is_known  = false;
-    double energy    = 0; ///< (B3) [J]
-    double share     = 0; ///< of the energy and of what goes in and out [1]
-    double least     = 0; ///< the same, if that is less with the powers at the end of the step
-    double uncertain = 0; ///< how far `energy` may be off, since powers are known at both ends [J]
+    bool   is_known = false;
+    double energy   = 0; ///< (B3) [J]
+    double share    = 0; ///< of the energy and of what goes in and out, or less with forces at the
+                         ///< end of the step [1]
+    double uncertain   = 0; ///< how far `energy` may be off: forces are known at both ends only [J]
     bool   exceeds_sum = false; ///< that all steps together may create
 
     bool
     is_allowed() const
     {
-      return !is_known || (least <= largest_share && !exceeds_sum);
+      return !is_known || (share <= largest_share && !exceeds_sum);
     }
   };
 
@@ -122,17 +122,17 @@ namespace undine
   EnergyMonitor::created(const EnergyAccount &last, const EnergyAccount &now, const double dt) const
   {
     const auto  &first    = last.known ? last : now;
-    const double gain     = now.energy - last.energy - now.work;
+    const double gain     = now.energy - last.energy;
     const double exchange = dt / 2 * (first.exchange + now.exchange);
     const double scale =
       last.energy + now.work_exchange + exchange + inertia * std::pow(least_way / dt, 2);
 
     Creation step;
-    step.is_known  = last.known || exchange <= small_work_of_powers * (scale - exchange);
-    step.energy    = gain - dt / 2 * (first.power + now.power);
-    step.share     = step.energy / scale;
-    step.least     = std::min(step.share, (gain - dt * now.power) / scale);
-    step.uncertain = largest_share * exchange;
+    step.is_known      = last.known || exchange <= small_work_of_powers * (scale - exchange);
+    step.energy        = gain - now.work - dt / 2 * (first.power + now.power);
+    const double least = std::min(step.energy, gain - now.work_at_end - dt * now.power);
+    step.share         = least / scale;
+    step.uncertain     = largest_share * exchange + step.energy - least;
     step.exceeds_sum =
       step.share > share_in_sum && last.created - last.excused + step.energy >
                                      largest_sum * now.largest + last.uncertain + step.uncertain;
@@ -156,7 +156,7 @@ namespace undine
         if (tries.number == 0 || step.energy < worthwhile * tries.least_energy)
           {
             tries.least_energy  = step.energy;
-            tries.best_share    = step.least;
+            tries.best_share    = step.share;
             tries.best_halvings = report.halvings;
             tries.vain          = 0;
           }
@@ -172,7 +172,7 @@ namespace undine
         if (tries.vain > 0)
           throw NoShorterStep(text);
       }
-    if (step.least > largest_share)
+    if (step.share > largest_share)
       report.warn("energy created in a step",
                   text + (tries.number > 0 ? ", in shorter ones no less" : "") +
                     ". Try: shorter steps, a finer grid, or the integrator trapezoid_bdf2.");

@@ -337,7 +337,8 @@ namespace undine
                           surface.positions(bodies, at),
                           surface.n_body_nodes());
     };
-    account.add_work(against(state.step_begin, state.clock.time) - against(state.solid, time));
+    const double work = against(state.step_begin, state.clock.time) - against(state.solid, time);
+    account.add_work(work, work);
   }
 
 

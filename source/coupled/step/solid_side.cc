@@ -139,13 +139,13 @@ namespace undine
     const double begin = state.clock.time, time = begin + stage.end;
     auto         way = state.solid.displacement;
     way -= state.step_begin.displacement;
-    account.add_work(
-      (dead_loads(model, surroundings, begin) * way + dead_loads(model, surroundings, time) * way) /
-      2);
+    const auto add = [&](const auto &before, const auto &now) {
+      account.add_work((before * way + now * way) / 2, now * way);
+    };
+    add(dead_loads(model, surroundings, begin), dead_loads(model, surroundings, time));
     if (has_pressure_loads(model))
-      account.add_work((pressure_loads(model, state.step_begin.displacement, begin) * way +
-                        pressure_loads(model, state.solid.displacement, time) * way) /
-                       2);
+      add(pressure_loads(model, state.step_begin.displacement, begin),
+          pressure_loads(model, state.solid.displacement, time));
     if (solid.reactions.size() > 0)
       account.add_power(solid.reactions * state.solid.velocity);
     if (!surroundings.contact)

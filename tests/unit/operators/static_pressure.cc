@@ -38,13 +38,14 @@ namespace
         return pressure.at_origin + pressure.gradient * x;
       });
 
-    constexpr double way   = 1e-4;
+    constexpr double way     = 1e-5;
+    const double     largest = largest_norm(forces);
     auto             there = immersed.positions, back = immersed.positions;
     double           work = 0, size = 0;
     for (std::size_t node = 0; node < there.size(); ++node)
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const double step = way * std::sin(12.9898 * node + 78.233 * d);
+          const double step = way * (std::sin(7. * node + d) + forces[node][d] / largest);
           there[node][d] += step;
           back[node][d] -= step;
           work -= 2 * step * forces[node][d];

@@ -2,6 +2,7 @@
 #ifndef undine_coupled_state_energy_account_h
 #define undine_coupled_state_energy_account_h
 
+#include <algorithm>
 #include <cmath>
 
 namespace undine
@@ -21,24 +22,27 @@ namespace undine
       exchange += std::abs(more);
     }
 
-    /// The work of a force in the step [J].
+    /// The work of a force in the step, and that of the force at the end of it [J].
     void
-    add_work(const double more)
+    add_work(const double more, const double at_end)
     {
       work += more;
-      work_exchange += std::abs(more);
+      work_at_end += at_end;
+      work_exchange += std::max(std::abs(more), std::abs(at_end));
     }
 
     double energy        = 0; ///< kinetic, elastic and of contact [J]
     double power         = 0; ///< sum of powers [W]
     double exchange      = 0; ///< sum of their sizes [W]
     double work          = 0; ///< sum of works in the step [J]
+    double work_at_end   = 0; ///< the same of forces at the end of the step [J]
     double work_exchange = 0; ///< sum of their sizes [J]
     double largest       = 0; ///< energy so far [J]
     double created       = 0; ///< by all steps since it last was lost again [J]
     double excused       = 0; ///< of these what shorter steps would not avoid [J]
-    double uncertain     = 0; ///< how far that may be off, since work follows from powers [J]
-    bool   known         = false;
+    double uncertain =
+      0; ///< how far that may be off: forces are known at both ends of steps only [J]
+    bool known = false;
   };
 } // namespace undine
 

@@ -206,13 +206,15 @@ TEST_CASE("The first step is judged where all work follows from the way of bodie
                    "set Energy monitor = " +
                      response) +
            section("Bodies",
-                   body("strip",
-                        "set Upper corner = .02, 1\nset Cells = 1, 12\nset Density = 1000\n"
-                        "set Young's modulus = 1e6\nset Poisson's ratio = .3\n"
-                        "set Initial velocity = 10 * y^2; 0",
-                        clamp("foot", "1", "set Sides = bottom")));
+                   section("ball",
+                           "set Shape = ball\nset Centre = 0, 0, 0\nset Radius = .1\n"
+                           "set Density = 1000\nset Young's modulus = 1e5\n"
+                           "set Poisson's ratio = .3\n"
+                           "set Initial displacement = .3*x; -.1*y; -.1*z\n"
+                           "set Initial velocity = -10*y; 10*x; 0")) +
+           section("Effects", section("damping", "set Stiffness coefficient = 1e-3"));
   };
-  const auto gain = [](CoupledRun<2> &run) {
+  const auto gain = [](CoupledRun<3> &run) {
     const auto energy = [&] {
       return run.column("solid kinetic energy") + run.column("solid elastic energy");
     };
@@ -220,9 +222,9 @@ TEST_CASE("The first step is judged where all work follows from the way of bodie
     run.step();
     return energy() / start - 1;
   };
-  CoupledRun<2> off(scene("off")), redone(scene("redo"));
+  CoupledRun<3> off(scene("off")), redone(scene("redo"));
   const double  unwatched = gain(off);
-  CHECK(unwatched > 0.15); // else this tests nothing
+  CHECK(unwatched > 1); // else this tests nothing
   CHECK(gain(redone) <= 0.1);
   CHECK(redone.report.creations.number > 0);
 }
@@ -268,7 +270,7 @@ TEST_CASE("Where shorter steps create no less the one that creates least is acce
   CHECK(accepted({.2, .05, 9, 9, 9}) == 1);      // too much for all steps, but two more are in vain
   CHECK(accepted({.2, .19, .18, .001, 9}) == 3); // goes on while one step creates too much
   CHECK(accepted({.2, .3, .4, .5, .6}) == 0);    // the first was the best
-  CHECK(accepted({.2, .1, .12, .13, .001}) == 1);
+  CHECK(accepted({.2, .09, .12, .13, .001}) == 1);
   CHECK(accepted({.05, .03, .04, .001, 0}) == 0); // two in vain
 }
 
