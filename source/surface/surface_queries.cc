@@ -282,12 +282,12 @@ namespace undine
 
 
   template <int dim>
-  dealii::Tensor<1, dim>
-  SurfaceQueries<dim>::nearest_velocity(const dealii::Point<dim> &place) const
+  typename Obstruction<dim>::NearestPoint
+  SurfaceQueries<dim>::nearest_point_to(const dealii::Point<dim> &place) const
   {
-    dealii::Tensor<1, dim> velocity;
+    typename Obstruction<dim>::NearestPoint result;
     if (trees->facets.empty())
-      return velocity;
+      return result;
     double     least    = std::numeric_limits<double>::infinity(); // square of the distance
     const auto consider = [&](const unsigned int facet, const dealii::Point<dim> &image) {
       const auto         corners     = moved.nodes(facet);
@@ -298,10 +298,12 @@ namespace undine
       const double square = nearest.distance_square(image);
       if (square >= least)
         return;
-      least    = square;
-      velocity = 0;
+      least             = square;
+      const auto &nodes = moved.surface->facets()[facet];
+      result            = {};
+      result.is_free    = nodes[0] < moved.n_free_nodes;
       for (unsigned int k = 0; k < dim; ++k)
-        velocity += coordinates[k] * moved.velocities[moved.surface->facets()[facet][k]];
+        result.velocity += coordinates[k] * moved.velocities[nodes[k]];
     };
 
     // The facet with the nearest box bounds the distance of the search.
@@ -324,7 +326,7 @@ namespace undine
         reach = trees->box;
         reach.extend(std::sqrt(least));
       }
-    return velocity;
+    return result;
   }
 
 

@@ -17,6 +17,7 @@ namespace undine
     std::vector<dealii::Point<dim>>     old_positions; ///< of the nodes, before the step [m]
     std::vector<dealii::Point<dim>>     positions;     ///< after it [m]
     std::vector<dealii::Tensor<1, dim>> velocities;    ///< [m/s]
+    unsigned int n_free_nodes = 0; ///< the first ones, whose motion follows from forces
 
     /// Where the nodes of a facet are [m].
     FacetNodes<dim>

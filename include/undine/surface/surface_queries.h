@@ -65,8 +65,8 @@ namespace undine
       const IndexBox<dim>                               &box,
       const std::function<void(const GridIndex<dim> &)> &action) const override;
 
-    dealii::Tensor<1, dim>
-    nearest_velocity(const dealii::Point<dim> &place) const override;
+    typename Obstruction<dim>::NearestPoint
+    nearest_point_to(const dealii::Point<dim> &place) const override;
 
   private:
     struct Trees;

@@ -105,7 +105,8 @@ namespace undine
       place(before, before, Velocities(before.size()));
     if (moved || before != was_at || new_velocities != velocities)
       queries = std::make_unique<const SurfaceQueries<dim>>(
-        model.grid(), MovedSurface<dim>{&surface.surface(), before, now, new_velocities});
+        model.grid(),
+        MovedSurface<dim>{&surface.surface(), before, now, new_velocities, surface.n_body_nodes()});
     velocities = new_velocities;
     was_at     = before;
     if (!moved)

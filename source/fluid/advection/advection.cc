@@ -3,6 +3,8 @@
 #include <undine/fluid/advection/fill_unknown.h>
 #include <undine/fluid/grid/field_algebra.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -77,27 +79,39 @@ namespace undine
       return *seen;
     if (axis >= dim)
       return unknown;
-    if (const auto hidden = mean_before(part.index))
-      return *hidden;
-    return tracer.bodies().obstruction->nearest_velocity(foot.point)[axis];
+    const auto nearest = tracer.bodies().obstruction->nearest_point_to(foot.point);
+    if (!nearest.is_free)
+      return nearest.velocity[axis];
+    const double largest = largest_around(part.index);
+    return std::clamp(nearest.velocity[axis], -largest, largest);
   }
 
 
-  /// A surface may shake, and fluid that took its velocity would gain energy from nowhere.
+  /// Of the values at a point and next to it, on whichever side of a body. Fluid next to a body
+  /// that moves on moves with it. Where a body shakes and the fluid does not follow, fluid that
+  /// took its velocity would gain energy from nowhere.
   template <int dim>
-  std::optional<double>
-  NearBodies<dim>::mean_before(const GridIndex<dim> &index) const
+  double
+  NearBodies<dim>::largest_around(const GridIndex<dim> &index) const
   {
-    using Kind          = typename SubLattice<dim>::Kind;
-    const auto *divided = source.divided();
-    if (!divided || divided->kind(index) == Kind::whole)
-      return source(index);
-    double sum = 0, measure = 0;
-    for_each_part(*divided, index, [&](const int k) {
-      sum += divided->all()[k].measure * source.parts()[k];
-      measure += divided->all()[k].measure;
-    });
-    return measure > 0 ? std::optional<double>(sum / measure) : std::nullopt;
+    using Kind           = typename SubLattice<dim>::Kind;
+    const auto *divided  = source.divided();
+    double      result   = 0;
+    const auto  consider = [&](const GridIndex<dim> &point) {
+      if (!source.stored().contains(point))
+        return;
+      if (!divided || divided->kind(point) == Kind::whole)
+        result = std::max(result, std::abs(source(point)));
+      else
+        for_each_part(*divided, point, [&](const int k) {
+          result = std::max(result, std::abs(source.parts()[k]));
+        });
+    };
+    consider(index);
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const int step : {-1, 1})
+        consider(moved<dim>(index, d, step));
+    return result;
   }
 
 

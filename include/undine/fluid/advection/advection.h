@@ -72,9 +72,8 @@ namespace undine
     NearBodies(const CharacteristicTracer<dim> &tracer, const Field<dim> &source);
 
     /// The value that the path from `foot` brings to `part`, a sub-cell or sub-face or, by whole(),
-    /// a whole point. Where no sample is visible, a velocity is the mean of those of the fluid that
-    /// was at the point, on whichever side of a body, or of the nearest surface if none was; a
-    /// scalar is NaN.
+    /// a whole point. Where no sample is visible, a velocity is that of the nearest surface, next
+    /// to a deformable body no larger than those of the fluid that was there; a scalar is NaN.
     double
     value_at(const typename SubLattice<dim>::Part &part, const Place &foot) const;
 
@@ -103,8 +102,8 @@ namespace undine
   private:
     double
     measure_of_point(const GridIndex<dim> &index) const;
-    std::optional<double>
-    mean_before(const GridIndex<dim> &index) const;
+    double
+    largest_around(const GridIndex<dim> &index) const;
 
     const CharacteristicTracer<dim>           &tracer;
     const Field<dim>                          &source;

@@ -117,9 +117,22 @@ namespace undine
                              const IndexBox<dim>                               &box,
                              const std::function<void(const GridIndex<dim> &)> &action) const = 0;
 
-    /// Velocity of the surface point nearest to `place` [m/s].
-    virtual dealii::Tensor<1, dim>
-    nearest_velocity(const dealii::Point<dim> &place) const = 0;
+    /// The point of the surfaces that is nearest to some place.
+    struct NearestPoint
+    {
+      dealii::Tensor<1, dim> velocity;        ///< [m/s]
+      bool                   is_free = false; ///< its motion follows from forces
+    };
+
+    virtual NearestPoint
+    nearest_point_to(const dealii::Point<dim> &place) const = 0;
+
+    /// Of the surface point nearest to `place` [m/s].
+    dealii::Tensor<1, dim>
+    nearest_velocity(const dealii::Point<dim> &place) const
+    {
+      return nearest_point_to(place).velocity;
+    }
   };
 } // namespace undine
 

@@ -63,7 +63,8 @@ namespace
                  const std::string &more             = "",
                  const std::string &density_of_sheet = "20")
   {
-    CoupledRun<dim> run(busy_scene<dim>(first_lines, more, density_of_sheet));
+    CoupledRun<dim> run(busy_scene<dim>(first_lines, more, density_of_sheet) +
+                        section("Time", "set Energy monitor = off"));
     for (unsigned int n = 0; n < 4; ++n)
       {
         run.step();

@@ -21,7 +21,7 @@ namespace
   strip(const Swing &swing, const double viscosity)
   {
     return section("Time",
-                   fmt::format("set Step = 1/{}\nset Integrator = {}",
+                   fmt::format("set Step = 1/{}\nset Integrator = {}\nset Energy monitor = off",
                                swing.steps_per_second,
                                swing.integrator)) +
            section("Output", "set Budget = true") +
