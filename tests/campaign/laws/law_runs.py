@@ -59,16 +59,17 @@ def complaint(code, text):
 class Program:
     """Carries out scenes, from several threads at once."""
 
-    def __init__(self, path, limit):
-        """`limit`: seconds after which a run is ended. Exits if there is no such program."""
+    def __init__(self, path, limit, settings=None):
+        """`limit`: seconds after which a run is ended; `settings` of all scenes. Exits if there is no such program."""
         self.path, self.limit = os.path.abspath(path), limit
+        self.settings = {**law_scenes.QUIET, **(settings or {})}
         if not os.access(self.path, os.X_OK):
             sys.exit(f"{path} is no program")
         self.runs = []  # seconds of all runs so far
 
     def run(self, scene):
         """Of a nested dictionary."""
-        text = law_scenes.text(law_scenes.with_settings(scene, law_scenes.QUIET))
+        text = law_scenes.text(law_scenes.with_settings(scene, self.settings))
         with tempfile.TemporaryDirectory() as folder:
             path, results = os.path.join(folder, "scene.prm"), os.path.join(folder, "results")
             with open(path, "w") as file:

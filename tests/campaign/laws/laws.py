@@ -43,6 +43,7 @@ def read_arguments():
     parser.add_argument("--only", default="", metavar="TEXT", help="only points with this in their names")
     parser.add_argument("--limit", type=float, help="seconds after which a run counts as one that stops "
                         f"(default: 7200, with --quick {QUICK_LIMIT})")
+    parser.add_argument("--unwatched", action="store_true", help="without the energy monitor, which redoes steps")
     parser.add_argument("--against-fine", action="store_true",
                         help="light: compare motions with those in steps of a sixteenth")
     parser.add_argument("--scenes", type=int, metavar="N", help="random: how many (default: 200, with --quick 10)")
@@ -73,7 +74,8 @@ def carry_out(campaign, program, options):
 def main():
     options = read_arguments()
     os.makedirs(options.out, exist_ok=True)
-    program = Program(options.program, options.limit or (QUICK_LIMIT if options.quick else 7200))
+    settings = {"Time/Energy monitor": "off"} if options.unwatched else {}
+    program = Program(options.program, options.limit or (QUICK_LIMIT if options.quick else 7200), settings)
     results = {}
     for name in options.campaign:
         findings, more = carry_out(CAMPAIGNS[name], program, options)
