@@ -40,9 +40,8 @@ namespace undine
     double largest       = 0; ///< energy so far [J]
     double created       = 0; ///< by all steps since it last was lost again [J]
     double excused       = 0; ///< of these what shorter steps would not avoid [J]
-    double uncertain =
-      0; ///< how far that may be off: forces are known at both ends of steps only [J]
-    bool known = false;
+    double uncertain     = 0; ///< how far `created` may be off, as rules for work go [J]
+    bool   known         = false;
   };
 } // namespace undine
 
