@@ -312,9 +312,10 @@ namespace undine
                                      const PressureBalance<dim> &pressures) const
   {
     const auto &surface = *models.surface;
-    const auto  power   = [&](const auto &forces) {
-      const auto velocities =
-        surface.with_bodies(state.solid.velocity, typename FluidGeometry<dim>::Velocities(forces));
+    // Bodies that sleep have nodes, too, which do not move.
+    const auto velocities = surface.with_bodies(
+      state.solid.velocity, typename FluidGeometry<dim>::Velocities(surface.surface().n_nodes()));
+    const auto power = [&](const auto &forces) {
       double sum = 0;
       for (unsigned int node = 0; node < surface.n_body_nodes(); ++node)
         sum += forces[node] * velocities[node];
