@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
 #include <undine/fluid/advection/advection.h>
+#include <undine/fluid/implicit_momentum.h>
 
 #include <utility>
 #include <vector>
@@ -17,6 +18,15 @@ namespace undine
     void
     add_options(const Options &options) override
     {
+      options.add(
+        "Form",
+        form,
+        "",
+        Allowed::one_of({"along paths", "flux"}),
+        "'along paths': values are brought along the paths of the fluid, by 'Method'; for "
+        "pictures, and steps in which the flow crosses many cells. 'flux': momentum flows "
+        "through the faces between volumes of the grid, implicitly and centrally: it is "
+        "conserved, also next to bodies, and no error is made again in every step.");
       method =
         options.template choose<Advection<dim>>("Method", "cubic", "How the velocity is advected.");
     }
@@ -33,7 +43,7 @@ namespace undine
     std::string
     summary() const override
     {
-      return method->summary();
+      return has_flux_form() ? "flux form, central, implicit" : method->summary();
     }
 
     typename Effect<dim>::Work
@@ -45,6 +55,8 @@ namespace undine
     void
     transport(FluidStage<dim> &step) const override
     {
+      if (has_flux_form())
+        return;
       const auto timed = step.timing.section(this->name);
       if (step.stage.keeps_rates())
         advect(step.advected_velocities(), step);
@@ -52,7 +64,38 @@ namespace undine
         advect_with_acceleration(step);
     }
 
+    void
+    accelerate(FluidStage<dim> &step) const override
+    {
+      if (!has_flux_form())
+        return;
+      const auto timed = step.timing.section(this->name);
+      step.carrying.emplace(step.model, step.flow_at_end(), step.end);
+    }
+
+    /// In flux form: together with friction, by the effect `viscosity`, if there is any.
+    void
+    diffuse(FluidStage<dim> &step) const override
+    {
+      if (!has_flux_form() || step.viscosity > 0)
+        return;
+      const auto timed = step.timing.section(this->name);
+      momentum.solve(step);
+    }
+
+    std::size_t
+    memory_consumption(const FluidState<dim> &) const override
+    {
+      return momentum.memory_consumption();
+    }
+
   private:
+    bool
+    has_flux_form() const
+    {
+      return form == "flux";
+    }
+
     void
     advect(const std::vector<Velocity<dim> *> &velocities, FluidStage<dim> &step) const
     {
@@ -99,7 +142,9 @@ namespace undine
       });
     }
 
+    std::string                     form = "along paths";
     std::unique_ptr<Advection<dim>> method;
+    mutable ImplicitMomentum<dim>   momentum; ///< a cache
   };
 
 

@@ -2,9 +2,9 @@
 #include <undine/effects/effect.h>
 #include <undine/fluid/boundary/boundary_quantities.h>
 #include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/implicit_momentum.h>
 #include <undine/fluid/pressure/divergence.h>
 #include <undine/fluid/pressure/pressure_gradient.h>
-#include <undine/fluid/viscosity/immersed_viscous_term.h>
 #include <undine/fluid/viscosity/implicit_diffusion.h>
 
 #include <fmt/format.h>
@@ -53,11 +53,25 @@ namespace undine
     }
 
     void
+    accelerate(FluidStage<dim> &step) const override
+    {
+      step.viscosity = dynamic_viscosity;
+    }
+
+    void
     diffuse(FluidStage<dim> &step) const override
     {
-      const auto timed    = step.timing.section(this->name);
-      auto      &velocity = step.state.velocity;
-      auto       pressure = step.state.pressure;
+      const auto timed = step.timing.section(this->name);
+      if (step.tracer.bodies().walls || step.carrying)
+        {
+          momentum.solve(step, [&](Velocity<dim> &velocity) {
+            step.pressure_correction =
+              pressure_correction(step.model, velocity, step.tracer.bodies());
+          });
+          return;
+        }
+      auto &velocity = step.state.velocity;
+      auto  pressure = step.state.pressure;
       pressure.exchange(1);
       const auto gradient = pressure_acceleration(
         step.model,
@@ -66,10 +80,7 @@ namespace undine
       add(velocity, step.dt, gradient);
       set_boundary_velocity(velocity, step.model.boundaries(), step.end);
       for (unsigned int axis = 0; axis < dim; ++axis)
-        step.linear_iterations +=
-          step.tracer.bodies().walls
-            ? among_bodies(step, axis)
-            : solver(step.model, axis).step(velocity[axis], step.end, step.dt);
+        step.linear_iterations += solver(step.model, axis).step(velocity[axis], step.end, step.dt);
       step.pressure_correction = pressure_correction(step.model, velocity, step.tracer.bodies());
       step.timing.memory.hold_briefly(this->name,
                                       pressure.memory_consumption() +
@@ -90,9 +101,7 @@ namespace undine
       std::size_t sum = 0;
       for (const auto &equation : equations)
         sum += equation ? equation->memory_consumption() : 0;
-      for (const auto &friction : frictions)
-        sum += friction ? friction->memory_consumption() : 0;
-      return sum;
+      return sum + momentum.memory_consumption();
     }
 
     bool
@@ -118,31 +127,6 @@ namespace undine
     }
 
   private:
-    /// Friction along one axis, also on surfaces. Returns the number of iterations.
-    unsigned int
-    among_bodies(FluidStage<dim> &step, const unsigned int axis) const
-    {
-      const auto &bodies   = step.tracer.bodies();
-      auto       &friction = frictions[axis];
-      if (!friction || friction->walls() != bodies.walls)
-        friction = std::make_unique<ImmersedViscousTerm<dim>>(
-          step.model, axis, bodies.topology, bodies.walls, dynamic_viscosity);
-      const unsigned int n_iterations =
-        friction->step(step.state.velocity[axis], bodies.wall_velocities, step.end, step.dt);
-      const auto &forces = friction->forces();
-      if (!step.friction)
-        step.friction.emplace();
-      const auto copy = [&](auto &to, const auto &from) {
-        to.resize(from.size());
-        for (std::size_t k = 0; k < from.size(); ++k)
-          to[k][axis] = from[k];
-      };
-      copy(step.friction->on_nodes, forces.on_nodes);
-      copy(step.friction->on_boundaries, forces.on_boundaries);
-      return n_iterations;
-    }
-
-
     /// -mu div w in every cell; in components of divided ones half of that, since there only less
     /// than 2/dim is sure to converge (Guermond, Minev & Shen 2006) [Pa]. Exchanges ghosts of w.
     Field<dim>
@@ -190,9 +174,9 @@ namespace undine
 
     double dynamic_viscosity = 0;
     /// Matrices of the last step size: a cache.
-    mutable std::array<std::unique_ptr<VelocityCondition<dim>>, dim>   conditions;
-    mutable std::array<std::unique_ptr<ImplicitDiffusion<dim>>, dim>   equations;
-    mutable std::array<std::unique_ptr<ImmersedViscousTerm<dim>>, dim> frictions;
+    mutable std::array<std::unique_ptr<VelocityCondition<dim>>, dim> conditions;
+    mutable std::array<std::unique_ptr<ImplicitDiffusion<dim>>, dim> equations;
+    mutable ImplicitMomentum<dim>                                    momentum;
   };
 
 

@@ -148,6 +148,21 @@ namespace undine
 
 
   template <int dim>
+  Velocity<dim>
+  FluidStage<dim>::flow_at_end() const
+  {
+    auto result = remapped_velocity(tracer.velocity());
+    if (stage.keeps_rates())
+      {
+        add(result, 1., result);
+        add(result, -1., before);
+      }
+    set_boundary_velocity(result, model.boundaries(), end);
+    return result;
+  }
+
+
+  template <int dim>
   void
   FluidStage<dim>::finish()
   {

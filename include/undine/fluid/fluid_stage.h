@@ -5,6 +5,7 @@
 #include <undine/base/core/stage.h>
 #include <undine/base/core/timing.h>
 #include <undine/fluid/advection/characteristic_tracer.h>
+#include <undine/fluid/convection/dual_fluxes.h>
 #include <undine/fluid/grid/fluid_state.h>
 #include <undine/fluid/model/fluid_model.h>
 
@@ -67,6 +68,11 @@ namespace undine
     void
     remap();
 
+    /// The flow at the end of the stage on the present topology of the fluid, extrapolated from its
+    /// begin if stages keep rates [m/s]. After remap(). Collective.
+    Velocity<dim>
+    flow_at_end() const;
+
     /// Ends the stage, after the projection: acceleration and pressure for the next one.
     void
     finish();
@@ -97,6 +103,11 @@ namespace undine
     {
       return advected_begin ? &*advected_begin : nullptr;
     }
+
+    /// The implicit terms, known before `diffuse`. @{
+    double                               viscosity = 0; ///< of the effect `viscosity` [Pa s]
+    std::optional<const DualFluxes<dim>> carrying;      ///< of the flux form of convection
+    /// @}
 
     /// Results of effects for finish(). @{
     std::optional<Velocity<dim>> advected;            ///< v' [m/s], by convection

@@ -111,9 +111,11 @@ namespace undine
 
   private:
     // In cells. Bodies are where they are expected to second order in the step: steps that resolve
-    // what happens stay below the first. Beyond the second, which steps of a body that shakes
-    // exceed however often they are solved again, the fluid has lost or gained volume that matters.
-    static constexpr double       small_misplacement   = 0.1;
+    // what happens stay below the first, up to which also thin bodies under large pressures get no
+    // energy worth mentioning from the difference. Beyond the second, which steps of a body that
+    // shakes exceed however often they are solved again, the fluid has lost or gained volume that
+    // matters.
+    static constexpr double       small_misplacement   = 0.01;
     static constexpr double       largest_misplacement = 0.3;
     static constexpr unsigned int most_rounds          = 6;
 

@@ -21,15 +21,67 @@ namespace undine
     , open(std::move(open_))
     , no_slip_surfaces(std::move(walls_))
     , terms(model, axis, *open, *no_slip_surfaces, viscosity)
-    , kinematic(viscosity / model.density())
+    , viscosity(viscosity)
   {
     number_unknowns();
     std::vector<std::pair<Number, double>> free;
-    terms.for_each([&](const ViscousTerm<dim> &term) {
+    for_each_viscous_term([&](const ViscousTerm<dim> &term) {
       collect(free, term);
       if (free.size() < term.faces.size() || !term.nodes.empty() || term.wall.boundary)
         given_terms.push_back(term);
     });
+  }
+
+
+  template <int dim>
+  template <class Action>
+  void
+  ImmersedViscousTerm<dim>::for_each_viscous_term(const Action &action) const
+  {
+    if (viscosity > 0)
+      terms.for_each(action);
+  }
+
+
+  /// action(row, column place, column number, coefficient [kg/s]) of what convection adds to the
+  /// equation of every place whose velocity is not prescribed: rho phi (v_to - v_from) / 2 in both,
+  /// phi being what flows from one to the other.
+  template <int dim>
+  template <class Action>
+  void
+  ImmersedViscousTerm<dim>::for_each_convective_row(const DualFluxes<dim> &fluxes,
+                                                    const Action          &action) const
+  {
+    const double half = model.density() / 2;
+    fluxes.for_each_between(
+      axis, [&](const FacePlace<dim> &from, const FacePlace<dim> &to, const double flux) {
+        for (const auto *row : {&from, &to})
+          if (!is_prescribed(*row))
+            {
+              action(*row, from, -half * flux);
+              action(*row, to, half * flux);
+            }
+      });
+  }
+
+
+  /// What enters through sides, and what prescribed velocities contribute.
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::add_given_convection(Vector                &load,
+                                                 const DualFluxes<dim> &fluxes,
+                                                 const Field<dim>      &field) const
+  {
+    for_each_convective_row(
+      fluxes, [&](const FacePlace<dim> &row, const FacePlace<dim> &column, const double factor) {
+        if (is_prescribed(column))
+          load(number(row)) -= assembled_dt * factor * value_at(field, column);
+      });
+    fluxes.for_each_entering(
+      axis, [&](const FacePlace<dim> &place, const double flux, const double velocity) {
+        if (!is_prescribed(place))
+          load(number(place)) += assembled_dt * model.density() * flux * velocity;
+      });
   }
 
 
@@ -72,6 +124,14 @@ namespace undine
   }
 
 
+  template <int dim>
+  typename ImmersedViscousTerm<dim>::Number
+  ImmersedViscousTerm<dim>::number(const FacePlace<dim> &place) const
+  {
+    return static_cast<Number>(value_at(numbers, place));
+  }
+
+
   /// rho V_f [kg]
   template <int dim>
   double
@@ -111,7 +171,7 @@ namespace undine
     free.clear();
     for (const auto &[place, coefficient] : term.faces)
       if (!is_prescribed(place))
-        free.emplace_back(static_cast<Number>(value_at(numbers, place)), coefficient);
+        free.emplace_back(number(place), coefficient);
     for (const auto &[node, coefficient] : term.nodes)
       if (is_free(node))
         free.emplace_back(first_node + node, coefficient);
@@ -119,39 +179,51 @@ namespace undine
 
 
   template <int dim>
-  void
-  ImmersedViscousTerm<dim>::assemble(const double dt)
+  dealii::TrilinosWrappers::SparsityPattern
+  ImmersedViscousTerm<dim>::pattern(const DualFluxes<dim> *fluxes) const
   {
-    const auto                             communicator = model.grid().communicator();
     std::vector<std::pair<Number, double>> free;
     std::vector<Number>                    columns;
-    std::vector<double>                    values;
     // A rank without fluid must not announce rows: their numbers would be taken for a huge range.
-    dealii::TrilinosWrappers::SparsityPattern pattern(
-      mine, communicator, mine.is_empty() ? 0 : 2 * dim + 1);
+    dealii::TrilinosWrappers::SparsityPattern result(
+      mine, model.grid().communicator(), mine.is_empty() ? 0 : 2 * dim + 1);
     for (const auto row : mine)
-      pattern.add(row, row);
-    terms.for_each([&](const ViscousTerm<dim> &term) {
+      result.add(row, row);
+    for_each_viscous_term([&](const ViscousTerm<dim> &term) {
       collect(free, term);
       columns.clear();
       for (const auto &unknown : free)
         columns.push_back(unknown.first);
       for (const auto row : columns)
-        pattern.add_entries(row, columns.begin(), columns.end());
+        result.add_entries(row, columns.begin(), columns.end());
     });
-    pattern.compress();
-    auto &matrix = solver.matrix;
-    matrix.reinit(pattern);
+    if (fluxes)
+      for_each_convective_row(
+        *fluxes, [&](const FacePlace<dim> &row, const FacePlace<dim> &column, const double) {
+          if (!is_prescribed(column))
+            result.add(number(row), number(column));
+        });
+    result.compress();
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::assemble_friction(const double dt)
+  {
+    std::vector<std::pair<Number, double>> free;
+    std::vector<Number>                    columns;
+    std::vector<double>                    values;
     for_each_owned([&](const FacePlace<dim> &place) {
-      const auto number = static_cast<Number>(value_at(numbers, place));
-      matrix.add(number, number, mass(place));
+      friction.add(number(place), number(place), mass(place));
     });
     for (unsigned int node = 0; node < no_slip_surfaces->masses.size(); ++node)
       if (mine.is_element(first_node + node))
-        matrix.add(first_node + node,
-                   first_node + node,
-                   is_free(node) ? no_slip_surfaces->masses[node][axis] : 1.);
-    terms.for_each([&](const ViscousTerm<dim> &term) {
+        friction.add(first_node + node,
+                     first_node + node,
+                     is_free(node) ? no_slip_surfaces->masses[node][axis] : 1.);
+    for_each_viscous_term([&](const ViscousTerm<dim> &term) {
       collect(free, term);
       columns.clear();
       for (const auto &unknown : free)
@@ -161,19 +233,69 @@ namespace undine
           values.clear();
           for (const auto &unknown : free)
             values.push_back(dt * term.weight * coefficient * unknown.second);
-          matrix.add(row, columns.size(), columns.data(), values.data(), false);
+          friction.add(row, columns.size(), columns.data(), values.data(), false);
         }
     });
-    matrix.compress(dealii::VectorOperation::add);
+    friction.compress(dealii::VectorOperation::add);
+    assembled_dt = dt;
+  }
 
-    double diffusion_number = 0;
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::add_convection(const DualFluxes<dim> &fluxes)
+  {
+    auto &matrix = solver.matrix;
+    for_each_convective_row(
+      fluxes, [&](const FacePlace<dim> &row, const FacePlace<dim> &column, const double factor) {
+        if (!is_prescribed(column))
+          matrix.add(number(row), number(column), assembled_dt * factor);
+      });
+    fluxes.for_each_entering(
+      axis, [&](const FacePlace<dim> &place, const double flux, const double) {
+        if (!is_prescribed(place))
+          matrix.add(number(place), number(place), assembled_dt * model.density() * flux);
+      });
+    matrix.compress(dealii::VectorOperation::add);
+  }
+
+
+  template <int dim>
+  double
+  ImmersedViscousTerm<dim>::diffusion_number() const
+  {
+    double result = 0;
     for_each(model.grid().cells()->owned(), [&](const GridIndex<dim> &cell) {
       for (unsigned int d = 0; d < dim; ++d)
-        diffusion_number = std::max(
-          diffusion_number, dt * kinematic / std::pow(model.grid().cell_width(d, cell[d]), 2));
+        result = std::max(result,
+                          assembled_dt * viscosity /
+                            (model.density() * std::pow(model.grid().cell_width(d, cell[d]), 2)));
     });
-    solver.set_up(dealii::Utilities::MPI::max(diffusion_number, communicator));
-    assembled_dt = dt;
+    return dealii::Utilities::MPI::max(result, model.grid().communicator());
+  }
+
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::set_up(const double dt, const DualFluxes<dim> *fluxes)
+  {
+    using Matrices = DiffusionSolver::Matrices;
+    if (dt != assembled_dt)
+      {
+        friction.reinit(pattern(fluxes));
+        assemble_friction(dt);
+        solver.matrix.copy_from(friction);
+        if (!fluxes)
+          {
+            friction.clear();
+            solver.set_up(diffusion_number(), Matrices::symmetric);
+          }
+      }
+    if (!fluxes)
+      return;
+    solver.matrix.copy_from(friction);
+    add_convection(*fluxes);
+    solver.set_up(diffusion_number(), Matrices::with_convection);
   }
 
 
@@ -205,9 +327,8 @@ namespace undine
                                  const double      time) const
   {
     for_each_owned([&](const FacePlace<dim> &place) {
-      const auto number = static_cast<Number>(value_at(numbers, place));
-      solution(number)  = value_at(field, place);
-      load(number)      = mass(place) * value_at(field, place);
+      solution(number(place)) = value_at(field, place);
+      load(number(place))     = mass(place) * value_at(field, place);
     });
     for (unsigned int node = 0; node < no_slip_surfaces->masses.size(); ++node)
       if (const auto number = first_node + node; mine.is_element(number))
@@ -283,19 +404,24 @@ namespace undine
   ImmersedViscousTerm<dim>::step(Field<dim>                                &field,
                                  const std::vector<dealii::Tensor<1, dim>> &node_velocities,
                                  const double                               time,
-                                 const double                               dt)
+                                 const double                               dt,
+                                 const DualFluxes<dim>                     *fluxes)
   {
     nodes.clear();
     for (const auto &velocity : node_velocities)
       nodes.push_back(velocity[axis]);
-    if (dt != assembled_dt)
-      assemble(dt);
+    set_up(dt, fluxes);
     field.exchange(1);
     Vector solution(mine, model.grid().communicator()), load(solution);
     fill(solution, load, field, time);
+    if (fluxes)
+      {
+        add_given_convection(load, *fluxes, field);
+        load.compress(dealii::VectorOperation::add);
+      }
     const unsigned int n_iterations = solver.solve(solution, load);
     for_each_owned([&](const FacePlace<dim> &place) {
-      const double value = solution(static_cast<Number>(value_at(numbers, place)));
+      const double value = solution(number(place));
       if (place.part < 0)
         field(place.face) = value;
       else
@@ -313,8 +439,8 @@ namespace undine
   std::size_t
   ImmersedViscousTerm<dim>::memory_consumption() const
   {
-    return solver.memory_consumption() + numbers.memory_consumption() +
-           given_terms.capacity() * sizeof(ViscousTerm<dim>);
+    return solver.memory_consumption() + friction.memory_consumption() +
+           numbers.memory_consumption() + given_terms.capacity() * sizeof(ViscousTerm<dim>);
   }
 
 

@@ -32,6 +32,13 @@ namespace undine_tests
   }
 
 
+  inline std::string
+  flux_form()
+  {
+    return section("convection", "set Form = flux");
+  }
+
+
   /// A fluid with effects, without bodies: the phases of a step in their order.
   template <int dim>
   struct FlowRun

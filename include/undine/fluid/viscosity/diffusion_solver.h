@@ -9,11 +9,19 @@
 
 namespace undine
 {
-  /// Conjugate gradients for the symmetric positive definite matrices of implicit diffusion.
+  /// Conjugate gradients for the symmetric positive definite matrices of implicit diffusion, or
+  /// stabilised biconjugate gradients if they contain convection, of which the symmetric part is
+  /// that of the former.
   class DiffusionSolver
   {
   public:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    enum class Matrices
+    {
+      symmetric,
+      with_convection
+    };
 
     /// To be filled; then call set_up().
     dealii::TrilinosWrappers::SparseMatrix matrix;
@@ -22,7 +30,7 @@ namespace undine
     /// h nu / dx^2 [1], the same on all ranks; it decides between relaxation and, where a step
     /// reaches over many cells, multigrid. Collective.
     void
-    set_up(double diffusion_number);
+    set_up(double diffusion_number, Matrices matrices = Matrices::symmetric);
 
     /// Solve for the right side `load`, starting from `solution`. Returns the number of iterations.
     /// Throws SolveError if they do not converge. Collective.
@@ -35,6 +43,7 @@ namespace undine
 
   private:
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionBase> preconditioner;
+    Matrices                                                    matrices = Matrices::symmetric;
   };
 } // namespace undine
 

@@ -3,7 +3,7 @@
 #define undine_fluid_viscosity_face_links_h
 
 #include <undine/fluid/boundary/no_slip_surfaces.h>
-#include <undine/fluid/grid/field.h>
+#include <undine/fluid/grid/face_place.h>
 #include <undine/fluid/grid/fluid_topology.h>
 #include <undine/fluid/grid/mac_grid.h>
 
@@ -11,22 +11,6 @@
 
 namespace undine
 {
-  /// Where one velocity sits: on a whole face or on a piece of a divided one.
-  template <int dim>
-  struct FacePlace
-  {
-    GridIndex<dim> face;
-    int            part; ///< number in FluidTopology::faces; -1: the face is whole
-  };
-
-  /// The value of a component of the velocity there.
-  template <int dim>
-  double
-  value_at(const Field<dim> &field, const FacePlace<dim> &place)
-  {
-    return place.part < 0 ? field(place.face) : field.parts()[place.part];
-  }
-
   /// Which faces normal to one axis, and which of their pieces, are neighbours in their plane, and
   /// the rim that they share.
   template <int dim>

@@ -2,6 +2,7 @@
 #ifndef undine_fluid_viscosity_immersed_viscous_term_h
 #define undine_fluid_viscosity_immersed_viscous_term_h
 
+#include <undine/fluid/convection/dual_fluxes.h>
 #include <undine/fluid/viscosity/diffusion_solver.h>
 #include <undine/fluid/viscosity/viscous_terms.h>
 
@@ -39,13 +40,21 @@ namespace undine
       return no_slip_surfaces;
     }
 
+    /// The topology of the fluid for which it was set up.
+    const std::shared_ptr<const FluidTopology<dim>> &
+    topology() const
+    {
+      return open;
+    }
+
     /// v* in `field`, whose ghosts it exchanges, becomes v at `time`; u* are the velocities of the
     /// surfaces' nodes [m/s]. Returns the number of iterations. Throws SolveError. Collective.
     unsigned int
     step(Field<dim>                                &field,
          const std::vector<dealii::Tensor<1, dim>> &node_velocities,
          const double                               time,
-         const double                               dt);
+         const double                               dt,
+         const DualFluxes<dim>                     *fluxes = nullptr);
 
     /// The forces that step() found, the same on all ranks [N].
     const FrictionForces<double> &
@@ -64,8 +73,25 @@ namespace undine
 
     void
     number_unknowns();
+    Number
+    number(const FacePlace<dim> &place) const;
     void
-    assemble(const double dt);
+    set_up(const double dt, const DualFluxes<dim> *fluxes);
+    dealii::TrilinosWrappers::SparsityPattern
+    pattern(const DualFluxes<dim> *fluxes) const;
+    void
+    assemble_friction(const double dt);
+    void
+    add_convection(const DualFluxes<dim> &fluxes);
+    double
+    diffusion_number() const;
+    template <class Action>
+    void
+    for_each_convective_row(const DualFluxes<dim> &fluxes, const Action &action) const;
+    void
+    add_given_convection(Vector                &load,
+                         const DualFluxes<dim> &fluxes,
+                         const Field<dim>      &field) const;
     double
     mass(const FacePlace<dim> &place) const;
     bool
@@ -86,18 +112,22 @@ namespace undine
     template <class Action>
     void
     for_each_owned(const Action &action) const;
+    template <class Action>
+    void
+    for_each_viscous_term(const Action &action) const;
 
     const FluidModel<dim>                           &model;
     const unsigned int                               axis;
     const std::shared_ptr<const FluidTopology<dim>>  open;
     const std::shared_ptr<const NoSlipSurfaces<dim>> no_slip_surfaces;
     const ViscousTerms<dim>                          terms;
-    const double                                     kinematic; ///< mu/rho [m^2/s]
+    const double                                     viscosity; ///< mu [Pa s]
     Field<dim>                                       numbers;   ///< exact up to 2^53
     dealii::IndexSet                                 mine;
     Number                                           first_node   = 0;
     double                                           assembled_dt = 0; ///< [s]
     DiffusionSolver                                  solver;
+    dealii::TrilinosWrappers::SparseMatrix           friction; ///< of mass and friction
     std::vector<ViscousTerm<dim>> given_terms; ///< in which something is not an unknown face
     std::vector<double>           nodes;       ///< their velocities along the axis [m/s]
     FrictionForces<double>        last_forces;

@@ -46,6 +46,8 @@ namespace
         check_translation(by_cells, "box", sheet_on_planes<dim>(cells / 8));
       }
     check_translation(slanting.graded(), "box", sheet<dim>(.01, .6, 23));
+    for (const double cells : {thicknesses.front(), 2.})
+      check_translation(slanting.graded(), "box", sheet<dim>(cells / 8, .6, 23), flux_form());
     check_translation(
       slanting,
       "ball",

@@ -85,15 +85,16 @@ namespace undine_tests
   void
   check_translation(const UniformStream<dim> &stream,
                     const std::string        &shape,
-                    const std::string        &keys)
+                    const std::string        &keys,
+                    const std::string        &form = convection())
   {
     INFO(shape << " " << keys << ", in " << stream.vector() << ", " << stream.boundaries
                << stream.more_domain);
     ObstacleRun<dim> run(
       stream.fluid(),
       obstacle("thing", shape, keys + "\nset Displacement = " + stream.vector("t")),
-      convection() + section("scalar transport",
-                             section("smoke", "set Initial value = 1\nset Inflow value = 1")),
+      form + section("scalar transport",
+                     section("smoke", "set Initial value = 1\nset Inflow value = 1")),
       stream.dt);
     const double speed = stream.velocity.norm();
     for (unsigned int n = 0; n < 12; ++n)

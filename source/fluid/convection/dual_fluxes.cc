@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/convection/dual_fluxes.h>
+#include <undine/fluid/grid/field_algebra.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  template <int dim>
+  DualFluxes<dim>::DualFluxes(const FluidModel<dim> &model,
+                              const Velocity<dim>   &flow_,
+                              const double           time)
+    : model(model)
+    , grid(model.grid())
+    , flow(flow_)
+    , time(time)
+  {
+    exchange(flow);
+    collect_pieces();
+  }
+
+
+  template <int dim>
+  void
+  DualFluxes<dim>::collect_pieces()
+  {
+    const auto *open = flow.topology();
+    for (unsigned int axis = 0; open && axis < dim; ++axis)
+      {
+        pieces[axis].resize(open->cells.all().size());
+        for (std::size_t k = 0; k < open->pieces[axis].size(); ++k)
+          for (const unsigned int end : {0, 1})
+            if (const int c = open->pieces[axis][k].components[end]; c >= 0)
+              pieces[axis][c][1 - end].push_back(k);
+      }
+  }
+
+
+  template <int dim>
+  bool
+  DualFluxes<dim>::is_whole(const unsigned int axis, const GridIndex<dim> &face) const
+  {
+    const auto *open = flow.topology();
+    return !open || open->faces[axis].kind(face) == SubLattice<dim>::Kind::whole;
+  }
+
+
+  /// action(FacePlace) for what is open of a face.
+  template <int dim>
+  template <class Action>
+  void
+  DualFluxes<dim>::for_each_place(const unsigned int    axis,
+                                  const GridIndex<dim> &face,
+                                  const Action         &action) const
+  {
+    if (is_whole(axis, face))
+      action(FacePlace<dim>{face, -1});
+    else
+      for_each_part(flow.topology()->faces[axis], face, [&](const int part) {
+        action(FacePlace<dim>{face, part});
+      });
+  }
+
+
+  template <int dim>
+  double
+  DualFluxes<dim>::area(const unsigned int axis, const FacePlace<dim> &place) const
+  {
+    return place.part < 0 ? grid.face_area(axis, place.face)
+                          : flow.topology()->faces[axis].all()[place.part].measure;
+  }
+
+
+  template <int dim>
+  double
+  DualFluxes<dim>::flux(const unsigned int axis, const FacePlace<dim> &place) const
+  {
+    return area(axis, place) * value_at(flow[axis], place);
+  }
+
+
+  /// What is below (end 0) or above a place of a face normal to `axis`.
+  template <int dim>
+  typename DualFluxes<dim>::CellPlace
+  DualFluxes<dim>::beside(const unsigned int    axis,
+                          const FacePlace<dim> &place,
+                          const unsigned int    end) const
+  {
+    return {moved<dim>(place.face, axis, end == 0 ? -1 : 0),
+            place.part < 0
+              ? -1
+              : std::max(-1, flow.topology()->pieces[axis][place.part].components[end])};
+  }
+
+
+  template <int dim>
+  typename DualFluxes<dim>::Shares
+  DualFluxes<dim>::shares(const CellPlace &place, const unsigned int axis) const
+  {
+    Shares     result;
+    double     sum = 0;
+    const auto add = [&](const FacePlace<dim> &of_face, const unsigned int end) {
+      result.push_back({of_face, end, area(axis, of_face)});
+      sum += result.back().share;
+    };
+    for (const unsigned int end : {0, 1})
+      if (place.component < 0)
+        for_each_place(axis, moved<dim>(place.cell, axis, end), [&](const FacePlace<dim> &of_face) {
+          add(of_face, end);
+        });
+      else
+        for (const int piece : pieces[axis][place.component][end])
+          add({flow.topology()->faces[axis].all()[piece].index, piece}, end);
+    for (auto &one : result)
+      one.share /= sum;
+    return result;
+  }
+
+
+  /// What the places of one component exchange. Those that give do so in proportion to what others
+  /// need.
+  template <int dim>
+  void
+  DualFluxes<dim>::within(const Shares      &shares,
+                          const unsigned int axis,
+                          const Between     &action) const
+  {
+    double out = 0, most = 0;
+    for (const auto &one : shares)
+      out += (one.end == 1 ? 1 : -1) * flux(axis, one.place);
+    boost::container::small_vector<double, 4> needs;
+    for (const auto &one : shares)
+      {
+        needs.push_back((one.end == 1 ? 1 : -1) * flux(axis, one.place) - one.share * out);
+        most += std::max(0., needs.back());
+      }
+    const auto from_to = [&](const double giver, const double taker) {
+      return giver < 0 && taker > 0 ? -giver * taker / most : 0.;
+    };
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      for (std::size_t j = i + 1; j < shares.size(); ++j)
+        action(shares[i].place,
+               shares[j].place,
+               from_to(needs[i], needs[j]) - from_to(needs[j], needs[i]));
+  }
+
+
+  /// The lower places of one component exchange with the lower ones of the other, as far as their
+  /// shares go.
+  template <int dim>
+  void
+  DualFluxes<dim>::across(const Shares  &below,
+                          const Shares  &above,
+                          const double   flux,
+                          const Between &action) const
+  {
+    std::size_t i = 0, j = 0;
+    double      of_below = below.empty() ? 0 : below[0].share;
+    double      of_above = above.empty() ? 0 : above[0].share;
+    while (i < below.size() && j < above.size())
+      {
+        const double common = std::min(of_below, of_above);
+        if (common > 0)
+          action(below[i].place, above[j].place, common * flux);
+        of_below -= common;
+        of_above -= common;
+        const bool below_is_done = of_below <= of_above;
+        if (below_is_done)
+          of_below = ++i < below.size() ? below[i].share : 0;
+        else
+          of_above = ++j < above.size() ? above[j].share : 0;
+      }
+  }
+
+
+  template <int dim>
+  void
+  DualFluxes<dim>::for_each_between(const unsigned int axis, const Between &action) const
+  {
+    const auto *open = flow.topology();
+    undine::for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
+      if (!open || open->cells.kind(cell) == SubLattice<dim>::Kind::whole)
+        within(shares({cell, -1}, axis), axis, action);
+    });
+    for (std::size_t c = 0; open && c < open->cells.all().size(); ++c)
+      if (open->cells.owns(c))
+        within(shares({open->cells.all()[c].index, static_cast<int>(c)}, axis), axis, action);
+
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != axis)
+        undine::for_each(grid.faces(d)->owned(), [&](const GridIndex<dim> &face) {
+          if (!grid.at_boundary(d, face))
+            for_each_place(d, face, [&](const FacePlace<dim> &place) {
+              across(shares(beside(d, place, 0), axis),
+                     shares(beside(d, place, 1), axis),
+                     flux(d, place),
+                     action);
+            });
+        });
+  }
+
+
+  template <int dim>
+  void
+  DualFluxes<dim>::for_each_entering(const unsigned int axis, const Entering &action) const
+  {
+    const VelocityCondition<dim> condition(axis);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != axis && !grid.periodic(d))
+        undine::for_each(grid.faces(d)->owned(), [&](const GridIndex<dim> &face) {
+          if (!grid.at_boundary(d, face))
+            return;
+          const unsigned int end = face[d] == 0 ? 0 : 1;
+          const auto        &boundary =
+            model.boundaries().at({d, end}, moved<dim>(face, d, end == 0 ? 0 : -1));
+          if (!condition.is_dirichlet(boundary))
+            return;
+          for_each_place(d, face, [&](const FacePlace<dim> &place) {
+            const double entering = (end == 0 ? 1 : -1) * flux(d, place);
+            if (entering > 0)
+              for (const auto &one : shares(beside(d, place, 1 - end), axis))
+                action(one.place,
+                       one.share * entering,
+                       condition.dirichlet_value(boundary, d, grid.faces(d)->point(face), time));
+          });
+        });
+  }
+
+
+  template class DualFluxes<2>;
+  template class DualFluxes<3>;
+} // namespace undine

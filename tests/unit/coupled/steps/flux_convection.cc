@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/model/fluid_quantities.h>
+
+#include <coupled/coupled_run.h>
+
+#include <cmath>
+
+using namespace undine_tests;
+
+namespace
+{
+  constexpr double pi = dealii::numbers::PI;
+
+  std::string
+  vortices(const unsigned int cells, const double viscosity, const std::string &stream)
+  {
+    return section("Domain", fmt::format("set Upper corner = 1, 1\nset Cells = {0}, {0}", cells)) +
+           section("Fluid",
+                   "set Density = 1\nset Initial velocity = " + stream +
+                     "-cos(2*pi*x)*sin(2*pi*y); sin(2*pi*x)*cos(2*pi*y)\n" +
+                     section("Boundaries", boundary("around", every_side<2>(), "periodic"))) +
+           section("Effects",
+                   flux_form() + (viscosity > 0 ? undine_tests::viscosity(viscosity) : ""));
+  }
+
+
+  /// Root mean square error of decaying vortices that a stream of 1 m/s carries, at 0.4 s.
+  double
+  error_of_carried_vortices(const unsigned int cells, const unsigned int steps)
+  {
+    const double  nu = 0.01, end = 0.4;
+    CoupledRun<2> run(steps_of(end / steps) + vortices(cells, nu, "1"));
+    for (unsigned int n = 0; n < steps; ++n)
+      run.step();
+    const double decay = std::exp(-8 * pi * pi * nu * end);
+    double       sum = 0, n = 0;
+    for_each_value(run.state.fluid.velocity[0],
+                   [&](const double value, const auto &place, const auto &) {
+                     const double exact = 1 - std::cos(2 * pi * (place[0] - end)) *
+                                                std::sin(2 * pi * place[1]) * decay;
+                     sum += (value - exact) * (value - exact);
+                     ++n;
+                   });
+    return std::sqrt(sum / n);
+  }
+
+
+  /// Steady drag [N/m] of a cylinder of 4.7 cells in a channel, Reynolds number 20, after steps of
+  /// `dt`.
+  double
+  drag(const double dt)
+  {
+    CoupledRun<2> run(
+      steps_of(dt) + section("Domain", "set Upper corner = 1.6, 0.8\nset Cells = 38, 19") +
+      section("Fluid",
+              "set Density = 1\nset Initial velocity = 1; 0\n" +
+                section("Boundaries",
+                        boundary("in", "left", "inflow", "set Velocity = 1; 0") +
+                          boundary("out", "right", "outflow") +
+                          boundary("walls", "bottom, top", "slip wall"))) +
+      section("Obstacles",
+              obstacle("cylinder",
+                       "ball",
+                       "set Centre = 0.5, 0.41\nset Radius = 0.1\nset Refinements = 4")) +
+      section("Effects", flux_form() + viscosity(0.01)));
+    while (run.state.clock.time < 12 - 1e-9)
+      run.step();
+    return run.column("pressure force cylinder x") + run.column("viscous force cylinder x");
+  }
+} // namespace
+
+
+TEST_CASE("Convection in flux form and friction together are of second order in time and space",
+          "[coupled]")
+{
+  const double in_time[] = {error_of_carried_vortices(64, 5),
+                            error_of_carried_vortices(64, 10),
+                            error_of_carried_vortices(64, 80)};
+  INFO("in time " << in_time[0] << ", " << in_time[1] << ", " << in_time[2]);
+  CHECK(std::log2(in_time[0] / in_time[1]) > 1.6);
+  const double in_space[] = {error_of_carried_vortices(16, 80), error_of_carried_vortices(32, 80)};
+  INFO("in space " << in_space[0] << ", " << in_space[1]);
+  CHECK(std::log2(in_space[0] / in_space[1]) > 1.8);
+}
+
+
+TEST_CASE("Vortices without friction keep their energy to the order of the integrator", "[coupled]")
+{
+  const auto loss = [](const unsigned int steps) {
+    CoupledRun<2> run(steps_of(2. / steps) + vortices(24, 0, "0.5"));
+    const double  start = run.column("Fluid kinetic energy");
+    for (unsigned int n = 0; n < steps; ++n)
+      run.step();
+    return 1 - run.column("Fluid kinetic energy") / start;
+  };
+  const double coarse = loss(20), fine = loss(40);
+  INFO(coarse << ", " << fine);
+  CHECK(fine > 0);
+  CHECK(fine < 0.02);
+  CHECK(coarse / fine > 3.8);
+}
+
+
+TEST_CASE("A steady drag does not depend on the step", "[coupled]")
+{
+  const double reference = drag(0.1);
+  CHECK(reference > 0.1);
+  for (const double dt : {0.4, 0.025})
+    CHECK(std::abs(drag(dt) - reference) < 1e-3 * reference);
+}
