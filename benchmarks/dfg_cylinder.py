@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What accuracy costs in a flow around a cylinder: drag and lift of DFG 2D-1 against published figures, over even
+grids, steps and forms of convection.
+
+usage: benchmarks/dfg_cylinder.py [PROGRAM] [--across 10]... [--step 1/25]... [--form flux]... [--reynolds 20] [--check]
+
+--reynolds 100: mean inflow of 1 m/s, where vortices leave the cylinder; means and amplitudes over the last quarter of
+8 s are printed, of which nothing is published on this side. --check: exit code 1 if a drag by fluxes is more than 0.5 %
+off. One rank; seconds with 10 cells across the cylinder, minutes with 20, half an hour with 40.
+"""
+import argparse
+import os
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path[:0] = [os.path.join(ROOT, "tests", "checks"), os.path.join(ROOT, "benchmarks")]
+import time_integration  # noqa: E402
+
+SCENE = os.path.join(ROOT, "prm", "dfg_2d1.prm")
+DIAMETER, LENGTH, HEIGHT = 0.1, 2.2, 0.41  # [m]
+DRAG, LIFT = 5.57953523384, 0.010618948146  # Schaefer, Turek 1996; figures of spectral elements by Nabh 1998
+BOUND = 0.005
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", default=os.path.join(ROOT, "build", "undine"))
+    parser.add_argument("--across", action="append", type=int)
+    parser.add_argument("--step", action="append")
+    parser.add_argument("--form", action="append", choices=("along paths", "flux"))
+    parser.add_argument("--reynolds", type=int, choices=(20, 100), default=20)
+    parser.add_argument("--check", action="store_true")
+    return parser.parse_args()
+
+
+def settings(across, step, form, reynolds):
+    cells = f"{round(LENGTH / DIAMETER * across)}, {round(HEIGHT / DIAMETER * across)}"
+    inflow = f"{1.2 * reynolds / 20!r}*y*(0.41-y)/0.41^2; 0"
+    return [f"Domain/Cells={cells}", "Domain/Grading x=x", "Domain/Grading y=x", f"Time/Step={step}",
+            f"Effects/convection/Form={form}", f"Fluid/Initial velocity={inflow}",
+            f"Fluid/Boundaries/inlet/Velocity={inflow}"]
+
+
+def coefficients(columns, axis, mean_inflow):
+    """Of the force of pressure and friction, over time."""
+    scale = 0.5 * mean_inflow ** 2 * DIAMETER
+    return [sum(values) / scale for values in zip(*(columns[f"{kind} force cylinder {axis}"]
+                                                    for kind in ("pressure", "viscous")))]
+
+
+def main():
+    options = arguments()
+    failed = False
+    last = "lift amplitude" if options.reynolds == 100 else "lift"
+    print(f"| cells across | step [s] | form | drag | {last} | core seconds |\n|---|---|---|---|---|---|")
+    for across in options.across or [10, 20]:
+        for step in options.step or ["1/25", "1/100"]:
+            for form in options.form or ["along paths", "flux"]:
+                run = time_integration.once(options.program, SCENE, settings(across, step, form, options.reynolds))
+                if run.complaint:
+                    sys.exit(f"dfg_cylinder.py: {run.complaint}")
+                drag, lift = (coefficients(run.columns, axis, options.reynolds / 100) for axis in "xy")
+                row = f"| {across} | {step} | {form} |"
+                if options.reynolds == 20:
+                    error = drag[-1] / DRAG - 1
+                    failed = failed or (form == "flux" and abs(error) > BOUND)
+                    row += f" {drag[-1]:.4f} ({100 * error:+.2f} %) | {lift[-1]:.5f} ({100 * (lift[-1] / LIFT - 1):+.0f} %) |"
+                else:
+                    drag, lift = (values[-len(values) // 4:] for values in (drag, lift))
+                    row += f" {(max(drag) + min(drag)) / 2:.4f} | {(max(lift) - min(lift)) / 2:.4f} |"
+                print(f"{row} {run.seconds:.0f} |", flush=True)
+    sys.exit(1 if options.check and failed else 0)
+
+
+if __name__ == "__main__":
+    main()
