@@ -10,8 +10,7 @@
 namespace undine
 {
   /// Conjugate gradients for the symmetric positive definite matrices of implicit diffusion, or
-  /// stabilised biconjugate gradients if they contain convection, of which the symmetric part is
-  /// that of the former.
+  /// GMRES if they contain convection, of which the symmetric part is that of the former.
   class DiffusionSolver
   {
   public:
@@ -42,6 +41,9 @@ namespace undine
     memory_consumption() const;
 
   private:
+    unsigned int
+    solve_with_convection(Vector &solution, const Vector &load) const;
+
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionBase> preconditioner;
     Matrices                                                    matrices = Matrices::symmetric;
   };
