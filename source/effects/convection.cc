@@ -23,12 +23,11 @@ namespace undine
         form,
         "",
         Allowed::one_of({"along paths", "flux"}),
-        "'along paths': values are brought along the paths of the fluid, by 'Method'; for "
-        "pictures, "
-        "and steps in which the flow crosses many cells. 'flux': momentum flows through the faces "
-        "between volumes of the grid, centrally and implicitly: around obstacles at rest forces "
-        "are far more accurate and do not depend on the step. It smooths nothing: layers thinner "
-        "than a cell oscillate, and where bodies move it has no advantage yet.");
+        "'along paths': values are brought along the paths of the fluid, by 'Method'; for pictures "
+        "and for steps in which the flow crosses many cells. 'flux': momentum flows through the "
+        "faces between volumes of the grid, centrally and implicitly: around obstacles at rest "
+        "forces are far more accurate and do not depend on the step. It smooths nothing: layers "
+        "thinner than a cell oscillate, and where bodies move it has no advantage yet.");
       method =
         options.template choose<Advection<dim>>("Method", "cubic", "How the velocity is advected.");
     }
@@ -82,7 +81,7 @@ namespace undine
       if (!has_flux_form() || step.viscosity > 0)
         return;
       const auto timed = step.timing.section(this->name);
-      momentum.solve(step);
+      momentum.solve(step, this->name);
     }
 
     std::size_t

@@ -4,8 +4,6 @@
 #include <undine/fluid/grid/field_algebra.h>
 #include <undine/fluid/implicit_momentum.h>
 #include <undine/fluid/pressure/divergence.h>
-#include <undine/fluid/pressure/pressure_gradient.h>
-#include <undine/fluid/viscosity/implicit_diffusion.h>
 
 #include <fmt/format.h>
 
@@ -62,31 +60,9 @@ namespace undine
     diffuse(FluidStage<dim> &step) const override
     {
       const auto timed = step.timing.section(this->name);
-      if (step.tracer.bodies().walls || step.carrying)
-        {
-          momentum.solve(step, [&](Velocity<dim> &velocity) {
-            step.pressure_correction =
-              pressure_correction(step.model, velocity, step.tracer.bodies());
-          });
-          return;
-        }
-      auto &velocity = step.state.velocity;
-      auto  pressure = step.state.pressure;
-      pressure.exchange(1);
-      const auto gradient = pressure_acceleration(
-        step.model,
-        pressure,
-        open_faces(step.model, step.tracer.velocity(), velocity.topology(), step.time));
-      add(velocity, step.dt, gradient);
-      set_boundary_velocity(velocity, step.model.boundaries(), step.end);
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        step.linear_iterations += solver(step.model, axis).step(velocity[axis], step.end, step.dt);
-      step.pressure_correction = pressure_correction(step.model, velocity, step.tracer.bodies());
-      step.timing.memory.hold_briefly(this->name,
-                                      pressure.memory_consumption() +
-                                        undine::memory_consumption(gradient) +
-                                        step.pressure_correction->memory_consumption());
-      add(velocity, -step.dt, gradient);
+      momentum.solve(step, this->name, [&](Velocity<dim> &velocity) {
+        step.pressure_correction = pressure_correction(step.model, velocity, step.tracer.bodies());
+      });
     }
 
     typename Effect<dim>::Work
@@ -98,10 +74,7 @@ namespace undine
     std::size_t
     memory_consumption(const FluidState<dim> &) const override
     {
-      std::size_t sum = 0;
-      for (const auto &equation : equations)
-        sum += equation ? equation->memory_consumption() : 0;
-      return sum + momentum.memory_consumption();
+      return momentum.memory_consumption();
     }
 
     bool
@@ -156,27 +129,8 @@ namespace undine
     }
 
 
-    /// The equation of one component, set up at its first use.
-    ImplicitDiffusion<dim> &
-    solver(const FluidModel<dim> &model, const unsigned int axis) const
-    {
-      if (!equations[axis])
-        {
-          conditions[axis] = std::make_unique<VelocityCondition<dim>>(axis);
-          equations[axis] =
-            std::make_unique<ImplicitDiffusion<dim>>(model,
-                                                     model.grid().faces(axis),
-                                                     *conditions[axis],
-                                                     dynamic_viscosity / model.density());
-        }
-      return *equations[axis];
-    }
-
-    double dynamic_viscosity = 0;
-    /// Matrices of the last step size: a cache.
-    mutable std::array<std::unique_ptr<VelocityCondition<dim>>, dim> conditions;
-    mutable std::array<std::unique_ptr<ImplicitDiffusion<dim>>, dim> equations;
-    mutable ImplicitMomentum<dim>                                    momentum;
+    double                        dynamic_viscosity = 0;
+    mutable ImplicitMomentum<dim> momentum; ///< a cache
   };
 
 

@@ -26,9 +26,64 @@ namespace undine
 
 
   template <int dim>
+  ImplicitDiffusion<dim> &
+  ImplicitMomentum<dim>::diffusion(const FluidStage<dim> &step, const unsigned int axis)
+  {
+    if (!diffusions[axis])
+      {
+        conditions[axis] = std::make_unique<VelocityCondition<dim>>(axis);
+        diffusions[axis] =
+          std::make_unique<ImplicitDiffusion<dim>>(step.model,
+                                                   step.model.grid().faces(axis),
+                                                   *conditions[axis],
+                                                   step.viscosity / step.model.density());
+      }
+    return *diffusions[axis];
+  }
+
+
+  template <int dim>
   void
-  ImplicitMomentum<dim>::solve(FluidStage<dim>                            &step,
-                               const std::function<void(Velocity<dim> &)> &use_w)
+  ImplicitMomentum<dim>::solve_among_surfaces(FluidStage<dim> &step, const unsigned int axis)
+  {
+    const auto &bodies = step.tracer.bodies();
+    auto       &terms  = equation(step, axis);
+    step.linear_iterations += terms.step(step.state.velocity[axis],
+                                         bodies.wall_velocities,
+                                         step.end,
+                                         step.dt,
+                                         step.carrying ? &*step.carrying : nullptr);
+    if (!bodies.walls || step.viscosity == 0)
+      return;
+    if (!step.friction)
+      step.friction.emplace();
+    const auto copy = [&](auto &to, const auto &from) {
+      to.resize(from.size());
+      for (std::size_t k = 0; k < from.size(); ++k)
+        to[k][axis] = from[k];
+    };
+    copy(step.friction->on_nodes, terms.forces().on_nodes);
+    copy(step.friction->on_boundaries, terms.forces().on_boundaries);
+  }
+
+
+  template <int dim>
+  void
+  ImplicitMomentum<dim>::solve_axis(FluidStage<dim> &step, const unsigned int axis)
+  {
+    if (step.tracer.bodies().walls || step.carrying)
+      solve_among_surfaces(step, axis);
+    else
+      step.linear_iterations +=
+        diffusion(step, axis).step(step.state.velocity[axis], step.end, step.dt);
+  }
+
+
+  template <int dim>
+  void
+  ImplicitMomentum<dim>::solve(FluidStage<dim>   &step,
+                               const std::string &effect,
+                               const Action      &use_w)
   {
     auto &velocity = step.state.velocity;
     auto  pressure = step.state.pressure;
@@ -40,26 +95,12 @@ namespace undine
     add(velocity, step.dt, gradient);
     set_boundary_velocity(velocity, step.model.boundaries(), step.end);
     for (unsigned int axis = 0; axis < dim; ++axis)
-      {
-        auto &terms = equation(step, axis);
-        step.linear_iterations += terms.step(velocity[axis],
-                                             step.tracer.bodies().wall_velocities,
-                                             step.end,
-                                             step.dt,
-                                             step.carrying ? &*step.carrying : nullptr);
-        if (!step.tracer.bodies().walls || step.viscosity == 0)
-          continue;
-        if (!step.friction)
-          step.friction.emplace();
-        const auto copy = [&](auto &to, const auto &from) {
-          to.resize(from.size());
-          for (std::size_t k = 0; k < from.size(); ++k)
-            to[k][axis] = from[k];
-        };
-        copy(step.friction->on_nodes, terms.forces().on_nodes);
-        copy(step.friction->on_boundaries, terms.forces().on_boundaries);
-      }
+      solve_axis(step, axis);
     use_w(velocity);
+    std::size_t memory = pressure.memory_consumption() + undine::memory_consumption(gradient);
+    if (step.pressure_correction)
+      memory += step.pressure_correction->memory_consumption();
+    step.timing.memory.hold_briefly(effect, memory);
     add(velocity, -step.dt, gradient);
   }
 
@@ -69,6 +110,8 @@ namespace undine
   ImplicitMomentum<dim>::memory_consumption() const
   {
     std::size_t sum = 0;
+    for (const auto &diffusion : diffusions)
+      sum += diffusion ? diffusion->memory_consumption() : 0;
     for (const auto &equation : equations)
       sum += equation ? equation->memory_consumption() : 0;
     return sum;

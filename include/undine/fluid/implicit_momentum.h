@@ -4,15 +4,17 @@
 
 #include <undine/fluid/fluid_stage.h>
 #include <undine/fluid/viscosity/immersed_viscous_term.h>
+#include <undine/fluid/viscosity/implicit_diffusion.h>
 
 #include <array>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace undine
 {
   /// The implicit step of a stage for friction and, where it has one, the flux form of convection
-  /// (F11) together, between the borrowing and the giving back of the old pressure gradient:
+  /// (F13) together, between the borrowing and the giving back of the old pressure gradient:
   ///
   ///     w + g C w - g nu Laplace w = v'' - g grad q / rho,   v* = w + g grad q / rho
   ///
@@ -21,24 +23,39 @@ namespace undine
   class ImplicitMomentum
   {
   public:
+    using Action = std::function<void(Velocity<dim> &)>;
+
     /// v'' in the state becomes v*; forces on surfaces and sides come to `step.friction`. `use_w`
-    /// is called for w. Throws SolveError. Collective.
+    /// is called for w, `effect` is the name by which memory is accounted for. Throws SolveError.
+    /// Collective.
     void
     solve(
-      FluidStage<dim>                            &step,
-      const std::function<void(Velocity<dim> &)> &use_w = [](Velocity<dim> &) {});
+      FluidStage<dim> &step, const std::string &effect, const Action &use_w = [](Velocity<dim> &) {
+      });
 
     /// Of the equations on this rank [bytes].
     std::size_t
     memory_consumption() const;
 
   private:
+    void
+    solve_axis(FluidStage<dim> &step, unsigned int axis);
+    void
+    solve_among_surfaces(FluidStage<dim> &step, unsigned int axis);
+    ImplicitDiffusion<dim> &
+    diffusion(const FluidStage<dim> &step, unsigned int axis);
     ImmersedViscousTerm<dim> &
     equation(const FluidStage<dim> &step, unsigned int axis);
 
+    /// Friction alone, without surfaces. @{
+    std::array<std::unique_ptr<VelocityCondition<dim>>, dim> conditions;
+    std::array<std::unique_ptr<ImplicitDiffusion<dim>>, dim> diffusions;
+    /// @}
+    /// All else. @{
     std::array<std::unique_ptr<ImmersedViscousTerm<dim>>, dim> equations;
     std::shared_ptr<const FluidTopology<dim>>                  nothing_cut;
     std::shared_ptr<const NoSlipSurfaces<dim>>                 no_surfaces;
+    /// @}
   };
 } // namespace undine
 

@@ -284,9 +284,9 @@ namespace undine
       {
         friction.reinit(pattern(fluxes));
         assemble_friction(dt);
-        solver.matrix.copy_from(friction);
         if (!fluxes)
           {
+            solver.matrix.copy_from(friction);
             friction.clear();
             solver.set_up(diffusion_number(), Matrices::symmetric);
           }

@@ -14,14 +14,14 @@
 namespace undine
 {
   /// The volume rates with which a flow leaves the dual volumes of the faces normal to one axis,
-  /// which momentum along that axis is carried by (F11). A component c of the fluid, or a whole
+  /// which momentum along that axis is carried by (F13). A component c of the fluid, or a whole
   /// cell, shares its volume among the places f of its faces normal to the axis, in proportion to
   /// their areas, like DualVolumes: theta_f. With the flux F through every piece of a face
   ///
   ///  - the dual volumes of two components that meet in a piece of a face along the axis exchange
   ///    F in the shares theta of both, the lower places with the lower ones;
   ///  - within c the place f gets s_f F_f - theta_f sum_g s_g F_g, s = 1 above c and -1 below it,
-  ///    from the others, which is what continuity asks for (F12).
+  ///    from the others, which is what continuity asks for (F14).
   ///
   /// In whole cells these are the fluxes of Harlow and Welch (Phys. Fluids 8 (1965) 2182) in the
   /// form of Morinishi et al. (J. Comput. Phys. 143 (1998) 90): half of the sum of two fluxes.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/convection/dual_fluxes.h>
 #include <undine/fluid/model/fluid_quantities.h>
 
 #include <coupled/coupled_run.h>
@@ -68,6 +69,66 @@ namespace
     return run.column("pressure force cylinder x") + run.column("viscous force cylinder x");
   }
 } // namespace
+
+
+TEMPLATE_TEST_CASE_SIG(
+  "Among obstacles as much flows into a dual volume as out of it, and convection "
+  "adds no energy",
+  "[coupled]",
+  ((int dim), dim),
+  2,
+  3)
+{
+  // Off the planes of the grid, and with a face in one.
+  const std::string round = plane_or_space<dim>("set Centre = .41, .53\nset Radius = .21\n",
+                                                "set Centre = .41, .53, .47\nset Radius = .21\n");
+  const std::string flush =
+    plane_or_space<dim>("set Lower corner = .25, .25\nset Upper corner = .7, .3",
+                        "set Lower corner = .25, .25, .25\nset Upper corner = .7, .3, .61");
+  for (const auto &thing :
+       {obstacle("thing", "ball", round + "set Refinements = 3"), obstacle("thing", "box", flush)})
+    {
+      ObstacleRun<dim> run(
+        section("Domain",
+                plane_or_space<dim>("set Upper corner = 1, 1\nset Cells = 12, 12",
+                                    "set Upper corner = 1, 1, 1\nset Cells = 8, 8, 8")) +
+          section(
+            "Fluid",
+            "set Density = 1000\nset Initial velocity = " +
+              plane_or_space<dim>("sin(3*y)+.2; cos(5*x)", "sin(3*y)+.2; cos(5*x); sin(4*y)") +
+              "\n" + section("Boundaries", boundary("all", every_side<dim>(), "slip wall"))),
+        thing,
+        flux_form(),
+        0.1);
+      double energy = kinetic_energy(*run.models.fluid, run.state.fluid.velocity);
+      for (unsigned int n = 0; n < 3; ++n)
+        {
+          run.step();
+          const double now = kinetic_energy(*run.models.fluid, run.state.fluid.velocity);
+          CHECK(now <= energy * (1 + 1e-9));
+          energy = now;
+        }
+      const auto           &velocity = run.state.fluid.velocity;
+      const DualFluxes<dim> fluxes(*run.models.fluid, velocity, run.state.clock.time);
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          Field<dim> sums(velocity[axis].shared_lattice(), velocity[axis].topology());
+          double     most = 0;
+          fluxes.for_each_between(axis, [&](const auto &from, const auto &to, const double flux) {
+            most = std::max(most, std::abs(flux));
+            for (const auto &[place, sign] : {std::pair(from, -1.), std::pair(to, 1.)})
+              (place.part < 0 ? sums(place.face) : sums.parts()[place.part]) += sign * flux;
+          });
+          CHECK(most > 1e-4);
+          double largest = 0;
+          for_each_value(sums, [&](const double sum, const auto &, const auto &face) {
+            if (!run.models.fluid->grid().at_boundary(axis, face))
+              largest = std::max(largest, std::abs(sum));
+          });
+          CHECK(largest <= 1e-9 * most);
+        }
+    }
+}
 
 
 TEST_CASE("Convection in flux form and friction together are of second order in time and space",
