@@ -53,11 +53,25 @@ namespace undine
       return {dim, 0};
     }
 
+    /// Surfaces may move: what then is kept from stage to stage.
+    void
+    initialize(const FluidModel<dim> &model, FluidState<dim> &state) const override
+    {
+      const auto &topology = state.velocity[0].topology();
+      if (has_flux_form() && topology)
+        for (auto &half : state.volume_rates.halves)
+          for (unsigned int axis = 0; axis < dim; ++axis)
+            half[axis] = Field<dim>(model.grid().faces(axis), topology);
+    }
+
     void
     transport(FluidStage<dim> &step) const override
     {
       if (has_flux_form())
-        return;
+        {
+          step.conserve_momentum();
+          return;
+        }
       const auto timed = step.timing.section(this->name);
       if (step.stage.keeps_rates())
         advect(step.advected_velocities(), step);
@@ -71,7 +85,10 @@ namespace undine
       if (!has_flux_form())
         return;
       const auto timed = step.timing.section(this->name);
-      step.carrying.emplace(step.model, step.flow_at_end(), step.end);
+      if (step.motion())
+        step.carrying.emplace(step.model, step.flow_at_end(), step.end, *step.motion());
+      else
+        step.carrying.emplace(step.model, step.flow_at_end(), step.end);
     }
 
     /// In flux form: together with friction, by the effect `viscosity`, if there is any.
@@ -85,9 +102,13 @@ namespace undine
     }
 
     std::size_t
-    memory_consumption(const FluidState<dim> &) const override
+    memory_consumption(const FluidState<dim> &state) const override
     {
-      return momentum.memory_consumption();
+      std::size_t sum = momentum.memory_consumption();
+      if (is_in_use(state.volume_rates))
+        for (const auto &half : state.volume_rates.halves)
+          sum += undine::memory_consumption(half);
+      return sum;
     }
 
   private:

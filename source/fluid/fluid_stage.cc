@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/advection/remap.h>
+#include <undine/fluid/convection/moved_dual_volumes.h>
 #include <undine/fluid/fluid_stage.h>
 #include <undine/fluid/grid/field_algebra.h>
 
@@ -136,6 +137,9 @@ namespace undine
   void
   FluidStage<dim>::remap()
   {
+    std::optional<Velocity<dim>> begin;
+    if (conserves_momentum && tracer.velocity()[0].topology() != tracer.bodies().topology)
+      begin = stage.keeps_rates() ? before : state.velocity;
     for (auto *velocity : advected_velocities())
       if ((*velocity)[0].topology() != tracer.bodies().topology)
         *velocity = remapped_velocity(*velocity);
@@ -144,6 +148,33 @@ namespace undine
         advected = state.velocity;
         before   = remapped_velocity(before);
       }
+    if (begin)
+      move_dual_volumes(*begin);
+    else
+      state.volume_rates.time = 0;
+  }
+
+
+  /// With momentum conserved as the volumes of faces change, where these had one: `velocity` is v^b
+  /// on the topology of the fluid before (F15).
+  template <int dim>
+  void
+  FluidStage<dim>::move_dual_volumes(const Velocity<dim> &velocity)
+  {
+    const MovedDualVolumes<dim> volumes(
+      model.grid(), velocity[0].topology(), tracer.bodies().topology, state.volume_rates, stage);
+    volumes.move_to_start(state.velocity, velocity, state.acceleration);
+    if (stage.keeps_rates())
+      {
+        advected = state.velocity;
+        volumes.move(before, velocity);
+        if (advected_begin)
+          volumes.move(*advected_begin, velocity);
+      }
+    dual_motion.emplace();
+    dual_motion->rates = volumes.rates();
+    dual_motion->start = state.velocity;
+    state.volume_rates = volumes.kept_rates();
   }
 
 

@@ -63,10 +63,25 @@ namespace undine
     std::vector<Velocity<dim> *>
     advected_velocities();
 
+    /// Convection in flux form asks for it before remap(): then that conserves momentum.
+    void
+    conserve_momentum()
+    {
+      conserves_momentum = true;
+    }
+
     /// Bring fields that no effect has advected to the present topology of the fluid; their values
     /// stay where they were. Collective.
     void
     remap();
+
+    /// What surfaces that move do to the fluxes of momentum, after remap(); empty: nothing, or
+    /// nobody has asked.
+    const std::optional<typename DualFluxes<dim>::Motion> &
+    motion() const
+    {
+      return dual_motion;
+    }
 
     /// The flow at the end of the stage on the present topology of the fluid, extrapolated from its
     /// begin if stages keep rates [m/s]. After remap(). Collective.
@@ -128,8 +143,13 @@ namespace undine
     go_on();
     void
     move_pressure_and_acceleration();
+    void
+    move_dual_volumes(const Velocity<dim> &velocity);
     Velocity<dim>
     remapped_velocity(const Velocity<dim> &velocity) const;
+
+    bool                                            conserves_momentum = false;
+    std::optional<typename DualFluxes<dim>::Motion> dual_motion;
 
     Velocity<dim> before; ///< velocity where the paths begin, if rates are kept [m/s]
 

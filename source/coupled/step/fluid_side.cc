@@ -136,6 +136,10 @@ namespace undine
       for (auto &component : velocity->components)
         component.share(parts);
     state.pressure.share(parts);
+    if (is_in_use(state.volume_rates))
+      for (auto &half : state.volume_rates.halves)
+        for (auto &component : half.components)
+          component.share(parts);
     for (auto *fields : {&state.scalars, &state.scalar_rates})
       for (auto &field : *fields)
         field.second.share(parts);

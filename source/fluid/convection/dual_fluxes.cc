@@ -22,6 +22,18 @@ namespace undine
 
 
   template <int dim>
+  DualFluxes<dim>::DualFluxes(const FluidModel<dim> &model,
+                              const Velocity<dim>   &flow,
+                              const double           time,
+                              const Motion          &motion_)
+    : DualFluxes(model, flow, time)
+  {
+    motion.emplace(motion_);
+    exchange(motion->start);
+  }
+
+
+  template <int dim>
   void
   DualFluxes<dim>::collect_pieces()
   {
@@ -118,6 +130,16 @@ namespace undine
   }
 
 
+  /// What a place of a component must get to keep the flow through it, and its volume.
+  template <int dim>
+  double
+  DualFluxes<dim>::supply(const unsigned int axis, const Share &of) const
+  {
+    const double through = (of.end == 1 ? 1 : -1) * flux(axis, of.place);
+    return motion ? through + value_at(motion->rates[1 - of.end][axis], of.place) : through;
+  }
+
+
   /// What the places of one component exchange. Those that give do so in proportion to what others
   /// need.
   template <int dim>
@@ -128,11 +150,11 @@ namespace undine
   {
     double out = 0, most = 0;
     for (const auto &one : shares)
-      out += (one.end == 1 ? 1 : -1) * flux(axis, one.place);
+      out += supply(axis, one);
     boost::container::small_vector<double, 4> needs;
     for (const auto &one : shares)
       {
-        needs.push_back((one.end == 1 ? 1 : -1) * flux(axis, one.place) - one.share * out);
+        needs.push_back(supply(axis, one) - one.share * out);
         most += std::max(0., needs.back());
       }
     const auto from_to = [&](const double giver, const double taker) {
@@ -197,6 +219,19 @@ namespace undine
                      flux(d, place),
                      action);
             });
+        });
+  }
+
+
+  template <int dim>
+  void
+  DualFluxes<dim>::for_each_change(const unsigned int axis, const Change &action) const
+  {
+    if (motion)
+      for_each_between(
+        axis, [&](const FacePlace<dim> &from, const FacePlace<dim> &to, const double flux) {
+          action(from, flux, value_at(motion->start[axis], from));
+          action(to, -flux, value_at(motion->start[axis], to));
         });
   }
 

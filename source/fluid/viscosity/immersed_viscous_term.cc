@@ -77,6 +77,11 @@ namespace undine
         if (is_prescribed(column))
           load(number(row)) -= assembled_dt * factor * value_at(field, column);
       });
+    fluxes.for_each_change(
+      axis, [&](const FacePlace<dim> &place, const double leaving, const double start) {
+        if (!is_prescribed(place))
+          load(number(place)) += assembled_dt * model.density() * leaving * start;
+      });
     fluxes.for_each_entering(
       axis, [&](const FacePlace<dim> &place, const double flux, const double velocity) {
         if (!is_prescribed(place))
@@ -250,6 +255,11 @@ namespace undine
       fluxes, [&](const FacePlace<dim> &row, const FacePlace<dim> &column, const double factor) {
         if (!is_prescribed(column))
           matrix.add(number(row), number(column), assembled_dt * factor);
+      });
+    fluxes.for_each_change(
+      axis, [&](const FacePlace<dim> &place, const double leaving, const double) {
+        if (!is_prescribed(place))
+          matrix.add(number(place), number(place), assembled_dt * model.density() * leaving);
       });
     fluxes.for_each_entering(
       axis, [&](const FacePlace<dim> &place, const double flux, const double) {

@@ -194,6 +194,11 @@ namespace undine
         action(std::string("fluid/acceleration_") + char('x' + axis), fluid.acceleration[axis]);
       for (unsigned int axis = 0; axis < dim; ++axis)
         action(std::string("fluid/change_") + char('x' + axis), fluid.change[axis]);
+      for (unsigned int axis = 0; axis < dim && is_in_use(fluid.volume_rates); ++axis)
+        for (const unsigned int end : {0, 1})
+          action(std::string("fluid/volume_rates_") + (end == 0 ? "below_" : "above_") +
+                   char('x' + axis),
+                 fluid.volume_rates.halves[end][axis]);
       action("fluid/pressure", fluid.pressure);
       for (auto &scalar : fluid.scalars)
         action("fluid/scalars/" + scalar.first, scalar.second);
@@ -326,6 +331,9 @@ namespace undine
       if (field.divided() && !parts.of(field).empty())
         arrays.push_back(parts.of(field).pack("parts/" + name, owned_parts(field)));
     };
+    if (is_in_use(state.fluid.volume_rates))
+      arrays.push_back(numbers_of_first_rank(
+        "fluid/time of volume rates", {state.fluid.volume_rates.time}, models.communicator()));
     for_each_field<dim>(state.fluid, add);
     for_each_field_of_samples<dim>(state.history, add);
     return arrays;
@@ -367,6 +375,9 @@ namespace undine
         set_owned_parts(field, parts.of(field).unpack(*array++));
       field.exchange();
     };
+    if (is_in_use(state.fluid.volume_rates))
+      state.fluid.volume_rates.time =
+        dealii::Utilities::MPI::broadcast(models.communicator(), (array++)->values).front();
     for_each_field<dim>(state.fluid, fill);
     for_each_field_of_samples<dim>(state.history, fill);
   }

@@ -9,6 +9,7 @@
 #include <boost/container/small_vector.hpp>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace undine
@@ -33,6 +34,17 @@ namespace undine
     /// outlive this. Collective.
     DualFluxes(const FluidModel<dim> &model, const Velocity<dim> &flow, double time);
 
+    /// For dual volumes that change as surfaces move: their rates [m^dim/s], and v^0 [m/s] (F15).
+    struct Motion
+    {
+      DualHalves<dim> rates;
+      Velocity<dim>   start;
+    };
+    DualFluxes(const FluidModel<dim> &model,
+               const Velocity<dim>   &flow,
+               double                 time,
+               const Motion          &motion);
+
     /// action(from, to, volume rate from `from` to `to` [m^dim/s]), each on one rank only, for the
     /// same places as long as the topology is the same. Places are owned, or next to owned ones.
     using Between =
@@ -45,6 +57,12 @@ namespace undine
     using Entering = std::function<void(const FacePlace<dim> &, const double, const double)>;
     void
     for_each_entering(const unsigned int axis, const Entering &action) const;
+
+    /// action(place, phi, v^0) for every volume rate phi that leaves a place, if anything moves:
+    /// their sums are the rates at which dual volumes shrink.
+    using Change = std::function<void(const FacePlace<dim> &, const double, const double)>;
+    void
+    for_each_change(const unsigned int axis, const Change &action) const;
 
     /// The topology of the fluid; nullptr: nothing is cut.
     const FluidTopology<dim> *
@@ -77,6 +95,8 @@ namespace undine
     double
     area(unsigned int axis, const FacePlace<dim> &place) const;
     double
+    supply(unsigned int axis, const Share &of) const;
+    double
     flux(unsigned int axis, const FacePlace<dim> &place) const;
     bool
     is_whole(unsigned int axis, const GridIndex<dim> &face) const;
@@ -95,6 +115,7 @@ namespace undine
     const MacGrid<dim>    &grid;
     Velocity<dim>          flow;
     const double           time;
+    std::optional<Motion>  motion; ///< none: nothing moves
     /// Pieces of faces around each component, [axis][component][end].
     std::array<std::vector<std::array<std::vector<int>, 2>>, dim> pieces;
   };

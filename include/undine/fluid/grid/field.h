@@ -29,6 +29,13 @@ namespace undine
     explicit Field(std::shared_ptr<const Lattice<dim>>       lattice,
                    std::shared_ptr<const FluidTopology<dim>> topology = nullptr);
 
+    /// False only if it is empty.
+    bool
+    has_lattice() const
+    {
+      return points != nullptr;
+    }
+
     const Lattice<dim> &
     lattice() const
     {

@@ -47,16 +47,36 @@ namespace undine
     return sum;
   }
 
+  /// Of the halves of the dual volume of each face or piece, below [0] and above [1] it.
+  template <int dim>
+  using DualHalves = std::array<Velocity<dim>, 2>;
+
+  /// At which rates the halves of dual volumes have grown as surfaces have moved.
+  template <int dim>
+  struct DualVolumeRates
+  {
+    DualHalves<dim> halves;   ///< [m^dim/s]
+    double          time = 0; ///< over which they were taken [s]; 0: nothing has moved
+  };
+
+  template <int dim>
+  bool
+  is_in_use(const DualVolumeRates<dim> &rates)
+  {
+    return rates.halves[0][0].has_lattice();
+  }
+
   /// The fluid at one time, on the staggered grid: normal velocities on cell faces, the rest in
   /// cell centres. Ghost values may be out of date; owned values count.
   template <int dim>
   struct FluidState
   {
-    Velocity<dim>                     velocity;     ///< [m/s]
-    Velocity<dim>                     acceleration; ///< Dv/Dt that the last stage has kept [m/s^2]
-    Velocity<dim>                     change;       ///< dv/dt of the last stage [m/s^2]
-    Field<dim>                        pressure;     ///< reduced pressure p - rho g.x [Pa]
-    std::map<std::string, Field<dim>> scalars;      ///< by name, e.g. "smoke", "temperature"
+    Velocity<dim>        velocity;             ///< [m/s]
+    Velocity<dim>        acceleration;         ///< Dv/Dt that the last stage has kept [m/s^2]
+    Velocity<dim>        change;               ///< dv/dt of the last stage [m/s^2]
+    DualVolumeRates<dim> volume_rates;         ///< that the last stage has kept; empty: not in use
+    Field<dim>           pressure;             ///< reduced pressure p - rho g.x [Pa]
+    std::map<std::string, Field<dim>> scalars; ///< by name, e.g. "smoke", "temperature"
     std::map<std::string, Field<dim>>
       scalar_rates; ///< Ds/Dt that the last stage has kept [1/s], of scalars that have one
   };
