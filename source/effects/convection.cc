@@ -2,6 +2,7 @@
 #include <undine/effects/effect.h>
 #include <undine/fluid/advection/advection.h>
 #include <undine/fluid/implicit_momentum.h>
+#include <undine/fluid/pressure/projection.h>
 
 #include <utility>
 #include <vector>
@@ -85,10 +86,16 @@ namespace undine
       if (!has_flux_form())
         return;
       const auto timed = step.timing.section(this->name);
-      if (step.motion())
-        step.carrying.emplace(step.model, step.flow_at_end(), step.end, *step.motion());
-      else
-        step.carrying.emplace(step.model, step.flow_at_end(), step.end);
+      auto       flow  = step.flow_at_end();
+      if (!step.motion())
+        {
+          step.carrying.emplace(step.model, flow, step.end);
+          return;
+        }
+      if (!projection)
+        projection = std::make_unique<Projection<dim>>(step.model);
+      step.linear_iterations += projection->fit_to_growth(flow, step.motion()->growth, step.end);
+      step.carrying.emplace(step.model, flow, step.end, *step.motion());
     }
 
     /// In flux form: together with friction, by the effect `viscosity`, if there is any.
@@ -164,9 +171,10 @@ namespace undine
       });
     }
 
-    std::string                     form = "along paths";
-    std::unique_ptr<Advection<dim>> method;
-    mutable ImplicitMomentum<dim>   momentum; ///< a cache
+    std::string                              form = "along paths";
+    std::unique_ptr<Advection<dim>>          method;
+    mutable ImplicitMomentum<dim>            momentum;   ///< a cache
+    mutable std::unique_ptr<Projection<dim>> projection; ///< the same, for surfaces that move
   };
 
 

@@ -172,9 +172,10 @@ namespace undine
           volumes.move(*advected_begin, velocity);
       }
     dual_motion.emplace();
-    dual_motion->rates = volumes.rates();
-    dual_motion->start = state.velocity;
-    state.volume_rates = volumes.kept_rates();
+    dual_motion->rates  = volumes.rates();
+    dual_motion->growth = volumes.growth();
+    dual_motion->start  = state.velocity;
+    state.volume_rates  = volumes.kept_rates();
   }
 
 

@@ -225,19 +225,6 @@ namespace undine
 
   template <int dim>
   void
-  DualFluxes<dim>::for_each_change(const unsigned int axis, const Change &action) const
-  {
-    if (motion)
-      for_each_between(
-        axis, [&](const FacePlace<dim> &from, const FacePlace<dim> &to, const double flux) {
-          action(from, flux, value_at(motion->start[axis], from));
-          action(to, -flux, value_at(motion->start[axis], to));
-        });
-  }
-
-
-  template <int dim>
-  void
   DualFluxes<dim>::for_each_entering(const unsigned int axis, const Entering &action) const
   {
     const VelocityCondition<dim> condition(axis);

@@ -50,6 +50,14 @@ namespace undine
     }
 
 
+    template <int dim>
+    double
+    value_at(const Field<dim> &field, const GridIndex<dim> &index, const int part)
+    {
+      return part < 0 ? field(index) : field.parts()[part];
+    }
+
+
     /// The component below or above a place; -1: a cell that is whole.
     template <int dim>
     int
@@ -405,6 +413,37 @@ namespace undine
   MovedDualVolumes<dim>::rates() const
   {
     return rates_since(start, stage.length);
+  }
+
+
+  /// The mean over the axes along which there are places.
+  template <int dim>
+  Field<dim>
+  MovedDualVolumes<dim>::growth() const
+  {
+    const auto of_halves = rates();
+    Field<dim> result(grid.cells(), now);
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
+        for (const unsigned int end : {0, 1})
+          for_each_place(volumes[0][axis].divided(),
+                         moved<dim>(cell, axis, 1 - end),
+                         [&](const FacePlace<dim> &place) {
+                           value_at(result, cell, component_at(now.get(), axis, place, end)) +=
+                             undine::value_at(of_halves[end][axis], place);
+                         });
+      });
+    const auto divide = [&](const GridIndex<dim> &cell, const int part) {
+      int n = 0;
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        n += value_at(open_volumes[axis], cell, part) > 0;
+      value_at(result, cell, part) /= std::max(1, n);
+    };
+    for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
+      for_each_place(
+        result.divided(), cell, [&](const FacePlace<dim> &place) { divide(cell, place.part); });
+    });
+    return result;
   }
 
 

@@ -241,6 +241,37 @@ namespace undine
   }
 
 
+  template <int dim>
+  unsigned int
+  Projection<dim>::fit_to_growth(Velocity<dim>    &velocity,
+                                 const Field<dim> &growth,
+                                 const double      time)
+  {
+    const auto topology = velocity[0].topology();
+    prepare(topology);
+    set_boundary_velocity(velocity, model.boundaries(), time);
+    exchange(velocity);
+    auto fluxes = divergence(model, velocity);
+    add(fluxes, 1., growth);
+    Vector right_side(numbers->owned(), model.grid().communicator()), solution(right_side);
+    copy_to_vector(right_side, fluxes);
+    right_side *= -1;
+    closed_regions->balance(right_side);
+    auto openings = open_faces(model, velocity, topology.get(), time);
+    for (auto &open : openings)
+      open.pressure = 0;
+    const double tolerance =
+      std::sqrt(model.pressure_solver().divergence_tolerance) * right_side.l2_norm();
+    const unsigned int iterations =
+      solve(solution, right_side, BackflowMatrix(*matrix, model, *numbers, openings), tolerance);
+    Field<dim> impulse(model.grid().cells(), topology);
+    copy_from_vector(impulse, solution);
+    impulse.exchange(1);
+    add(velocity, 1., pressure_acceleration(model, impulse, openings));
+    return iterations;
+  }
+
+
   template class Projection<2>;
   template class Projection<3>;
 } // namespace undine

@@ -77,10 +77,9 @@ namespace undine
         if (is_prescribed(column))
           load(number(row)) -= assembled_dt * factor * value_at(field, column);
       });
-    fluxes.for_each_change(
-      axis, [&](const FacePlace<dim> &place, const double leaving, const double start) {
-        if (!is_prescribed(place))
-          load(number(place)) += assembled_dt * model.density() * leaving * start;
+    if (const auto *start = fluxes.start())
+      for_each_owned([&](const FacePlace<dim> &place) {
+        load(number(place)) += shrinkage(number(place)) * value_at((*start)[axis], place);
       });
     fluxes.for_each_entering(
       axis, [&](const FacePlace<dim> &place, const double flux, const double velocity) {
@@ -256,17 +255,39 @@ namespace undine
         if (!is_prescribed(column))
           matrix.add(number(row), number(column), assembled_dt * factor);
       });
-    fluxes.for_each_change(
-      axis, [&](const FacePlace<dim> &place, const double leaving, const double) {
-        if (!is_prescribed(place))
-          matrix.add(number(place), number(place), assembled_dt * model.density() * leaving);
-      });
     fluxes.for_each_entering(
       axis, [&](const FacePlace<dim> &place, const double flux, const double) {
         if (!is_prescribed(place))
           matrix.add(number(place), number(place), assembled_dt * model.density() * flux);
       });
     matrix.compress(dealii::VectorOperation::add);
+    if (!fluxes.start())
+      return;
+    find_shrinkage(fluxes);
+    for_each_owned([&](const FacePlace<dim> &place) {
+      matrix.add(number(place), number(place), shrinkage(number(place)));
+    });
+    matrix.compress(dealii::VectorOperation::add);
+  }
+
+
+  /// What leaves the dual volumes in a step [kg]. V^0 is not negative, but for what the flow does
+  /// not fit.
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::find_shrinkage(const DualFluxes<dim> &fluxes)
+  {
+    shrinkage.reinit(mine, model.grid().communicator());
+    fluxes.for_each_between(
+      axis, [&](const FacePlace<dim> &from, const FacePlace<dim> &to, const double flux) {
+        shrinkage(number(from)) += assembled_dt * model.density() * flux;
+        shrinkage(number(to)) -= assembled_dt * model.density() * flux;
+      });
+    shrinkage.compress(dealii::VectorOperation::add);
+    for_each_owned([&](const FacePlace<dim> &place) {
+      double &leaving = shrinkage.begin()[mine.index_within_set(number(place))];
+      leaving         = is_prescribed(place) ? 0. : std::max(leaving, -mass(place));
+    });
   }
 
 

@@ -34,10 +34,12 @@ namespace undine
     /// outlive this. Collective.
     DualFluxes(const FluidModel<dim> &model, const Velocity<dim> &flow, double time);
 
-    /// For dual volumes that change as surfaces move: their rates [m^dim/s], and v^0 [m/s] (F15).
+    /// As surfaces move (F15): the rates of dual volumes, and of components and cells [m^dim/s],
+    /// which `flow` must fit, and v^0 [m/s].
     struct Motion
     {
       DualHalves<dim> rates;
+      Field<dim>      growth;
       Velocity<dim>   start;
     };
     DualFluxes(const FluidModel<dim> &model,
@@ -58,11 +60,12 @@ namespace undine
     void
     for_each_entering(const unsigned int axis, const Entering &action) const;
 
-    /// action(place, phi, v^0) for every volume rate phi that leaves a place, if anything moves:
-    /// their sums are the rates at which dual volumes shrink.
-    using Change = std::function<void(const FacePlace<dim> &, const double, const double)>;
-    void
-    for_each_change(const unsigned int axis, const Change &action) const;
+    /// v^0 if surfaces move [m/s], else nullptr.
+    const Velocity<dim> *
+    start() const
+    {
+      return motion ? &motion->start : nullptr;
+    }
 
     /// The topology of the fluid; nullptr: nothing is cut.
     const FluidTopology<dim> *

@@ -51,6 +51,10 @@ namespace undine
     DualHalves<dim>
     rates() const;
 
+    /// Rates of cells and components at the end of the stage [m^dim/s].
+    Field<dim>
+    growth() const;
+
     /// The rates that the stage keeps.
     DualVolumeRates<dim>
     kept_rates() const;

@@ -76,6 +76,13 @@ namespace undine
                          const double           time,
                          const SweptVolumeFlux &swept = {});
 
+    /// The velocity becomes the nearest one that lets as much fluid into cells and components as
+    /// they grow by, `growth` [m^dim/s], with the velocity on walls and inflows at `time` [s]. What
+    /// closed regions cannot take is spread over them; up to the root of the divergence tolerance.
+    /// Returns the iterations of the solver. Throws SolveError. Collective.
+    unsigned int
+    fit_to_growth(Velocity<dim> &velocity, const Field<dim> &growth, const double time);
+
   private:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 

@@ -83,6 +83,8 @@ namespace undine
     assemble_friction(const double dt);
     void
     add_convection(const DualFluxes<dim> &fluxes);
+    void
+    find_shrinkage(const DualFluxes<dim> &fluxes);
     double
     diffusion_number() const;
     template <class Action>
@@ -127,7 +129,8 @@ namespace undine
     Number                                           first_node   = 0;
     double                                           assembled_dt = 0; ///< [s]
     DiffusionSolver                                  solver;
-    dealii::TrilinosWrappers::SparseMatrix           friction; ///< of mass and friction
+    Vector                                           shrinkage; ///< if surfaces move [kg]
+    dealii::TrilinosWrappers::SparseMatrix           friction;  ///< of mass and friction
     std::vector<ViscousTerm<dim>> given_terms; ///< in which something is not an unknown face
     std::vector<double>           nodes;       ///< their velocities along the axis [m/s]
     FrictionForces<double>        last_forces;
