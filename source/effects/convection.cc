@@ -26,9 +26,9 @@ namespace undine
         Allowed::one_of({"along paths", "flux"}),
         "'along paths': values are brought along the paths of the fluid, by 'Method'; for pictures "
         "and for steps in which the flow crosses many cells. 'flux': momentum flows through the "
-        "faces between volumes of the grid, centrally and implicitly: around obstacles at rest "
-        "forces are far more accurate and do not depend on the step. It smooths nothing: layers "
-        "thinner than a cell oscillate, and where bodies move it has no advantage yet.");
+        "faces between volumes of the grid, centrally and implicitly: it conserves the momentum of "
+        "fluid and bodies, and around obstacles at rest forces are far more accurate and do not "
+        "depend on the step. It smooths nothing: layers thinner than a cell oscillate.");
       method =
         options.template choose<Advection<dim>>("Method", "cubic", "How the velocity is advected.");
     }
