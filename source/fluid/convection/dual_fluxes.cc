@@ -50,32 +50,6 @@ namespace undine
 
 
   template <int dim>
-  bool
-  DualFluxes<dim>::is_whole(const unsigned int axis, const GridIndex<dim> &face) const
-  {
-    const auto *open = flow.topology();
-    return !open || open->faces[axis].kind(face) == SubLattice<dim>::Kind::whole;
-  }
-
-
-  /// action(FacePlace) for what is open of a face.
-  template <int dim>
-  template <class Action>
-  void
-  DualFluxes<dim>::for_each_place(const unsigned int    axis,
-                                  const GridIndex<dim> &face,
-                                  const Action         &action) const
-  {
-    if (is_whole(axis, face))
-      action(FacePlace<dim>{face, -1});
-    else
-      for_each_part(flow.topology()->faces[axis], face, [&](const int part) {
-        action(FacePlace<dim>{face, part});
-      });
-  }
-
-
-  template <int dim>
   double
   DualFluxes<dim>::area(const unsigned int axis, const FacePlace<dim> &place) const
   {
@@ -118,9 +92,9 @@ namespace undine
     };
     for (const unsigned int end : {0, 1})
       if (place.component < 0)
-        for_each_place(axis, moved<dim>(place.cell, axis, end), [&](const FacePlace<dim> &of_face) {
-          add(of_face, end);
-        });
+        undine::for_each_place(flow[axis].divided(),
+                               moved<dim>(place.cell, axis, end),
+                               [&](const FacePlace<dim> &of_face) { add(of_face, end); });
       else
         for (const int piece : pieces[axis][place.component][end])
           add({flow.topology()->faces[axis].all()[piece].index, piece}, end);
@@ -213,7 +187,7 @@ namespace undine
       if (d != axis)
         undine::for_each(grid.faces(d)->owned(), [&](const GridIndex<dim> &face) {
           if (!grid.at_boundary(d, face))
-            for_each_place(d, face, [&](const FacePlace<dim> &place) {
+            undine::for_each_place(flow[d].divided(), face, [&](const FacePlace<dim> &place) {
               across(shares(beside(d, place, 0), axis),
                      shares(beside(d, place, 1), axis),
                      flux(d, place),
@@ -238,7 +212,7 @@ namespace undine
             model.boundaries().at({d, end}, moved<dim>(face, d, end == 0 ? 0 : -1));
           if (!condition.is_dirichlet(boundary))
             return;
-          for_each_place(d, face, [&](const FacePlace<dim> &place) {
+          undine::for_each_place(flow[d].divided(), face, [&](const FacePlace<dim> &place) {
             const double entering = (end == 0 ? 1 : -1) * flux(d, place);
             if (entering > 0)
               for (const auto &one : shares(beside(d, place, 1 - end), axis))

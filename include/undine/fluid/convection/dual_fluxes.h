@@ -101,16 +101,11 @@ namespace undine
     supply(unsigned int axis, const Share &of) const;
     double
     flux(unsigned int axis, const FacePlace<dim> &place) const;
-    bool
-    is_whole(unsigned int axis, const GridIndex<dim> &face) const;
     void
     within(const Shares &shares, unsigned int axis, const Between &action) const;
     void
     across(const Shares &below, const Shares &above, double flux, const Between &action) const;
 
-    template <class Action>
-    void
-    for_each_place(unsigned int axis, const GridIndex<dim> &face, const Action &action) const;
     CellPlace
     beside(unsigned int axis, const FacePlace<dim> &place, unsigned int end) const;
 

@@ -21,6 +21,44 @@ namespace undine
   {
     return place.part < 0 ? field(place.face) : field.parts()[place.part];
   }
+
+
+  /// The value of a point, or of the part with that number unless it is negative. @{
+  template <int dim>
+  double &
+  value_at(Field<dim> &field, const GridIndex<dim> &index, const int part)
+  {
+    return part < 0 ? field(index) : field.parts()[part];
+  }
+
+  template <int dim>
+  double
+  value_at(const Field<dim> &field, const GridIndex<dim> &index, const int part)
+  {
+    return part < 0 ? field(index) : field.parts()[part];
+  }
+  /// @}
+
+
+  /// Is a point open all over? nullptr: all are.
+  template <int dim>
+  bool
+  is_whole(const SubLattice<dim> *divided, const GridIndex<dim> &index)
+  {
+    return !divided || divided->kind(index) == SubLattice<dim>::Kind::whole;
+  }
+
+
+  /// Call `action(FacePlace)` for what is open of a face.
+  template <int dim, class Action>
+  void
+  for_each_place(const SubLattice<dim> *divided, const GridIndex<dim> &face, Action &&action)
+  {
+    if (is_whole(divided, face))
+      action(FacePlace<dim>{face, -1});
+    else
+      for_each_part(*divided, face, [&](const int part) { action(FacePlace<dim>{face, part}); });
+  }
 } // namespace undine
 
 #endif
