@@ -138,7 +138,9 @@ namespace undine
   FluidStage<dim>::remap()
   {
     std::optional<Velocity<dim>> begin;
-    if (conserves_momentum && tracer.velocity()[0].topology() != tracer.bodies().topology)
+    const bool has_moved = tracer.velocity()[0].topology() != tracer.bodies().topology;
+    // Where surfaces have just come to rest, the rates of the stage before still count.
+    if (conserves_momentum && (has_moved || (state.volume_rates.time > 0 && stage.going_on() != 0)))
       begin = stage.keeps_rates() ? before : state.velocity;
     for (auto *velocity : advected_velocities())
       if ((*velocity)[0].topology() != tracer.bodies().topology)
@@ -150,7 +152,7 @@ namespace undine
       }
     if (begin)
       move_dual_volumes(*begin);
-    else
+    if (!has_moved)
       state.volume_rates.time = 0;
   }
 
@@ -166,7 +168,8 @@ namespace undine
     volumes.move_to_start(state.velocity, velocity, state.acceleration);
     if (stage.keeps_rates())
       {
-        advected = state.velocity;
+        advected        = state.velocity;
+        resampled_begin = before;
         volumes.move(before, velocity);
         if (advected_begin)
           volumes.move(*advected_begin, velocity);
@@ -187,7 +190,7 @@ namespace undine
     if (stage.keeps_rates())
       {
         add(result, 1., result);
-        add(result, -1., before);
+        add(result, -1., resampled_begin ? *resampled_begin : before);
       }
     set_boundary_velocity(result, model.boundaries(), end);
     return result;

@@ -151,6 +151,9 @@ namespace undine
     bool                                            conserves_momentum = false;
     std::optional<typename DualFluxes<dim>::Motion> dual_motion;
 
+    /// The same from samples alone, if it conserves momentum.
+    std::optional<Velocity<dim>> resampled_begin;
+
     Velocity<dim> before; ///< velocity where the paths begin, if rates are kept [m/s]
 
     /// The same, advected, if a mean rate is kept and differs from that at the end [m/s].

@@ -224,6 +224,28 @@ namespace undine
   }
 
 
+  template <int dim>
+  void
+  DualFluxes<dim>::for_each_leaving(const unsigned int axis, const Leaving &action) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!grid.periodic(d))
+        undine::for_each(grid.faces(d)->owned(), [&](const GridIndex<dim> &face) {
+          if (!grid.at_boundary(d, face))
+            return;
+          const unsigned int end = face[d] == 0 ? 0 : 1;
+          undine::for_each_place(flow[d].divided(), face, [&](const FacePlace<dim> &place) {
+            const double leaving = (end == 0 ? -1 : 1) * flux(d, place);
+            if (d == axis)
+              action(place, leaving);
+            else
+              for (const auto &one : shares(beside(d, place, 1 - end), axis))
+                action(one.place, one.share * leaving);
+          });
+        });
+  }
+
+
   template class DualFluxes<2>;
   template class DualFluxes<3>;
 } // namespace undine

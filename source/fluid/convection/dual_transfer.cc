@@ -161,10 +161,11 @@ namespace undine
     const auto *then = before[0][axis].divided();
     for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
       for (const unsigned int end : {0, 1})
-        if (const auto face = moved<dim>(cell, axis, 1 - end); !is_uncut(axis, face))
+        {
+          const auto face = moved<dim>(cell, axis, 1 - end);
           for_each_place(then, face, [&](const FacePlace<dim> &place) {
             double leaving = value_at(amounts.leaving[end], place);
-            if (successor(axis, place).part == none)
+            if (!is_uncut(axis, face) && successor(axis, place).part == none)
               leaving += value_at(amounts.staying[end], place);
             if (leaving == 0)
               return;
@@ -173,6 +174,7 @@ namespace undine
             (component != none ? value_at(pots, cell, component) : handed[1 - end](cell)) +=
               leaving;
           });
+        }
     });
     for_each(grid.faces(axis)->owned(), [&](const GridIndex<dim> &face) {
       for_each_place(then, face, [&](const FacePlace<dim> &place) {

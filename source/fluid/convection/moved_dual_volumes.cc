@@ -59,26 +59,26 @@ namespace undine
   }
 
 
-  /// momenta / volumes on all faces that are or were cut, where there has been a volume.
+  /// momenta / volumes on all faces that are or were cut or have just ceased to be, where there has
+  /// been a volume.
   template <int dim>
   void
   MovedDualVolumes<dim>::set_quotients(Field<dim>            &moved,
                                        const Halves          &momenta,
                                        const DualHalves<dim> &volumes) const
   {
-    constexpr double   negligible = 1e-6; // of the present volume
+    constexpr double   negligible = 1e-2; // of the present volume
     const unsigned int axis       = moved.lattice().normal_axis();
     const auto         volume     = [&](const DualHalves<dim> &of, const FacePlace<dim> &place) {
       return value_at(of[0][axis], place) + value_at(of[1][axis], place);
     };
     for_each(moved.owned(), [&](const GridIndex<dim> &face) {
-      if (!transfer.is_uncut(axis, face))
-        for_each_place(moved.divided(), face, [&](const FacePlace<dim> &place) {
-          if (const double then = volume(volumes, place);
-              then > negligible * volume(transfer.now, place))
-            value_at(moved, face, place.part) =
-              (value_at(momenta[0], place) + value_at(momenta[1], place)) / then;
-        });
+      for_each_place(moved.divided(), face, [&](const FacePlace<dim> &place) {
+        const double then = volume(volumes, place), present = volume(transfer.now, place);
+        if (then > negligible * present && !(then == present && transfer.is_uncut(axis, face)))
+          value_at(moved, face, place.part) =
+            (value_at(momenta[0], place) + value_at(momenta[1], place)) / then;
+      });
     });
     set_means(moved, transfer.grid);
   }

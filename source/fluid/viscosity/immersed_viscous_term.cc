@@ -283,6 +283,9 @@ namespace undine
         shrinkage(number(from)) += assembled_dt * model.density() * flux;
         shrinkage(number(to)) -= assembled_dt * model.density() * flux;
       });
+    fluxes.for_each_leaving(axis, [&](const FacePlace<dim> &place, const double flux) {
+      shrinkage(number(place)) += assembled_dt * model.density() * flux;
+    });
     shrinkage.compress(dealii::VectorOperation::add);
     for_each_owned([&](const FacePlace<dim> &place) {
       double &leaving = shrinkage.begin()[mine.index_within_set(number(place))];

@@ -199,6 +199,8 @@ namespace undine
       const auto lasting = count_lasting_particles(state.particles); // of the scene
       if (models.particles)
         resize_particles(state.particles, models.particles->setup().spacing, file);
+      if (is_in_use(state.fluid.volume_rates) && !file.contains(volume_rate_time_array))
+        state.fluid.volume_rates = {}; // of a run with another form of convection
       auto surface = pack_surface(models, state);
       read_arrays(surface, file, slot, communicator);
       unpack_surface(state, models, surface);

@@ -333,7 +333,7 @@ namespace undine
     };
     if (is_in_use(state.fluid.volume_rates))
       arrays.push_back(numbers_of_first_rank(
-        "fluid/time of volume rates", {state.fluid.volume_rates.time}, models.communicator()));
+        volume_rate_time_array, {state.fluid.volume_rates.time}, models.communicator()));
     for_each_field<dim>(state.fluid, add);
     for_each_field_of_samples<dim>(state.history, add);
     return arrays;

@@ -60,6 +60,12 @@ namespace undine
     void
     for_each_entering(const unsigned int axis, const Entering &action) const;
 
+    /// action(place, volume rate with which fluid leaves it through a side of the domain
+    /// [m^dim/s]), negative where fluid enters, whatever the side is.
+    using Leaving = std::function<void(const FacePlace<dim> &, const double)>;
+    void
+    for_each_leaving(const unsigned int axis, const Leaving &action) const;
+
     /// v^0 if surfaces move [m/s], else nullptr.
     const Velocity<dim> *
     start() const

@@ -19,6 +19,9 @@ namespace undine
     std::vector<double> values;
   };
 
+  /// The array that holds DualVolumeRates::time in a checkpoint, if those rates are in use.
+  inline const std::string volume_rate_time_array = "fluid/time of volume rates";
+
   /// `numbers`, the same on all ranks, of which the first rank writes all.
   StateArray
   numbers_of_first_rank(const std::string         &name,
