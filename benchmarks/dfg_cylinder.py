@@ -9,12 +9,12 @@ usage: benchmarks/dfg_cylinder.py [PROGRAM] [--across 10]... [--step 1/25]... [-
 8 s are printed, of which nothing is published on this side. --check: exit code 1 if a drag by fluxes is more than 0.5 %
 off. One rank; seconds with 10 cells across the cylinder, minutes with 20, half an hour with 40.
 """
-import argparse
 import os
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [os.path.join(ROOT, "tests", "checks"), os.path.join(ROOT, "benchmarks")]
+import convection_arguments  # noqa: E402
 import time_integration  # noqa: E402
 
 SCENE = os.path.join(ROOT, "prm", "dfg_2d1.prm")
@@ -24,13 +24,8 @@ BOUND = 0.005
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", nargs="?", default=os.path.join(ROOT, "build", "undine"))
-    parser.add_argument("--across", action="append", type=int)
-    parser.add_argument("--step", action="append")
-    parser.add_argument("--form", action="append", choices=("along paths", "flux"))
+    parser = convection_arguments.parser(__doc__)
     parser.add_argument("--reynolds", type=int, choices=(20, 100), default=20)
-    parser.add_argument("--check", action="store_true")
     return parser.parse_args()
 
 

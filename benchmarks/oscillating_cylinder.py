@@ -12,29 +12,19 @@ the largest force, and the momentum that the fluid does not get of what the cyli
 proportion to what is exchanged. --check: exit code 1 if fluxes lose more than a hundredth. One rank; a minute with 12
 cells across the cylinder, ten with 24.
 """
-import argparse
 import math
 import os
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [os.path.join(ROOT, "tests", "checks"), os.path.join(ROOT, "benchmarks")]
+import convection_arguments  # noqa: E402
 import time_integration  # noqa: E402
 
 SCENE = os.path.join(ROOT, "prm", "oscillating_cylinder.prm")
 DIAMETER, LENGTH, HEIGHT = 0.2, 2.0, 1.0  # [m]
 PARABOLA = [-2, 3, 6, 7, 6, 3, -2]  # of 21: the value in the middle of that fitted to seven points
 BOUND = 0.01
-
-
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", nargs="?", default=os.path.join(ROOT, "build", "undine"))
-    parser.add_argument("--across", action="append", type=int)
-    parser.add_argument("--step", action="append")
-    parser.add_argument("--form", action="append", choices=("along paths", "flux"))
-    parser.add_argument("--check", action="store_true")
-    return parser.parse_args()
 
 
 def run(program, across, step, form, moves):
@@ -77,7 +67,7 @@ def momentum_lost(columns):
 
 
 def main():
-    options = arguments()
+    options = convection_arguments.parser(__doc__).parse_args()
     failed = False
     print("| cells across | step [s] | form | largest force [N/m] | differs by | spikes | momentum lost | core seconds |")
     print("|---|---|---|---|---|---|---|---|")

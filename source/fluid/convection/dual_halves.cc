@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/convection/dual_halves.h>
+#include <undine/fluid/grid/face_place.h>
 #include <undine/fluid/grid/field_algebra.h>
 
 namespace undine
@@ -71,11 +72,10 @@ namespace undine
       {
         for (const unsigned int end : {0, 1})
           {
-            result[end][axis]   = Field<dim>(grid.faces(axis), topology);
-            auto       &field   = result[end][axis];
-            const auto *divided = field.divided();
+            result[end][axis] = Field<dim>(grid.faces(axis), topology);
+            auto &field       = result[end][axis];
             for_each(field.owned(), [&](const GridIndex<dim> &face) {
-              if (!divided || divided->kind(face) == SubLattice<dim>::Kind::whole)
+              if (is_whole(field.divided(), face))
                 field(face) = half_of_whole(grid, axis, face, end);
             });
           }

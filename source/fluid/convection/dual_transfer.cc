@@ -148,12 +148,12 @@ namespace undine
   }
 
 
-  /// What stays goes to `result`, the rest to `pots` of cells and their components, and what finds
-  /// none to `handed`, for the cells below and above.
+  /// What stays goes to `result`, the rest is the `excess` of cells and their components, and what
+  /// finds none is `passed_on` to the cells below and above.
   template <int dim>
   void
-  DualTransfer<dim>::collect(Field<dim>        &pots,
-                             Halves            &handed,
+  DualTransfer<dim>::collect(Field<dim>        &excess,
+                             Halves            &passed_on,
                              Halves            &result,
                              const unsigned int axis,
                              const Amounts     &amounts) const
@@ -171,7 +171,7 @@ namespace undine
               return;
             const int component = component_for(axis, cell, centre_before(axis, place, end));
             // The cell beyond the face.
-            (component != none ? value_at(pots, cell, component) : handed[1 - end](cell)) +=
+            (component != none ? value_at(excess, cell, component) : passed_on[1 - end](cell)) +=
               leaving;
           });
         }
@@ -187,22 +187,22 @@ namespace undine
   }
 
 
-  /// By the cells to which it was handed.
+  /// By the cells to which it was passed on.
   template <int dim>
   void
-  DualTransfer<dim>::take_over(Field<dim>        &pots,
-                               const Halves      &handed,
+  DualTransfer<dim>::take_over(Field<dim>        &excess,
+                               const Halves      &passed_on,
                                const unsigned int axis) const
   {
     for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
       for (const unsigned int to : {0, 1})
         {
           const auto from = moved<dim>(cell, axis, to == 0 ? 1 : -1);
-          if (!handed[to].stored().contains(from) || handed[to](from) == 0)
+          if (!passed_on[to].stored().contains(from) || passed_on[to](from) == 0)
             continue;
           const int component = component_for(axis, cell, grid.cells()->point(from));
           if (component != none)
-            value_at(pots, cell, component) += handed[to](from);
+            value_at(excess, cell, component) += passed_on[to](from);
         }
     });
   }
@@ -212,20 +212,20 @@ namespace undine
   template <int dim>
   void
   DualTransfer<dim>::distribute(Halves            &result,
-                                const Field<dim>  &pots,
+                                const Field<dim>  &excess,
                                 const unsigned int axis) const
   {
     for (const unsigned int end : {0, 1})
       for_each(grid.faces(axis)->owned(), [&](const GridIndex<dim> &face) {
         const auto cell = moved<dim>(face, axis, static_cast<int>(end) - 1);
-        if (!pots.stored().contains(cell))
+        if (!excess.stored().contains(cell))
           return;
         for_each_place(result[end].divided(), face, [&](const FacePlace<dim> &place) {
           const int    component = component_at(result[end], place, end);
-          const double pot       = value_at(pots, cell, component);
-          if (pot != 0)
+          const double surplus   = value_at(excess, cell, component);
+          if (surplus != 0)
             value_at(result[end], face, place.part) +=
-              pot * value_at(now[end][axis], place) / value_at(around[axis], cell, component);
+              surplus * value_at(now[end][axis], place) / value_at(around[axis], cell, component);
         });
       });
   }
@@ -238,7 +238,7 @@ namespace undine
     const std::function<Amount(const FacePlace<dim> &, const unsigned int)> &amount) const
   {
     Amounts amounts;
-    Halves  result, handed;
+    Halves  result, passed_on;
     for (const unsigned int end : {0, 1})
       {
         auto &staying = amounts.staying[end] =
@@ -253,16 +253,16 @@ namespace undine
         });
         staying.exchange(1);
         leaving.exchange(1);
-        result[end] = Field<dim>(grid.faces(axis), now[end][axis].topology());
-        handed[end] = Field<dim>(grid.cells());
+        result[end]    = Field<dim>(grid.faces(axis), now[end][axis].topology());
+        passed_on[end] = Field<dim>(grid.cells());
       }
-    Field<dim> pots(grid.cells(), now[0][axis].topology());
-    collect(pots, handed, result, axis, amounts);
-    for (auto &field : handed)
+    Field<dim> excess(grid.cells(), now[0][axis].topology());
+    collect(excess, passed_on, result, axis, amounts);
+    for (auto &field : passed_on)
       field.exchange(1);
-    take_over(pots, handed, axis);
-    pots.exchange(1);
-    distribute(result, pots, axis);
+    take_over(excess, passed_on, axis);
+    excess.exchange(1);
+    distribute(result, excess, axis);
     for (auto &half : result)
       half.exchange(1);
     return result;

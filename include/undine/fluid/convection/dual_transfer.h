@@ -62,15 +62,15 @@ namespace undine
     };
 
     void
-    collect(Field<dim>        &pots,
-            Halves            &handed,
+    collect(Field<dim>        &excess,
+            Halves            &passed_on,
             Halves            &result,
             const unsigned int axis,
             const Amounts     &amounts) const;
     void
-    take_over(Field<dim> &pots, const Halves &handed, const unsigned int axis) const;
+    take_over(Field<dim> &excess, const Halves &passed_on, const unsigned int axis) const;
     void
-    distribute(Halves &result, const Field<dim> &pots, const unsigned int axis) const;
+    distribute(Halves &result, const Field<dim> &excess, const unsigned int axis) const;
     FacePlace<dim>
     successor(const unsigned int axis, const FacePlace<dim> &place) const;
     int

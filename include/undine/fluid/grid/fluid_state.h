@@ -59,6 +59,7 @@ namespace undine
     double          time = 0; ///< over which they were taken [s]; 0: nothing has moved
   };
 
+  /// Are there fields for them?
   template <int dim>
   bool
   is_in_use(const DualVolumeRates<dim> &rates)

@@ -34,7 +34,7 @@ namespace undine
     bool
     is_whole(const GridIndex<dim> &face) const
     {
-      return divided.kind(face) == SubLattice<dim>::Kind::whole;
+      return undine::is_whole(&divided, face);
     }
 
     /// action(FacePlace) for what is open of a face.
@@ -42,10 +42,7 @@ namespace undine
     void
     for_each_place(const GridIndex<dim> &face, const Action &action) const
     {
-      if (is_whole(face))
-        action(FacePlace<dim>{face, -1});
-      else
-        for_each_part(divided, face, [&](const int part) { action(FacePlace<dim>{face, part}); });
+      undine::for_each_place(&divided, face, action);
     }
 
     /// Centroid [m].
