@@ -61,7 +61,7 @@ namespace undine
     {
       const auto timed = step.timing.section(this->name);
       momentum.solve(step, this->name, [&](Velocity<dim> &velocity) {
-        step.pressure_correction = pressure_correction(step.model, velocity, step.tracer.bodies());
+        step.pressure_correction = pressure_correction(step, velocity);
       });
     }
 
@@ -103,10 +103,10 @@ namespace undine
     /// -mu div w in every cell; in components of divided ones half of that, since there only less
     /// than 2/dim is sure to converge (Guermond, Minev & Shen 2006) [Pa]. Exchanges ghosts of w.
     Field<dim>
-    pressure_correction(const FluidModel<dim>                            &model,
-                        Velocity<dim>                                    &velocity,
-                        const typename CharacteristicTracer<dim>::Bodies &bodies) const
+    pressure_correction(const FluidStage<dim> &step, Velocity<dim> &velocity) const
     {
+      const auto      &model = step.model;
+      const auto      &walls = step.tracer.bodies().walls;
       constexpr double share = 0.5, least_fraction = 0.01;
       exchange(velocity);
       auto        correction = divergence(model, velocity);
@@ -115,9 +115,9 @@ namespace undine
         const bool is_whole = !divided || divided->kind(cell) == SubLattice<dim>::Kind::whole;
         correction(cell) *= is_whole ? -dynamic_viscosity / model.grid().cell_volume(cell) : 0.;
       });
-      if (bodies.walls)
-        for (const auto &patch : bodies.walls->patches)
-          correction.parts()[patch.component] += patch.area * bodies.wall_velocities[patch.node];
+      if (walls)
+        for (const auto &patch : walls->patches)
+          correction.parts()[patch.component] += patch.area * step.wall_velocities[patch.node];
       for (std::size_t c = 0; c < correction.parts().size(); ++c)
         {
           const auto  &component = divided->all()[c];

@@ -44,38 +44,63 @@ namespace undine
 
   template <int dim>
   void
-  ImplicitMomentum<dim>::solve_among_surfaces(FluidStage<dim> &step, const unsigned int axis)
+  ImplicitMomentum<dim>::solve_among_surfaces(FluidStage<dim> &step)
   {
-    const auto &bodies = step.tracer.bodies();
-    auto       &terms  = equation(step, axis);
-    step.linear_iterations += terms.step(step.state.velocity[axis],
-                                         bodies.wall_velocities,
-                                         step.end,
-                                         step.dt,
-                                         step.carrying ? &*step.carrying : nullptr);
+    const auto &bodies     = step.tracer.bodies();
+    const auto &velocities = step.impedance ? step.impedance->velocities() : bodies.wall_velocities;
+    typename FrictionWithBodies<dim>::Equations all;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        all[axis] = &equation(step, axis);
+        all[axis]->start(step.state.velocity[axis],
+                         velocities,
+                         step.end,
+                         step.dt,
+                         step.carrying ? &*step.carrying : nullptr);
+      }
+    step.wall_velocities = velocities;
+    if (step.impedance)
+      solve_with_bodies(step, all);
+    else
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          auto solution = all[axis]->guess();
+          step.linear_iterations += all[axis]->solve(solution);
+          all[axis]->finish(step.state.velocity[axis], solution);
+        }
     if (!bodies.walls || step.viscosity == 0)
       return;
-    if (!step.friction)
-      step.friction.emplace();
-    const auto copy = [&](auto &to, const auto &from) {
+    step.friction.emplace();
+    const auto copy = [&](const unsigned int axis, auto &to, const auto &from) {
       to.resize(from.size());
       for (std::size_t k = 0; k < from.size(); ++k)
         to[k][axis] = from[k];
     };
-    copy(step.friction->on_nodes, terms.forces().on_nodes);
-    copy(step.friction->on_boundaries, terms.forces().on_boundaries);
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        copy(axis, step.friction->on_nodes, all[axis]->forces().on_nodes);
+        copy(axis, step.friction->on_boundaries, all[axis]->forces().on_boundaries);
+      }
   }
 
 
   template <int dim>
   void
-  ImplicitMomentum<dim>::solve_axis(FluidStage<dim> &step, const unsigned int axis)
+  ImplicitMomentum<dim>::solve_with_bodies(FluidStage<dim>                                   &step,
+                                           const typename FrictionWithBodies<dim>::Equations &all)
   {
-    if (step.tracer.bodies().walls || step.carrying)
-      solve_among_surfaces(step, axis);
-    else
-      step.linear_iterations +=
-        diffusion(step, axis).step(step.state.velocity[axis], step.end, step.dt);
+    FrictionWithBodies<dim> problem(all, *step.impedance, step.dt);
+    step.linear_iterations += problem.solve();
+    const auto          change = problem.change_of_nodes();
+    std::vector<double> along(change.size());
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        for (std::size_t node = 0; node < change.size(); ++node)
+          along[node] = change[node][axis];
+        all[axis]->finish(step.state.velocity[axis], problem.velocity(axis), along);
+      }
+    for (std::size_t node = 0; node < change.size(); ++node)
+      step.wall_velocities[node] += change[node];
   }
 
 
@@ -94,8 +119,11 @@ namespace undine
       open_faces(step.model, step.tracer.velocity(), velocity.topology(), step.time));
     add(velocity, step.dt, gradient);
     set_boundary_velocity(velocity, step.model.boundaries(), step.end);
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      solve_axis(step, axis);
+    if (step.tracer.bodies().walls || step.carrying)
+      solve_among_surfaces(step);
+    else
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        step.linear_iterations += diffusion(step, axis).step(velocity[axis], step.end, step.dt);
     use_w(velocity);
     std::size_t memory = pressure.memory_consumption() + undine::memory_consumption(gradient);
     if (step.pressure_correction)

@@ -8,6 +8,7 @@
 #include <undine/fluid/convection/dual_fluxes.h>
 #include <undine/fluid/grid/fluid_state.h>
 #include <undine/fluid/model/fluid_model.h>
+#include <undine/fluid/viscosity/body_impedance.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -124,10 +125,14 @@ namespace undine
     std::optional<const DualFluxes<dim>> carrying;      ///< of the flux form of convection
     /// @}
 
+    /// Of bodies that give way to friction, before `diffuse`; nullptr: surfaces move as is given.
+    std::unique_ptr<BodyImpedance<dim>> impedance;
+
     /// Results of effects for finish(). @{
     std::optional<Velocity<dim>> advected;            ///< v' [m/s], by convection
     std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
     std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces
+    std::vector<dealii::Tensor<1, dim>> wall_velocities;            ///< for which that is [m/s]
     /// @}
 
     /// The contribution of forces of contact between bodies to the velocity at the end of the stage

@@ -3,7 +3,7 @@
 #define undine_fluid_implicit_momentum_h
 
 #include <undine/fluid/fluid_stage.h>
-#include <undine/fluid/viscosity/immersed_viscous_term.h>
+#include <undine/fluid/viscosity/friction_with_bodies.h>
 #include <undine/fluid/viscosity/implicit_diffusion.h>
 
 #include <array>
@@ -39,9 +39,10 @@ namespace undine
 
   private:
     void
-    solve_axis(FluidStage<dim> &step, unsigned int axis);
+    solve_among_surfaces(FluidStage<dim> &step);
     void
-    solve_among_surfaces(FluidStage<dim> &step, unsigned int axis);
+    solve_with_bodies(FluidStage<dim>                                   &step,
+                      const typename FrictionWithBodies<dim>::Equations &all);
     ImplicitDiffusion<dim> &
     diffusion(const FluidStage<dim> &step, unsigned int axis);
     ImmersedViscousTerm<dim> &

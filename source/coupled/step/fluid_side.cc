@@ -36,14 +36,14 @@ namespace undine
   /// The bodies with their no-slip surfaces, where there is friction.
   template <int dim>
   typename CharacteristicTracer<dim>::Bodies
-  FluidSide<dim>::no_slip_bodies(const State<dim> &state, const Stage &stage)
+  FluidSide<dim>::no_slip_bodies()
   {
     auto result = bodies();
     if (cut && models.has_friction())
       {
         const auto phase       = timing.section("cut cells");
         result.walls           = viscous_coupling.walls(*cut);
-        result.wall_velocities = viscous_coupling.start(state, *cut, stage.length);
+        result.wall_velocities = cut->surface_velocities();
       }
     return result;
   }
@@ -213,13 +213,8 @@ namespace undine
       throw SolveError("bodies and obstacles have filled the domain: there is no fluid left in it. "
                        "Try: a smaller step, or obstacles that leave some.");
     share_parts(state.fluid);
-    auto        fluid    = std::make_unique<FluidStage<dim>>(model,
-                                                   state.fluid,
-                                                   environment.gravity,
-                                                   state.clock.time,
-                                                   stage,
-                                                   timing,
-                                                   no_slip_bodies(state, stage));
+    auto fluid = std::make_unique<FluidStage<dim>>(
+      model, state.fluid, environment.gravity, state.clock.time, stage, timing, no_slip_bodies());
     const auto &velocity = state.fluid.velocity;
     if (begin)
       budget.go_on(*begin, velocity);
@@ -248,6 +243,8 @@ namespace undine
     const double forced = account ? kinetic_energy(model, velocity) : 0;
     {
       const auto phase = timing.section("diffuse");
+      if (cut)
+        fluid->impedance = viscous_coupling.impedance(state, *cut, environment, stage, timing);
       run_phase(
         *fluid, [&](const auto &effect) { effect.diffuse(*fluid); }, book(BudgetTerm::diffusion));
     }
@@ -361,7 +358,7 @@ namespace undine
       report.account->add_power(-kinetic_energy_outflow(model, state.fluid.velocity));
     fluid.finish();
     if (fluid.friction)
-      viscous_coupling.end(state, fluid);
+      viscous_coupling.end(fluid);
     if (cut)
       {
         report.warn(cut->cut_report().subject, cut->cut_report().message);

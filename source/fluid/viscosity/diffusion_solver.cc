@@ -107,6 +107,22 @@ namespace undine
   }
 
 
+  void
+  DiffusionSolver::precondition(Vector &x, const Vector &b) const
+  {
+    preconditioner->vmult(x, b);
+  }
+
+
+  void
+  DiffusionSolver::precondition_by_diagonal()
+  {
+    auto diagonal = std::make_unique<dealii::TrilinosWrappers::PreconditionJacobi>();
+    diagonal->initialize(matrix);
+    preconditioner = std::move(diagonal);
+  }
+
+
   std::size_t
   DiffusionSolver::memory_consumption() const
   {

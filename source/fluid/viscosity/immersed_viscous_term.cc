@@ -106,23 +106,19 @@ namespace undine
   }
 
 
-  /// Faces and pieces of rank 0 first; the nodes of bodies belong to the last rank.
+  /// Faces and pieces of rank 0 first.
   template <int dim>
   void
   ImmersedViscousTerm<dim>::number_unknowns()
   {
     namespace mpi           = dealii::Utilities::MPI;
     const auto communicator = model.grid().communicator();
-    const bool is_last =
-      mpi::this_mpi_process(communicator) + 1 == mpi::n_mpi_processes(communicator);
-    numbers      = Field<dim>(model.grid().faces(axis), open);
-    Number count = 0;
+    numbers                 = Field<dim>(model.grid().faces(axis), open);
+    Number count            = 0;
     for_each_value(numbers, [&](double &, const auto &, const auto &) { ++count; });
-    first_node           = mpi::sum(count, communicator);
-    const Number n_nodes = is_last ? no_slip_surfaces->masses.size() : 0;
-    mine                 = mpi::create_ascending_partitioning(communicator,
-                                              count + n_nodes)[mpi::this_mpi_process(communicator)];
-    Number next          = count > 0 ? mine.nth_index_in_set(0) : 0;
+    mine =
+      mpi::create_ascending_partitioning(communicator, count)[mpi::this_mpi_process(communicator)];
+    Number next = count > 0 ? mine.nth_index_in_set(0) : 0;
     for_each_value(numbers, [&](double &number, const auto &, const auto &) { number = next++; });
     numbers.exchange(1);
   }
@@ -157,15 +153,6 @@ namespace undine
   }
 
 
-  template <int dim>
-  bool
-  ImmersedViscousTerm<dim>::is_free(const unsigned int node) const
-  {
-    return node < no_slip_surfaces->masses.size() &&
-           std::isfinite(no_slip_surfaces->masses[node][axis]);
-  }
-
-
   /// The unknowns of a term and their coefficients.
   template <int dim>
   void
@@ -176,9 +163,6 @@ namespace undine
     for (const auto &[place, coefficient] : term.faces)
       if (!is_prescribed(place))
         free.emplace_back(number(place), coefficient);
-    for (const auto &[node, coefficient] : term.nodes)
-      if (is_free(node))
-        free.emplace_back(first_node + node, coefficient);
   }
 
 
@@ -222,11 +206,6 @@ namespace undine
     for_each_owned([&](const FacePlace<dim> &place) {
       friction.add(number(place), number(place), mass(place));
     });
-    for (unsigned int node = 0; node < no_slip_surfaces->masses.size(); ++node)
-      if (mine.is_element(first_node + node))
-        friction.add(first_node + node,
-                     first_node + node,
-                     is_free(node) ? no_slip_surfaces->masses[node][axis] : 1.);
     for_each_viscous_term([&](const ViscousTerm<dim> &term) {
       collect(free, term);
       columns.clear();
@@ -333,20 +312,28 @@ namespace undine
   }
 
 
+  /// sum c u over the nodes of a term.
+  template <int dim>
+  double
+  ImmersedViscousTerm<dim>::by_nodes(const ViscousTerm<dim> &term, const Motion &of_nodes)
+  {
+    double sum = 0;
+    for (const auto &[node, coefficient] : term.nodes)
+      sum += coefficient * of_nodes[node];
+    return sum;
+  }
+
+
   /// sum c v over what is not an unknown.
   template <int dim>
   double
-  ImmersedViscousTerm<dim>::given_part(const ViscousTerm<dim> &term,
-                                       const Field<dim>       &field,
-                                       const double            time) const
+  ImmersedViscousTerm<dim>::given_part(const ViscousTerm<dim> &term, const Field<dim> &field) const
   {
     double sum = 0;
     for (const auto &[place, coefficient] : term.faces)
       if (is_prescribed(place))
         sum += coefficient * value_at(field, place);
-    for (const auto &[node, coefficient] : term.nodes)
-      if (!is_free(node))
-        sum += coefficient * nodes[node];
+    sum += by_nodes(term, nodes);
     if (const auto &wall = term.wall; wall.boundary)
       sum -= wall.boundary->velocity_along(axis, wall.normal, wall.place, time);
     return sum;
@@ -355,66 +342,165 @@ namespace undine
 
   template <int dim>
   void
-  ImmersedViscousTerm<dim>::fill(Vector           &solution,
-                                 Vector           &load,
-                                 const Field<dim> &field,
-                                 const double      time) const
+  ImmersedViscousTerm<dim>::fill(const Field<dim> &field)
   {
+    first = Vector(mine, model.grid().communicator());
+    right_side.reinit(first);
     for_each_owned([&](const FacePlace<dim> &place) {
-      solution(number(place)) = value_at(field, place);
-      load(number(place))     = mass(place) * value_at(field, place);
+      first(number(place))      = value_at(field, place);
+      right_side(number(place)) = mass(place) * value_at(field, place);
     });
-    for (unsigned int node = 0; node < no_slip_surfaces->masses.size(); ++node)
-      if (const auto number = first_node + node; mine.is_element(number))
-        {
-          solution(number) = nodes[node];
-          load(number) =
-            (is_free(node) ? no_slip_surfaces->masses[node][axis] : 1.) * solution(number);
-        }
-    solution.compress(dealii::VectorOperation::insert);
-    load.compress(dealii::VectorOperation::insert);
+    first.compress(dealii::VectorOperation::insert);
+    right_side.compress(dealii::VectorOperation::insert);
+    by_given.assign(nodes.size(), 0.);
     std::vector<std::pair<Number, double>> free;
     for (const auto &term : given_terms)
-      if (const double given = given_part(term, field, time); given != 0)
+      if (const double given = given_part(term, field); given != 0)
         {
           collect(free, term);
           for (const auto &[row, coefficient] : free)
-            load(row) -= assembled_dt * term.weight * coefficient * given;
+            right_side(row) -= assembled_dt * term.weight * coefficient * given;
+          for (const auto &[node, coefficient] : term.nodes)
+            by_given[node] -= term.weight * coefficient * given;
         }
-    load.compress(dealii::VectorOperation::add);
+    right_side.compress(dealii::VectorOperation::add);
   }
 
 
-  /// As bodies would move by friction alone.
   template <int dim>
-  void
-  ImmersedViscousTerm<dim>::take_over_free_nodes(const Vector &solution)
+  typename ImmersedViscousTerm<dim>::Motion
+  ImmersedViscousTerm<dim>::given_friction() const
   {
-    std::vector<double> values(no_slip_surfaces->masses.size(), 0.);
-    for (unsigned int node = 0; node < values.size(); ++node)
-      if (mine.is_element(first_node + node))
-        values[node] = solution(first_node + node);
-    dealii::Utilities::MPI::sum(values, model.grid().communicator(), values);
-    std::copy(values.begin(), values.end(), nodes.begin());
+    Motion result(by_given.size());
+    dealii::Utilities::MPI::sum(by_given, model.grid().communicator(), result);
+    return result;
   }
 
 
   template <int dim>
   void
-  ImmersedViscousTerm<dim>::measure_forces(const Field<dim> &field, const double time)
+  ImmersedViscousTerm<dim>::start(Field<dim>                                &field,
+                                  const std::vector<dealii::Tensor<1, dim>> &node_velocities,
+                                  const double                               end_time,
+                                  const double                               dt,
+                                  const DualFluxes<dim>                     *fluxes)
+  {
+    time = end_time;
+    nodes.clear();
+    for (const auto &velocity : node_velocities)
+      nodes.push_back(velocity[axis]);
+    set_up(dt, fluxes);
+    field.exchange(1);
+    fill(field);
+    if (fluxes)
+      {
+        add_given_convection(right_side, *fluxes, field);
+        right_side.compress(dealii::VectorOperation::add);
+      }
+  }
+
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::set_values(Field<dim> &field, const Vector &values) const
+  {
+    for_each_owned([&](const FacePlace<dim> &place) {
+      const double value = values(number(place));
+      if (place.part < 0)
+        field(place.face) = value;
+      else
+        field.parts()[place.part] = value;
+    });
+    set_means(field, model.grid());
+    field.exchange(1);
+  }
+
+
+  template <int dim>
+  typename ImmersedViscousTerm<dim>::Motion
+  ImmersedViscousTerm<dim>::friction_by(const Vector &change, const Motion &of_nodes) const
+  {
+    Field<dim> field(model.grid().faces(axis), open);
+    set_values(field, change);
+    Motion on_nodes(of_nodes.size(), 0.);
+    for (const auto &term : given_terms)
+      {
+        double sum = by_nodes(term, of_nodes);
+        for (const auto &[place, coefficient] : term.faces)
+          if (!is_prescribed(place))
+            sum += coefficient * value_at(field, place);
+        for (const auto &[node, coefficient] : term.nodes)
+          on_nodes[node] -= term.weight * coefficient * sum;
+      }
+    dealii::Utilities::MPI::sum(on_nodes, model.grid().communicator(), on_nodes);
+    return on_nodes;
+  }
+
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::vmult(Vector       &result,
+                                  const Vector &change,
+                                  const Motion &of_nodes) const
+  {
+    solver.matrix.vmult(result, change);
+    std::vector<std::pair<Number, double>> free;
+    for (const auto &term : given_terms)
+      {
+        const double sum = by_nodes(term, of_nodes);
+        if (sum == 0)
+          continue;
+        collect(free, term);
+        for (const auto &[row, coefficient] : free)
+          result(row) += assembled_dt * term.weight * coefficient * sum;
+      }
+    result.compress(dealii::VectorOperation::add);
+  }
+
+
+  /// The Schur complement of the fluid with a diagonal in the place of its matrix, summed over the
+  /// nodes of each term: h w (1 - sum_f h w c_f^2 / A_ff) |c_k| sum_l |c_l|.
+  template <int dim>
+  typename ImmersedViscousTerm<dim>::Motion
+  ImmersedViscousTerm<dim>::damping() const
+  {
+    Field<dim> diagonal(model.grid().faces(axis), open);
+    Vector     values(first);
+    for (const auto row : mine)
+      values(row) = solver.matrix.diag_element(row);
+    values.compress(dealii::VectorOperation::insert);
+    set_values(diagonal, values);
+    Motion result(nodes.size(), 0.);
+    for (const auto &term : given_terms)
+      {
+        double left = 1, all = 0;
+        for (const auto &[place, coefficient] : term.faces)
+          if (!is_prescribed(place))
+            left -=
+              assembled_dt * term.weight * coefficient * coefficient / value_at(diagonal, place);
+        for (const auto &[node, coefficient] : term.nodes)
+          all += std::abs(coefficient);
+        for (const auto &[node, coefficient] : term.nodes)
+          result[node] += term.weight * std::max(0., left) * std::abs(coefficient) * all;
+      }
+    dealii::Utilities::MPI::sum(result, model.grid().communicator(), result);
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::measure_forces(const Field<dim> &field)
   {
     const auto communicator = model.grid().communicator();
     last_forces.on_nodes.assign(no_slip_surfaces->n_nodes, 0.);
     last_forces.on_boundaries.assign(model.boundaries().all().size(), 0.);
     for (const auto &term : given_terms)
       {
-        double sum = given_part(term, field, time);
+        double sum = given_part(term, field);
         for (const auto &[place, coefficient] : term.faces)
           if (!is_prescribed(place))
             sum += coefficient * value_at(field, place);
-        for (const auto &[node, coefficient] : term.nodes)
-          if (is_free(node))
-            sum += coefficient * nodes[node];
         const double force = -term.weight * sum;
         for (const auto &[node, coefficient] : term.nodes)
           last_forces.on_nodes[node] += force * coefficient;
@@ -435,37 +521,22 @@ namespace undine
 
   template <int dim>
   unsigned int
-  ImmersedViscousTerm<dim>::step(Field<dim>                                &field,
-                                 const std::vector<dealii::Tensor<1, dim>> &node_velocities,
-                                 const double                               time,
-                                 const double                               dt,
-                                 const DualFluxes<dim>                     *fluxes)
+  ImmersedViscousTerm<dim>::solve(Vector &solution) const
   {
-    nodes.clear();
-    for (const auto &velocity : node_velocities)
-      nodes.push_back(velocity[axis]);
-    set_up(dt, fluxes);
-    field.exchange(1);
-    Vector solution(mine, model.grid().communicator()), load(solution);
-    fill(solution, load, field, time);
-    if (fluxes)
-      {
-        add_given_convection(load, *fluxes, field);
-        load.compress(dealii::VectorOperation::add);
-      }
-    const unsigned int n_iterations = solver.solve(solution, load);
-    for_each_owned([&](const FacePlace<dim> &place) {
-      const double value = solution(number(place));
-      if (place.part < 0)
-        field(place.face) = value;
-      else
-        field.parts()[place.part] = value;
-    });
-    set_means(field, model.grid());
-    field.exchange(1);
-    take_over_free_nodes(solution);
-    measure_forces(field, time);
-    return n_iterations;
+    return solver.solve(solution, right_side);
+  }
+
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::finish(Field<dim>   &field,
+                                   const Vector &solution,
+                                   const Motion &change_of_nodes)
+  {
+    for (std::size_t node = 0; node < change_of_nodes.size(); ++node)
+      nodes[node] += change_of_nodes[node];
+    set_values(field, solution);
+    measure_forces(field);
   }
 
 

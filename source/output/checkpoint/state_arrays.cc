@@ -265,11 +265,7 @@ namespace undine
   {
     if (!models.surface || !models.fluid)
       return {};
-    std::vector<StateArray> arrays{
-      pack_replicated("surface/positions", models, state.surface_positions)};
-    if (models.solid && models.has_friction())
-      arrays.push_back(pack_replicated("surface/other forces", models, state.other_forces));
-    return arrays;
+    return {pack_replicated("surface/positions", models, state.surface_positions)};
   }
 
 
@@ -289,8 +285,6 @@ namespace undine
         vectors[k / dim][k % dim] = values[k];
     };
     unpack_replicated(state.surface_positions, arrays[0]);
-    if (arrays.size() > 1)
-      unpack_replicated(state.other_forces, arrays[1]);
     const auto topology = geometry_of(models, state)->cut_topology().open;
     for_each_field<dim>(state.fluid, [&](const std::string &, Field<dim> &field) {
       field = Field<dim>(field.shared_lattice(), topology);

@@ -2,7 +2,7 @@
 #ifndef undine_coupled_immersed_viscous_coupling_h
 #define undine_coupled_immersed_viscous_coupling_h
 
-#include <undine/coupled/immersed/fluid_geometry.h>
+#include <undine/coupled/immersed/linearised_bodies.h>
 #include <undine/coupled/state/state.h>
 #include <undine/fluid/fluid_stage.h>
 
@@ -12,14 +12,7 @@
 namespace undine
 {
   /// The coupling of surfaces in the fluid with its viscous forces, stage by stage: no-slip
-  /// surfaces, velocities of their nodes, and the forces that result.
-  ///
-  /// Friction is found before the bodies move, with nodes that give way to it by (I8)
-  ///
-  ///     m (u' - u^0) = h (F + G),   G = m (u^{n+1} - u^0)/h - F  of the last stage,
-  ///
-  /// m being that of node_masses(). G stands for all forces on a node other than friction: in a
-  /// steady state u' = u^0.
+  /// surfaces, how the bodies answer to friction (LinearisedBodies), and the forces that result.
   template <int dim>
   class ViscousCoupling
   {
@@ -33,14 +26,22 @@ namespace undine
     std::shared_ptr<const NoSlipSurfaces<dim>>
     walls(const FluidGeometry<dim> &geometry);
 
-    /// A stage of length `dt` [s] begins. Returns the velocities of all nodes, u^0 + h G / m [m/s];
-    /// where they are prescribed, those of `geometry`.
-    Vectors
-    start(const State<dim> &state, const FluidGeometry<dim> &geometry, double dt);
+    /// How the bodies answer in a stage that begins; nullptr if nothing of the fluid moves them, or
+    /// there are none. `state` holds the pressures for the grid as it is cut now. Collective.
+    /// Throws SolveError.
+    std::unique_ptr<BodyImpedance<dim>>
+    impedance(const State<dim>            &state,
+              const FluidGeometry<dim>    &geometry,
+              const SolidEnvironment<dim> &environment,
+              const Stage                 &stage,
+              TimingTree                  &timing);
 
-    /// The stage has ended: G for the next one. Collective.
+    /// The stage has ended.
     void
-    end(State<dim> &state, const FluidStage<dim> &fluid);
+    end(const FluidStage<dim> &fluid)
+    {
+      last_forces = fluid.friction->on_nodes;
+    }
 
     /// Friction of the last stage on all nodes [N]; empty without friction.
     const Vectors &
@@ -51,10 +52,9 @@ namespace undine
 
   private:
     const Models<dim>                         &models;
-    const Vectors                              masses;
+    typename SolidModel<dim>::Matrix           mass;
     std::shared_ptr<const FluidTopology<dim>>  cut_by;
     std::shared_ptr<const NoSlipSurfaces<dim>> known_surfaces; ///< of the grid that is cut so
-    Vectors                                    started;        ///< u^0 [m/s]
     Vectors                                    last_forces;
   };
 } // namespace undine

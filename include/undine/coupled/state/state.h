@@ -43,9 +43,6 @@ namespace undine
     /// Positions of the nodes of ImmersedSurface when the fluid's fields were computed [m].
     std::vector<dealii::Point<dim>> surface_positions;
 
-    /// Forces other than friction on the nodes of bodies in the last stage (ViscousCoupling) [N].
-    std::vector<dealii::Tensor<1, dim>> other_forces;
-
     /// Of the time that the state is at, for the budget of the next step, if it is kept.
     BudgetAmounts<dim> budget_rates;
 

@@ -104,7 +104,7 @@ namespace undine
     typename CharacteristicTracer<dim>::Bodies
     bodies() const;
     typename CharacteristicTracer<dim>::Bodies
-    no_slip_bodies(const State<dim> &state, const Stage &stage);
+    no_slip_bodies();
     double
     power_of_walls(const FluidStage<dim> &fluid, double gain) const;
     void

@@ -53,10 +53,6 @@ namespace undine
     std::vector<Patch>                      patches;  ///< of this rank's components, in their order
 
     unsigned int n_nodes = 0; ///< of the surfaces
-
-    /// Masses of the first nodes, those of bodies, along each axis (node_masses()) [kg]; infinite
-    /// where the velocity is prescribed, as that of the other nodes is.
-    std::vector<dealii::Tensor<1, dim>> masses;
   };
 
   /// The friction of a fluid on no-slip surfaces and boundaries, along one axis or all.

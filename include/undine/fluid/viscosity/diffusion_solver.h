@@ -36,6 +36,15 @@ namespace undine
     unsigned int
     solve(Vector &solution, const Vector &load) const;
 
+    /// About matrix^{-1} b, for solvers of more than this.
+    void
+    precondition(Vector &x, const Vector &b) const;
+
+    /// From now on, by the diagonal: incomplete factors fail where the flow crosses many cells in a
+    /// step.
+    void
+    precondition_by_diagonal();
+
     /// Memory of matrix and hierarchy on this rank [bytes].
     std::size_t
     memory_consumption() const;

@@ -11,17 +11,15 @@
 
 namespace undine
 {
-  /// One implicit Euler step of friction along one axis in a fluid with bodies in it (I5): the
-  /// minimum of
+  /// One implicit Euler step of friction, and of convection in flux form, along one axis in a fluid
+  /// with bodies in it (I5): without convection the minimum of
   ///
-  ///     sum_f rho V_f (v_f - v_f*)^2 / 2 + sum_k m_k (u_k - u_k*)^2 / 2 + h power(v, u) / 2
+  ///     sum_f rho V_f (v_f - v_f*)^2 / 2 + h power(v, u) / 2
   ///
-  /// over v, and over the velocities u of the nodes of bodies that have a mass; the power is that
-  /// of ViscousTerms. Symmetric and positive definite, for pieces of any size and any h. The sum
-  /// of rho V v and of h times all forces does not change, to the tolerance of the solver.
-  ///
-  /// Bodies get the force (I7). The velocities u are auxiliary and not used further: with them the
-  /// force stays moderate on bodies that are lighter than the fluid which they drag along.
+  /// over v, the power being that of ViscousTerms. Symmetric and positive definite, for pieces of
+  /// any size and any h. The velocities u of the nodes of surfaces are given, or change together
+  /// with v (FrictionWithBodies). The sum of rho V v and of h times all forces does not change, to
+  /// the tolerance of the solver.
   template <int dim>
   class ImmersedViscousTerm
   {
@@ -47,16 +45,74 @@ namespace undine
       return open;
     }
 
-    /// v* in `field`, whose ghosts it exchanges, becomes v at `time`; u* are the velocities of the
-    /// surfaces' nodes [m/s]. Returns the number of iterations. Throws SolveError. Collective.
-    unsigned int
-    step(Field<dim>                                &field,
-         const std::vector<dealii::Tensor<1, dim>> &node_velocities,
-         const double                               time,
-         const double                               dt,
-         const DualFluxes<dim>                     *fluxes = nullptr);
+    using Vector = DiffusionSolver::Vector;
 
-    /// The forces that step() found, the same on all ranks [N].
+    /// Of all nodes of surfaces along the axis: velocities [m/s], or forces [N].
+    using Motion = std::vector<double>;
+
+    /// Prepare the step of `dt` [s] to `time` [s] from v* in `field`, whose ghosts it exchanges;
+    /// the nodes have `node_velocities` [m/s]. Collective.
+    void
+    start(Field<dim>                                &field,
+          const std::vector<dealii::Tensor<1, dim>> &node_velocities,
+          const double                               time,
+          const double                               dt,
+          const DualFluxes<dim>                     *fluxes);
+
+    /// v*, a first v [m/s].
+    const Vector &
+    guess() const
+    {
+      return first;
+    }
+
+    /// v for nodes that keep their velocities, from what `solution` is. Returns the number of
+    /// iterations. Throws SolveError. Collective.
+    unsigned int
+    solve(Vector &solution) const;
+
+    /// The equations A v + h K u = load for nodes that change their velocities by u. @{
+    const Vector &
+    load() const
+    {
+      return right_side;
+    }
+
+    /// A v + h K u [kg m/s].
+    void
+    vmult(Vector &result, const Vector &v, const Motion &u) const;
+
+    /// The friction on all nodes by v, with zero on prescribed faces, and u alone [N].
+    Motion
+    friction_by(const Vector &v, const Motion &u) const;
+
+    /// The friction on all nodes by what is given, the velocities of start() among it [N].
+    Motion
+    given_friction() const;
+
+    /// About A^{-1}; by its diagonal from now on. @{
+    void
+    precondition(Vector &v, const Vector &b) const
+    {
+      solver.precondition(v, b);
+    }
+    void
+    precondition_by_diagonal()
+    {
+      solver.precondition_by_diagonal();
+    }
+    /// @}
+
+    /// An estimate of the resistance of the fluid to the motion of each node [kg/s].
+    Motion
+    damping() const;
+    /// @}
+
+    /// v becomes `solution`, and the velocities of nodes change; finds the forces. Collective.
+    void
+    finish(Field<dim> &field, const Vector &solution, const Motion &change_of_nodes = {});
+
+    /// The forces that finish() found, the same on all ranks [N].
     const FrictionForces<double> &
     forces() const
     {
@@ -68,7 +124,6 @@ namespace undine
     memory_consumption() const;
 
   private:
-    using Vector = DiffusionSolver::Vector;
     using Number = dealii::types::global_dof_index;
 
     void
@@ -98,18 +153,18 @@ namespace undine
     mass(const FacePlace<dim> &place) const;
     bool
     is_prescribed(const FacePlace<dim> &place) const;
-    bool
-    is_free(const unsigned int node) const;
     void
     collect(std::vector<std::pair<Number, double>> &free, const ViscousTerm<dim> &term) const;
+    static double
+    by_nodes(const ViscousTerm<dim> &term, const Motion &of_nodes);
     double
-    given_part(const ViscousTerm<dim> &term, const Field<dim> &field, const double time) const;
+    given_part(const ViscousTerm<dim> &term, const Field<dim> &field) const;
     void
-    fill(Vector &solution, Vector &load, const Field<dim> &field, const double time) const;
+    fill(const Field<dim> &field);
     void
-    take_over_free_nodes(const Vector &solution);
+    set_values(Field<dim> &field, const Vector &values) const;
     void
-    measure_forces(const Field<dim> &field, const double time);
+    measure_forces(const Field<dim> &field);
 
     template <class Action>
     void
@@ -126,13 +181,16 @@ namespace undine
     const double                                     viscosity; ///< mu [Pa s]
     Field<dim>                                       numbers;   ///< exact up to 2^53
     dealii::IndexSet                                 mine;
-    Number                                           first_node   = 0;
     double                                           assembled_dt = 0; ///< [s]
+    double                                           time         = 0; ///< [s]
     DiffusionSolver                                  solver;
     Vector                                           shrinkage; ///< if surfaces move [kg]
     dealii::TrilinosWrappers::SparseMatrix           friction;  ///< of mass and friction
     std::vector<ViscousTerm<dim>> given_terms; ///< in which something is not an unknown face
-    std::vector<double>           nodes;       ///< their velocities along the axis [m/s]
+    Motion                        nodes;       ///< their velocities [m/s]
+    Vector                        first;
+    Vector                        right_side;
+    Motion                        by_given; ///< this rank's part of given_friction() [N]
     FrictionForces<double>        last_forces;
   };
 } // namespace undine

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_fluid_viscosity_friction_with_bodies_h
+#define undine_fluid_viscosity_friction_with_bodies_h
+
+#include <undine/fluid/viscosity/body_impedance.h>
+#include <undine/fluid/viscosity/immersed_viscous_term.h>
+
+#include <deal.II/lac/trilinos_parallel_block_vector.h>
+
+#include <array>
+
+namespace undine
+{
+  /// Friction and the bodies that it moves, solved together: the equations of ImmersedViscousTerm
+  /// along all axes i and (I8),
+  ///
+  ///     A_i v_i + h K_i P du           = load_i    [kg m/s]
+  ///     h Z du - h P^T F(v, u0 + P du) = h load    [kg m/s]
+  ///
+  /// by flexible GMRES, preconditioned by the block triangle of the A_i and of Z with the damping
+  /// that stands for the Schur complement.
+  template <int dim>
+  class FrictionWithBodies
+  {
+  public:
+    using Equations = std::array<ImmersedViscousTerm<dim> *, dim>;
+    using Vector    = DiffusionSolver::Vector;
+
+    /// `equations`, started with bodies.velocities(), for a step of `dt` [s]. Both must outlive it.
+    /// Collective. Throws SolveError.
+    FrictionWithBodies(const Equations &equations, BodyImpedance<dim> &bodies, const double dt);
+
+    /// Returns the number of iterations. Throws SolveError. Collective.
+    unsigned int
+    solve();
+
+    /// The velocity of the fluid along an axis after solve() [m/s].
+    const Vector &
+    velocity(const unsigned int axis) const
+    {
+      return x.block(axis);
+    }
+
+    /// The change P du of the velocities of all nodes after solve() [m/s].
+    std::vector<dealii::Tensor<1, dim>>
+    change_of_nodes() const
+    {
+      return bodies.on_surfaces(x.block(dim));
+    }
+
+  private:
+    using BlockVector = dealii::TrilinosWrappers::MPI::BlockVector;
+    using Vectors     = std::vector<dealii::Tensor<1, dim>>;
+
+    void
+    vmult(BlockVector &result, const BlockVector &x) const;
+    void
+    precondition(BlockVector &result, const BlockVector &b) const;
+    Vectors
+    friction_by(const BlockVector &x, const Vectors &change) const;
+    BlockVector
+    load() const;
+    unsigned int
+    iterate(const BlockVector &right_side, unsigned int most_iterations);
+
+    const Equations     equations;
+    BodyImpedance<dim> &bodies;
+    const double        dt; ///< [s]
+    BlockVector         x;
+  };
+} // namespace undine
+
+#endif

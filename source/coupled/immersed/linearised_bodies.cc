@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/immersed/linearised_bodies.h>
+#include <undine/coupled/step/solid_side.h>
+#include <undine/solid/assembly/prescribed_motion.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// Pressures, and what other_forces() are [N].
+    template <int dim>
+    typename SolidModel<dim>::Vector
+    loads(const Models<dim>            &models,
+          const FluidGeometry<dim>     &geometry,
+          const State<dim>             &state,
+          const dealii::Tensor<1, dim> &gravity,
+          const double                  time)
+    {
+      auto result = models.solid->vector();
+      models.surface->add_to_bodies(result, geometry.pressure_forces(state.fluid.pressure));
+      models.surface->add_to_bodies(result, geometry.other_forces(gravity, time));
+      return result;
+    }
+  } // namespace
+
+
+  template <int dim>
+  LinearisedBodies<dim>::LinearisedBodies(const Models<dim>            &models,
+                                          const Matrix                 &mass,
+                                          const SolidEnvironment<dim>  &environment,
+                                          const FluidGeometry<dim>     &geometry,
+                                          const State<dim>             &state,
+                                          const dealii::Tensor<1, dim> &gravity,
+                                          const Stage                  &stage,
+                                          TimingTree                   &timing)
+    : models(models)
+    , equations(*models.solid,
+                mass,
+                state.solid,
+                environment,
+                state.clock.time + stage.start(),
+                stage.length,
+                timing,
+                loads(models, geometry, state, gravity, state.clock.time + stage.end),
+                state.contact,
+                begin_of(state, stage))
+    , of_surfaces(geometry.surface_velocities())
+    , preconditioner(*models.solid)
+  {
+    // Bodies that rest are not deformed by a guess; supports that move would take nodes beside
+    // others that rest through them.
+    linearise(
+      equations.kept_apart(equations.has_motion() ? equations.guess() : equations.guess_at_rest()));
+  }
+
+
+  template <int dim>
+  void
+  LinearisedBodies<dim>::linearise(const Vector &velocity)
+  {
+    all_but_friction = equations.residual(velocity);
+    all_but_friction *= -1.;
+    tangent.copy_from(equations.jacobian(velocity));
+    displacement = equations.displacement(velocity);
+    of_surfaces  = models.surface->with_bodies(velocity, of_surfaces);
+  }
+
+
+  template <int dim>
+  typename LinearisedBodies<dim>::Vector
+  LinearisedBodies<dim>::vector() const
+  {
+    return models.solid->vector();
+  }
+
+
+  template <int dim>
+  typename LinearisedBodies<dim>::Vectors
+  LinearisedBodies<dim>::on_surfaces(const Vector &change) const
+  {
+    return models.surface->with_bodies(change, Vectors(of_surfaces.size()));
+  }
+
+
+  template <int dim>
+  typename LinearisedBodies<dim>::Vector
+  LinearisedBodies<dim>::on_bodies(const Vectors &forces) const
+  {
+    auto result = models.solid->vector();
+    models.surface->add_to_bodies(result, forces);
+    clear_fixed(result, *models.solid);
+    return result;
+  }
+
+
+  template <int dim>
+  typename LinearisedBodies<dim>::Vector
+  LinearisedBodies<dim>::force(const Vector &change) const
+  {
+    auto result = models.solid->vector();
+    tangent.vmult(result, change);
+    return result;
+  }
+
+
+  /// The damping of nodes as that of the degrees of freedom that they hang on.
+  template <int dim>
+  void
+  LinearisedBodies<dim>::prepare(const Vectors &damping)
+  {
+    const auto diagonal = on_bodies(damping);
+    Matrix     damped;
+    damped.copy_from(tangent);
+    for (const auto dof : diagonal.locally_owned_elements())
+      damped.add(dof, dof, diagonal(dof));
+    damped.compress(dealii::VectorOperation::add);
+    preconditioner.initialize(damped, displacement);
+  }
+
+
+  template <int dim>
+  typename LinearisedBodies<dim>::Vector
+  LinearisedBodies<dim>::approximate_change(const Vector &force) const
+  {
+    auto result = models.solid->vector();
+    preconditioner.vmult(result, force);
+    return result;
+  }
+
+
+  template class LinearisedBodies<2>;
+  template class LinearisedBodies<3>;
+} // namespace undine

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/fluid/viscosity/friction_with_bodies.h>
+
+#include <deal.II/lac/solver_gmres.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace undine
+{
+  namespace
+  {
+    /// One component of a vector in each node.
+    template <int dim>
+    std::vector<double>
+    along(const std::vector<dealii::Tensor<1, dim>> &vectors, const unsigned int axis)
+    {
+      std::vector<double> result;
+      result.reserve(vectors.size());
+      for (const auto &vector : vectors)
+        result.push_back(vector[axis]);
+      return result;
+    }
+
+
+    template <int dim>
+    void
+    set_along(std::vector<dealii::Tensor<1, dim>> &vectors,
+              const unsigned int                   axis,
+              const std::vector<double>           &values)
+    {
+      for (std::size_t node = 0; node < vectors.size(); ++node)
+        vectors[node][axis] = values[node];
+    }
+
+
+    /// What solvers of deal.II call a matrix.
+    template <class Action>
+    struct Operator
+    {
+      template <class BlockVector>
+      void
+      vmult(BlockVector &result, const BlockVector &x) const
+      {
+        action(result, x);
+      }
+
+      Action action;
+    };
+    template <class Action>
+    Operator(Action) -> Operator<Action>;
+  } // namespace
+
+
+  template <int dim>
+  FrictionWithBodies<dim>::FrictionWithBodies(const Equations    &equations,
+                                              BodyImpedance<dim> &bodies,
+                                              const double        dt)
+    : equations(equations)
+    , bodies(bodies)
+    , dt(dt)
+  {
+    Vectors damping(bodies.velocities().size());
+    x.reinit(dim + 1);
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        x.block(axis) = equations[axis]->guess();
+        set_along(damping, axis, equations[axis]->damping());
+      }
+    x.block(dim) = bodies.vector();
+    x.collect_sizes();
+    bodies.prepare(damping);
+  }
+
+
+  template <int dim>
+  typename FrictionWithBodies<dim>::Vectors
+  FrictionWithBodies<dim>::friction_by(const BlockVector &of, const Vectors &change) const
+  {
+    Vectors result(change.size());
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      set_along(result, axis, equations[axis]->friction_by(of.block(axis), along(change, axis)));
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  FrictionWithBodies<dim>::vmult(BlockVector &result, const BlockVector &of) const
+  {
+    const auto change = bodies.on_surfaces(of.block(dim));
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      equations[axis]->vmult(result.block(axis), of.block(axis), along(change, axis));
+    result.block(dim) = bodies.force(of.block(dim));
+    result.block(dim).add(-1., bodies.on_bodies(friction_by(of, change)));
+    result.block(dim) *= dt;
+  }
+
+
+  /// First the fluid around surfaces that do not give way, then the bodies.
+  template <int dim>
+  void
+  FrictionWithBodies<dim>::precondition(BlockVector &result, const BlockVector &b) const
+  {
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      equations[axis]->precondition(result.block(axis), b.block(axis));
+    auto force = b.block(dim);
+    force *= 1 / dt;
+    force.add(1., bodies.on_bodies(friction_by(result, Vectors(bodies.velocities().size()))));
+    result.block(dim) = bodies.approximate_change(force);
+  }
+
+
+  /// Friction on the bodies by what is given: prescribed faces, sides, and the velocities u0.
+  template <int dim>
+  typename FrictionWithBodies<dim>::BlockVector
+  FrictionWithBodies<dim>::load() const
+  {
+    BlockVector result(x);
+    Vectors     given(bodies.velocities().size());
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        result.block(axis) = equations[axis]->load();
+        set_along(given, axis, equations[axis]->given_friction());
+      }
+    result.block(dim) = bodies.load();
+    result.block(dim).add(1., bodies.on_bodies(given));
+    result.block(dim) *= dt;
+    return result;
+  }
+
+
+  template <int dim>
+  unsigned int
+  FrictionWithBodies<dim>::iterate(const BlockVector &right_side,
+                                   const unsigned int most_iterations)
+  {
+    using Gmres = dealii::SolverFGMRES<BlockVector>;
+    // Tight, so that rank counts agree; a load of zero has the solution zero.
+    dealii::SolverControl control(most_iterations, std::max(1e-12 * right_side.l2_norm(), 1e-300));
+    Gmres(control, typename Gmres::AdditionalData(100))
+      .solve(Operator{[&](BlockVector &result, const BlockVector &of) { vmult(result, of); }},
+             x,
+             right_side,
+             Operator{[&](BlockVector &result, const BlockVector &b) { precondition(result, b); }});
+    return control.last_step();
+  }
+
+
+  template <int dim>
+  unsigned int
+  FrictionWithBodies<dim>::solve()
+  {
+    constexpr unsigned int first = 200, most = 1000;
+    const auto             right_side = load();
+    const BlockVector      guess      = x;
+    try
+      {
+        return iterate(right_side, first);
+      }
+    catch (const dealii::SolverControl::NoConvergence &)
+      {
+        x = guess;
+      }
+    try
+      {
+        for (auto *equation : equations)
+          equation->precondition_by_diagonal();
+        return first + iterate(right_side, most);
+      }
+    catch (const dealii::SolverControl::NoConvergence &failure)
+      {
+        throw SolveError(fmt::format("The fluid's implicit terms and the bodies did not converge "
+                                     "in {} iterations. Try a smaller step.",
+                                     failure.last_step));
+      }
+  }
+
+
+  template class FrictionWithBodies<2>;
+  template class FrictionWithBodies<3>;
+} // namespace undine
