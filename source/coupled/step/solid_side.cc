@@ -7,14 +7,6 @@
 namespace undine
 {
   template <int dim>
-  StageBegin
-  begin_of(const State<dim> &state, const Stage &stage)
-  {
-    return {state.stage_begin.displacement, stage.duration()};
-  }
-
-
-  template <int dim>
   SolidSide<dim>::SolidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
     : model(*models.solid)
     , budget(budget)
@@ -202,10 +194,6 @@ namespace undine
   }
 
 
-  template StageBegin
-  begin_of(const State<2> &, const Stage &);
-  template StageBegin
-  begin_of(const State<3> &, const Stage &);
   template class SolidSide<2>;
   template class SolidSide<3>;
 } // namespace undine

@@ -2,19 +2,14 @@
 #ifndef undine_coupled_step_solid_side_h
 #define undine_coupled_step_solid_side_h
 
-#include <undine/base/core/stage.h>
 #include <undine/coupled/budget/budget.h>
+#include <undine/coupled/state/begin_of.h>
 #include <undine/coupled/state/report.h>
 #include <undine/coupled/state/state.h>
 #include <undine/solid/step/solid_stepper.h>
 
 namespace undine
 {
-  /// Where the bodies were at the begin of the stage; empty if it keeps no rates.
-  template <int dim>
-  StageBegin
-  begin_of(const State<dim> &state, const Stage &stage);
-
   /// The part of a stage that the bodies go through in every scheme: all but the loads of the fluid
   /// on them. The counterpart of FluidSide.
   template <int dim>

@@ -104,68 +104,6 @@ namespace
   }
 
 
-  /// A free sheet in a cavity of side 1 with n^2 cells whose lid begins to move with .1 m/s.
-  struct SheetInCavity
-  {
-    std::string  integrator;
-    double       density; ///< that of the fluid is 1000 kg/m^3
-    double       step;    ///< [s]
-    unsigned int n = 24;
-  };
-
-
-  CoupledRun<2>
-  start(const SheetInCavity &sheet)
-  {
-    return CoupledRun<2>(
-      section("Time",
-              fmt::format("set Step = {}\nset Integrator = {}", sheet.step, sheet.integrator)) +
-      section("Output", "set Budget = true") +
-      section("Domain", fmt::format("set Cells = {}, {}", sheet.n, sheet.n)) +
-      section("Fluid",
-              "set Density = 1000\n" +
-                section("Boundaries",
-                        boundary("lid", "top", "moving wall", "set Velocity = .1; 0") +
-                          boundary("walls", "left, right, bottom", "no-slip wall"))) +
-      section("Bodies",
-              body("sheet",
-                   fmt::format("set Lower corner = .3, .52\nset Upper corner = .7, .55\nset "
-                               "Cells = 12, 1\nset Density = {}\nset Young's modulus = "
-                               "1e4\nset Poisson's ratio = .3",
-                               sheet.density))) +
-      section("Effects", convection() + viscosity(10)));
-  }
-
-
-  /// How far the sheet has moved along x after .2 s [m].
-  double
-  drift(const SheetInCavity &sheet)
-  {
-    auto         run   = start(sheet);
-    const double begin = run.column("centre of mass sheet x");
-    while (run.state.clock.time < .2 - 1e-9)
-      {
-        run.step();
-        CHECK(run.column("energy closure") <= 1e-9);
-        CHECK(run.column("momentum closure") <= 1e-9);
-      }
-    return run.column("centre of mass sheet x") - begin;
-  }
-
-
-  /// The same for cells without width, the error being of second order in it.
-  double
-  extrapolated_drift(SheetInCavity sheet, const unsigned int coarse, const unsigned int fine)
-  {
-    sheet.n                = coarse;
-    const double on_coarse = drift(sheet);
-    sheet.n                = fine;
-    const double on_fine   = drift(sheet);
-    const double ratio     = std::pow(double(fine) / coarse, 2);
-    return (ratio * on_fine - on_coarse) / (ratio - 1);
-  }
-
-
   double
   order(const double coarse, const double fine)
   {
@@ -260,32 +198,4 @@ TEST_CASE("Friction is bounded at any viscosity", "[friction]")
   CHECK(fastest(1e-1) <= 1.001);
   CHECK(fastest(1e6) >= .9);
   CHECK(fastest(1e6) <= 1.001);
-}
-
-
-TEST_CASE("Friction drags sheets along with the fluid, also light ones", "[friction]")
-{
-  // Against the lid, with what flows back below it. Extrapolated from up to 96^2 cells and from
-  // steps down to .001 s: both within 1 %. A light sheet follows the fluid sooner, and shorter
-  // steps are needed to resolve how it starts.
-  for (const char *integrator : {"theta", "trapezoid_bdf2"})
-    CHECK(extrapolated_drift({integrator, 1000, .01}, 24, 48) == Approx(-6.13e-4).epsilon(.02));
-  CHECK(extrapolated_drift({"trapezoid_bdf2", 10, .0025}, 24, 36) == Approx(-7.89e-4).epsilon(.03));
-}
-
-
-TEST_CASE("Friction does not shake sheets, not even light ones in long steps", "[friction]")
-{
-  for (const char *integrator : {"theta", "trapezoid_bdf2"})
-    {
-      INFO(integrator);
-      auto run = start({integrator, 10, .01});
-      for (unsigned int n = 0; n < 20; ++n)
-        {
-          run.step();
-          CHECK(run.column("max speed sheet") <= .025); // a quarter of the lid's
-          CHECK(run.column("energy closure") <= 1e-9);
-          CHECK(run.column("momentum closure") <= 1e-9);
-        }
-    }
 }
