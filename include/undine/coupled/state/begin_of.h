@@ -4,6 +4,7 @@
 
 #include <undine/base/core/stage.h>
 #include <undine/coupled/state/state.h>
+#include <undine/solid/step/stage_begin.h>
 
 namespace undine
 {
