@@ -28,6 +28,10 @@ def settings(scene):
         extra = ["--set", "Particles/Precision=double"]
     elif "subsection Obstacles" in text and "subsection Bodies" not in text:
         extra = ["--set", "Fluid/Pressure solver/Divergence tolerance=1e-11"]
+    if os.path.basename(scene) == "turek_hron_fsi1.prm":
+        # Its flag begins with its sides in planes of the grid, between cells that open by a
+        # ten-thousandth of their width: what rounding makes of these shows in the seventh digit.
+        extra = ["--set", "Domain/Cells=193, 109"]
     return ["--set", "Time/Maximum steps=2"] + extra
 
 
