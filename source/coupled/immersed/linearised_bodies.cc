@@ -2,67 +2,39 @@
 #include <undine/coupled/immersed/linearised_bodies.h>
 #include <undine/coupled/state/begin_of.h>
 #include <undine/solid/assembly/prescribed_motion.h>
+#include <undine/solid/step/initial_guesses.h>
 
 namespace undine
 {
-  namespace
-  {
-    /// Pressures, and what other_forces() are [N].
-    template <int dim>
-    typename SolidModel<dim>::Vector
-    loads(const Models<dim>            &models,
-          const FluidGeometry<dim>     &geometry,
-          const State<dim>             &state,
-          const dealii::Tensor<1, dim> &gravity,
-          const double                  time)
-    {
-      auto result = models.solid->vector();
-      models.surface->add_to_bodies(result, geometry.pressure_forces(state.fluid.pressure));
-      models.surface->add_to_bodies(result, geometry.other_forces(gravity, time));
-      return result;
-    }
-  } // namespace
-
-
   template <int dim>
-  LinearisedBodies<dim>::LinearisedBodies(const Models<dim>            &models,
-                                          const Matrix                 &mass,
-                                          const SolidEnvironment<dim>  &environment,
-                                          const FluidGeometry<dim>     &geometry,
-                                          const State<dim>             &state,
-                                          const dealii::Tensor<1, dim> &gravity,
-                                          const Stage                  &stage,
-                                          TimingTree                   &timing)
+  LinearisedBodies<dim>::LinearisedBodies(const Models<dim>           &models,
+                                          const Matrix                &mass,
+                                          const SolidEnvironment<dim> &environment,
+                                          const FluidGeometry<dim>    &geometry,
+                                          const State<dim>            &state,
+                                          const Stage                 &stage,
+                                          TimingTree                  &timing,
+                                          Solvers                     &solvers)
     : models(models)
-    , equations(*models.solid,
-                mass,
-                state.solid,
-                environment,
-                state.clock.time + stage.start(),
-                stage.length,
-                timing,
-                loads(models, geometry, state, gravity, state.clock.time + stage.end),
-                state.contact,
-                begin_of(state, stage))
-    , of_surfaces(geometry.surface_velocities())
-    , preconditioner(*models.solid)
+    , preconditioner(solvers.preconditioner)
   {
-    // Bodies that rest are not deformed by a guess; supports that move would take nodes beside
-    // others that rest through them.
-    linearise(
-      equations.kept_apart(equations.has_motion() ? equations.guess() : equations.guess_at_rest()));
-  }
-
-
-  template <int dim>
-  void
-  LinearisedBodies<dim>::linearise(const Vector &velocity)
-  {
-    all_but_friction = equations.residual(velocity);
+    SolidEquations<dim> equations(*models.solid,
+                                  mass,
+                                  state.solid,
+                                  environment,
+                                  state.clock.time + stage.start(),
+                                  stage.length,
+                                  timing,
+                                  state.solid.fluid_loads,
+                                  state.contact,
+                                  begin_of(state, stage));
+    solvers.motion.begin_stage(equations.symmetry());
+    const auto velocity = equations.kept_apart(resting_guess(equations, solvers.motion, timing));
+    all_but_friction    = equations.residual(velocity);
     all_but_friction *= -1.;
     tangent.copy_from(equations.jacobian(velocity));
     displacement = equations.displacement(velocity);
-    of_surfaces  = models.surface->with_bodies(velocity, of_surfaces);
+    of_surfaces  = models.surface->with_bodies(velocity, geometry.surface_velocities());
   }
 
 

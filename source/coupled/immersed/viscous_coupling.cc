@@ -21,8 +21,10 @@ namespace undine
     : models(models)
     , last_forces(has_no_slip_surfaces(models) ? models.surface->surface().n_nodes() : 0)
   {
-    if (has_no_slip_surfaces(models) && models.solid)
-      mass.copy_from(mass_matrix(*models.solid));
+    if (!moves_bodies())
+      return;
+    mass.copy_from(mass_matrix(*models.solid));
+    solvers.emplace(*models.solid);
   }
 
 
@@ -44,6 +46,30 @@ namespace undine
 
 
   template <int dim>
+  bool
+  ViscousCoupling<dim>::moves_bodies() const
+  {
+    return models.solid && has_no_slip_surfaces(models) && models.direction == Direction::two_way;
+  }
+
+
+  template <int dim>
+  void
+  ViscousCoupling<dim>::keep_loads(State<dim>                   &state,
+                                   const FluidGeometry<dim>     &geometry,
+                                   const dealii::Tensor<1, dim> &gravity,
+                                   const double                  time) const
+  {
+    if (!moves_bodies())
+      return;
+    auto &loads = state.solid.fluid_loads;
+    loads       = models.solid->vector();
+    models.surface->add_to_bodies(loads, geometry.pressure_forces(state.fluid.pressure));
+    models.surface->add_to_bodies(loads, geometry.other_forces(gravity, time));
+  }
+
+
+  template <int dim>
   std::unique_ptr<BodyImpedance<dim>>
   ViscousCoupling<dim>::impedance(const State<dim>            &state,
                                   const FluidGeometry<dim>    &geometry,
@@ -51,10 +77,10 @@ namespace undine
                                   const Stage                 &stage,
                                   TimingTree                  &timing)
   {
-    if (!models.solid || !has_no_slip_surfaces(models) || models.direction != Direction::two_way)
+    if (!moves_bodies())
       return nullptr;
     return std::make_unique<LinearisedBodies<dim>>(
-      models, mass, environment, geometry, state, environment.gravity, stage, timing);
+      models, mass, environment, geometry, state, stage, timing, *solvers);
   }
 
 

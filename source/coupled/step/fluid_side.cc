@@ -170,6 +170,8 @@ namespace undine
         report.warn(cut->cut_report().subject, cut->cut_report().message);
         state.surface_positions = models.surface->positions(state.solid, time);
       }
+    if (cut)
+      viscous_coupling.keep_loads(state, *cut, environment.gravity, time);
     add_columns(report, state.fluid, projected.divergence, time);
     count_memory(state.fluid);
   }
@@ -247,6 +249,7 @@ namespace undine
         fluid->impedance = viscous_coupling.impedance(state, *cut, environment, stage, timing);
       run_phase(
         *fluid, [&](const auto &effect) { effect.diffuse(*fluid); }, book(BudgetTerm::diffusion));
+      fluid->impedance.reset();
     }
     if (account)
       {
@@ -267,7 +270,7 @@ namespace undine
     double power = gain / fluid.dt;
     if (fluid.friction && cut)
       for (unsigned int node = 0; node < models.surface->n_body_nodes(); ++node)
-        power += fluid.friction->on_nodes[node] * cut->surface_velocities()[node];
+        power += fluid.friction->on_nodes[node] * fluid.wall_velocities[node];
     return std::max(0., power);
   }
 
@@ -358,7 +361,10 @@ namespace undine
       report.account->add_power(-kinetic_energy_outflow(model, state.fluid.velocity));
     fluid.finish();
     if (fluid.friction)
-      viscous_coupling.end(fluid);
+      {
+        viscous_coupling.end(fluid);
+        viscous_coupling.keep_loads(state, *cut, environment.gravity, fluid.end);
+      }
     if (cut)
       {
         report.warn(cut->cut_report().subject, cut->cut_report().message);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace undine
 {
@@ -105,7 +106,11 @@ namespace undine
   FrictionWithBodies<dim>::precondition(BlockVector &result, const BlockVector &b) const
   {
     for (unsigned int axis = 0; axis < dim; ++axis)
-      equations[axis]->precondition(result.block(axis), b.block(axis));
+      {
+        equations[axis]->precondition(result.block(axis), b.block(axis));
+        if (!std::isfinite(result.block(axis).l2_norm()))
+          throw dealii::SolverControl::NoConvergence(0, result.block(axis).l2_norm());
+      }
     auto force = b.block(dim);
     force *= 1 / dt;
     force.add(1., bodies.on_bodies(friction_by(result, Vectors(bodies.velocities().size()))));

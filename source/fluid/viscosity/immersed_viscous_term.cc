@@ -293,8 +293,9 @@ namespace undine
   ImmersedViscousTerm<dim>::set_up(const double dt, const DualFluxes<dim> *fluxes)
   {
     using Matrices = DiffusionSolver::Matrices;
-    if (dt != assembled_dt)
+    if (dt != assembled_dt || by_diagonal)
       {
+        by_diagonal = false;
         friction.reinit(pattern(fluxes));
         assemble_friction(dt);
         if (!fluxes)

@@ -201,6 +201,8 @@ namespace undine
         resize_particles(state.particles, models.particles->setup().spacing, file);
       if (is_in_use(state.fluid.volume_rates) && !file.contains(volume_rate_time_array))
         state.fluid.volume_rates = {}; // of a run with another form of convection
+      if (state.solid.fluid_loads.size() > 0 && !file.contains(fluid_loads_array))
+        state.solid.fluid_loads = {}; // written by an earlier version
       auto surface = pack_surface(models, state);
       read_arrays(surface, file, slot, communicator);
       unpack_surface(state, models, surface);

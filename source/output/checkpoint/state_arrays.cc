@@ -177,6 +177,8 @@ namespace undine
         action("solid/velocity", solid.velocity);
       if (solid.acceleration.size() > 0)
         action("solid/acceleration", solid.acceleration);
+      if (solid.fluid_loads.size() > 0)
+        action(fluid_loads_array, solid.fluid_loads);
       for_each_sample(state.history, [&](const std::string &name, auto &sample) {
         action(name + "/bodies", sample.bodies);
       });

@@ -104,7 +104,8 @@ namespace undine
   {
     return {taken_from(of_all.displacement),
             taken_from(of_all.velocity),
-            taken_from(of_all.acceleration)};
+            taken_from(of_all.acceleration),
+            of_all.fluid_loads.size() > 0 ? taken_from(of_all.fluid_loads) : Vector()};
   }
 
 
@@ -115,6 +116,11 @@ namespace undine
     put_into(of_all.displacement, of_part.displacement);
     put_into(of_all.velocity, of_part.velocity);
     put_into(of_all.acceleration, of_part.acceleration);
+    if (of_part.fluid_loads.size() == 0)
+      return;
+    if (of_all.fluid_loads.size() == 0)
+      of_all.fluid_loads = all.vector();
+    put_into(of_all.fluid_loads, of_part.fluid_loads);
   }
 
 

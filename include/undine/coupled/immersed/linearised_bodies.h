@@ -6,16 +6,16 @@
 #include <undine/coupled/state/state.h>
 #include <undine/fluid/viscosity/body_impedance.h>
 #include <undine/solid/solvers/tangent_preconditioner.h>
+#include <undine/solid/solvers/tangent_solver.h>
 #include <undine/solid/step/solid_equations.h>
-
-#include <optional>
 
 namespace undine
 {
-  /// The impedance of the bodies in a stage: their equations R (SolidEquations), with the pressures
-  /// that the last stage has left, linearised where they are at its begin,
+  /// The impedance of the bodies in a stage: their equations R (SolidEquations), with the loads by
+  /// pressures L of the fluid at the end of the last stage, linearised where they are at its begin,
+  /// supports having moved,
   ///
-  ///     Z = dR/du (u0),   load = B^T q - R(u0).
+  ///     Z = dR/du (u0),   load = L - R(u0).
   template <int dim>
   class LinearisedBodies : public BodyImpedance<dim>
   {
@@ -24,17 +24,29 @@ namespace undine
     using Vectors = typename BodyImpedance<dim>::Vectors;
     using Matrix  = typename SolidModel<dim>::Matrix;
 
-    /// A stage begins that leads from `start` over `dt` [s] to `stage.end` of the step; `state`
-    /// holds u^0 and, for the fluid as it is cut now, the pressures q. Keeps a reference to
-    /// `models`; the others must live as long. Collective. Throws SolveError.
-    LinearisedBodies(const Models<dim>            &models,
-                     const Matrix                 &mass,
-                     const SolidEnvironment<dim>  &environment,
-                     const FluidGeometry<dim>     &geometry,
-                     const State<dim>             &state,
-                     const dealii::Tensor<1, dim> &gravity,
-                     const Stage                  &stage,
-                     TimingTree                   &timing);
+    /// For the model's bodies.
+    struct Solvers
+    {
+      explicit Solvers(const SolidModel<dim> &model)
+        : preconditioner(model)
+        , motion(model)
+      {
+      }
+
+      TangentPreconditioner<dim> preconditioner; ///< of Z
+      TangentSolver<dim>         motion;         ///< of supports
+    };
+
+    /// A stage begins from what `state` holds. The references to models and solvers must outlive
+    /// this. Collective. Throws SolveError.
+    LinearisedBodies(const Models<dim>           &models,
+                     const Matrix                &mass,
+                     const SolidEnvironment<dim> &environment,
+                     const FluidGeometry<dim>    &geometry,
+                     const State<dim>            &state,
+                     const Stage                 &stage,
+                     TimingTree                  &timing,
+                     Solvers                     &solvers);
 
     Vector
     vector() const override;
@@ -60,16 +72,12 @@ namespace undine
     approximate_change(const Vector &force) const override;
 
   private:
-    void
-    linearise(const Vector &velocity);
-
-    const Models<dim>                 &models;
-    SolidEquations<dim>                equations;
-    Matrix                             tangent;
-    Vector                             displacement; ///< where it is that [m]
-    Vector                             all_but_friction;
-    Vectors                            of_surfaces;
-    mutable TangentPreconditioner<dim> preconditioner;
+    const Models<dim>          &models;
+    TangentPreconditioner<dim> &preconditioner;
+    Matrix                      tangent;
+    Vector                      displacement; ///< where it is that [m]
+    Vector                      all_but_friction;
+    Vectors                     of_surfaces;
   };
 } // namespace undine
 

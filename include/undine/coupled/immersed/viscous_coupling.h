@@ -7,6 +7,7 @@
 #include <undine/fluid/fluid_stage.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace undine
@@ -26,9 +27,16 @@ namespace undine
     std::shared_ptr<const NoSlipSurfaces<dim>>
     walls(const FluidGeometry<dim> &geometry);
 
-    /// How the bodies answer in a stage that begins; nullptr if nothing of the fluid moves them, or
-    /// there are none. `state` holds the pressures for the grid as it is cut now. Collective.
-    /// Throws SolveError.
+    /// If friction moves bodies, the other loads of the fluid on them are kept, as they are at
+    /// `time` [s] for the grid as it is cut now. Collective.
+    void
+    keep_loads(State<dim>                   &state,
+               const FluidGeometry<dim>     &geometry,
+               const dealii::Tensor<1, dim> &gravity,
+               double                        time) const;
+
+    /// How the bodies answer in a stage that begins, as long as this lives; nullptr if friction
+    /// moves none. Collective. Throws SolveError.
     std::unique_ptr<BodyImpedance<dim>>
     impedance(const State<dim>            &state,
               const FluidGeometry<dim>    &geometry,
@@ -51,9 +59,13 @@ namespace undine
     }
 
   private:
-    const Models<dim>                         &models;
-    typename SolidModel<dim>::Matrix           mass;
-    std::shared_ptr<const FluidTopology<dim>>  cut_by;
+    bool
+    moves_bodies() const;
+
+    const Models<dim>                                     &models;
+    typename SolidModel<dim>::Matrix                       mass;
+    std::optional<typename LinearisedBodies<dim>::Solvers> solvers; ///< if it moves bodies
+    std::shared_ptr<const FluidTopology<dim>>              cut_by;
     std::shared_ptr<const NoSlipSurfaces<dim>> known_surfaces; ///< of the grid that is cut so
     Vectors                                    last_forces;
   };

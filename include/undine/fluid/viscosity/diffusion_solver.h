@@ -40,8 +40,8 @@ namespace undine
     void
     precondition(Vector &x, const Vector &b) const;
 
-    /// From now on, by the diagonal: incomplete factors fail where the flow crosses many cells in a
-    /// step.
+    /// By the diagonal until set_up(): incomplete factors fail where the flow crosses many cells in
+    /// a step.
     void
     precondition_by_diagonal();
 

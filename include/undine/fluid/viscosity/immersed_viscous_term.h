@@ -90,7 +90,7 @@ namespace undine
     Motion
     given_friction() const;
 
-    /// About A^{-1}; by its diagonal from now on. @{
+    /// About A^{-1}; by its diagonal until start(). @{
     void
     precondition(Vector &v, const Vector &b) const
     {
@@ -99,6 +99,7 @@ namespace undine
     void
     precondition_by_diagonal()
     {
+      by_diagonal = true;
       solver.precondition_by_diagonal();
     }
     /// @}
@@ -183,6 +184,7 @@ namespace undine
     dealii::IndexSet                                 mine;
     double                                           assembled_dt = 0; ///< [s]
     double                                           time         = 0; ///< [s]
+    bool                                             by_diagonal  = false;
     DiffusionSolver                                  solver;
     Vector                                           shrinkage; ///< if surfaces move [kg]
     dealii::TrilinosWrappers::SparseMatrix           friction;  ///< of mass and friction

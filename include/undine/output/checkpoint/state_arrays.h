@@ -19,6 +19,9 @@ namespace undine
     std::vector<double> values;
   };
 
+  /// The array that holds SolidState::fluid_loads in a checkpoint.
+  inline const std::string fluid_loads_array = "solid/loads of the fluid";
+
   /// The array that holds DualVolumeRates::time in a checkpoint, if those rates are in use.
   inline const std::string volume_rate_time_array = "fluid/time of volume rates";
 

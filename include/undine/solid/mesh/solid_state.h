@@ -12,6 +12,10 @@ namespace undine
     dealii::TrilinosWrappers::MPI::Vector displacement; ///< d [m]
     dealii::TrilinosWrappers::MPI::Vector velocity;     ///< u [m/s]
     dealii::TrilinosWrappers::MPI::Vector acceleration; ///< a [m/s^2]; not used by all integrators
+
+    /// Of a fluid around the bodies but for its friction, at the end of the last stage [N]; empty:
+    /// there is none with friction, or nothing is known of them.
+    dealii::TrilinosWrappers::MPI::Vector fluid_loads;
   };
 } // namespace undine
 
