@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/immersed/begin_of.h>
 #include <undine/coupled/immersed/linearised_bodies.h>
-#include <undine/coupled/state/begin_of.h>
 #include <undine/solid/assembly/prescribed_motion.h>
 #include <undine/solid/step/initial_guesses.h>
 

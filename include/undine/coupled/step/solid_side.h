@@ -3,7 +3,7 @@
 #define undine_coupled_step_solid_side_h
 
 #include <undine/coupled/budget/budget.h>
-#include <undine/coupled/state/begin_of.h>
+#include <undine/coupled/immersed/begin_of.h>
 #include <undine/coupled/state/report.h>
 #include <undine/coupled/state/state.h>
 #include <undine/solid/step/solid_stepper.h>

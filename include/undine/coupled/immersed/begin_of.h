@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_coupled_state_begin_of_h
-#define undine_coupled_state_begin_of_h
+#ifndef undine_coupled_immersed_begin_of_h
+#define undine_coupled_immersed_begin_of_h
 
 #include <undine/base/core/stage.h>
 #include <undine/coupled/state/state.h>
