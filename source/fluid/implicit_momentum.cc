@@ -91,14 +91,7 @@ namespace undine
   {
     FrictionWithBodies<dim> problem(all, *step.impedance, step.dt);
     step.linear_iterations += problem.solve();
-    const auto          change = problem.change_of_nodes();
-    std::vector<double> along(change.size());
-    for (unsigned int axis = 0; axis < dim; ++axis)
-      {
-        for (std::size_t node = 0; node < change.size(); ++node)
-          along[node] = change[node][axis];
-        all[axis]->finish(step.state.velocity[axis], problem.velocity(axis), along);
-      }
+    const auto change = problem.finish(step.state.velocity);
     for (std::size_t node = 0; node < change.size(); ++node)
       step.wall_velocities[node] += change[node];
   }

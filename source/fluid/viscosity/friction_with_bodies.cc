@@ -184,6 +184,17 @@ namespace undine
   }
 
 
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  FrictionWithBodies<dim>::finish(Velocity<dim> &velocity) const
+  {
+    const auto change = bodies.on_surfaces(x.block(dim));
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      equations[axis]->finish(velocity[axis], x.block(axis), along(change, axis));
+    return change;
+  }
+
+
   template class FrictionWithBodies<2>;
   template class FrictionWithBodies<3>;
 } // namespace undine

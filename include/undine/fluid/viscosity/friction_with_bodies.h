@@ -34,19 +34,10 @@ namespace undine
     unsigned int
     solve();
 
-    /// The velocity of the fluid along an axis after solve() [m/s].
-    const Vector &
-    velocity(const unsigned int axis) const
-    {
-      return x.block(axis);
-    }
-
-    /// The change P du of the velocities of all nodes after solve() [m/s].
+    /// After solve() let `velocity` [m/s] be that of the fluid, and the equations find their
+    /// forces. Returns the change P du of the velocities of all nodes [m/s]. Collective.
     std::vector<dealii::Tensor<1, dim>>
-    change_of_nodes() const
-    {
-      return bodies.on_surfaces(x.block(dim));
-    }
+    finish(Velocity<dim> &velocity) const;
 
   private:
     using BlockVector = dealii::TrilinosWrappers::MPI::BlockVector;
