@@ -16,7 +16,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [os.path.join(ROOT, "tests", "checks"), os.path.join(ROOT, "benchmarks")]
 import convection_arguments  # noqa: E402
 import time_integration  # noqa: E402
-from turek_hron_fsi2 import upward_passages  # noqa: E402
+from turek_hron_swinging_flag import upward_passages  # noqa: E402
 
 SCENE = os.path.join(ROOT, "prm", "dfg_2d1.prm")
 DIAMETER, LENGTH, HEIGHT = 0.1, 2.2, 0.41  # [m]

@@ -18,7 +18,7 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [os.path.join(ROOT, "tests", "checks"), os.path.join(ROOT, "benchmarks")]
 import time_integration  # noqa: E402
-from turek_hron_fsi2 import force  # noqa: E402
+from turek_hron_swinging_flag import force  # noqa: E402
 
 SCENE = os.path.join(ROOT, "prm", "turek_hron_fsi1.prm")
 REFERENCE = os.path.join(ROOT, "tests", "reference", "turek_hron_fsi1.csv")

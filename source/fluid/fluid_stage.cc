@@ -70,8 +70,7 @@ namespace undine
   {
     if (stage.keeps_rates())
       go_on();
-    if (state.pressure.topology() != bodies.topology)
-      move_pressure_and_acceleration();
+    move_pressure_and_acceleration();
   }
 
 
@@ -93,9 +92,11 @@ namespace undine
   FluidStage<dim>::move_pressure_and_acceleration()
   {
     const auto &now = tracer.bodies().topology;
-    state.pressure  = moved_to(state.pressure, now);
-    if (stage.keeps_rates())
-      return; // accelerations have been advected as part of velocities
+    if (state.pressure.topology() != now)
+      state.pressure = moved_to(state.pressure, now);
+    // Stages that keep rates have advected accelerations as part of velocities.
+    if (stage.keeps_rates() || state.acceleration[0].topology() == now)
+      return;
     for (auto &component : state.acceleration.components)
       component = moved_to(component, now);
     for (auto &component : state.change.components) // which this integrator does not know

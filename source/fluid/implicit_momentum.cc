@@ -94,6 +94,7 @@ namespace undine
     const auto change = problem.finish(step.state.velocity);
     for (std::size_t node = 0; node < change.size(); ++node)
       step.wall_velocities[node] += change[node];
+    step.wall_damping = problem.damping();
   }
 
 

@@ -133,6 +133,8 @@ namespace undine
     std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
     std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces
     std::vector<dealii::Tensor<1, dim>> wall_velocities;            ///< for which that is [m/s]
+    std::vector<dealii::Tensor<1, dim>>
+      wall_damping; ///< about its derivative, with an impedance [kg/s]
     /// @}
 
     /// The contribution of forces of contact between bodies to the velocity at the end of the stage

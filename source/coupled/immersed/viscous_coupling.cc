@@ -3,6 +3,8 @@
 #include <undine/operators/make_no_slip_surfaces.h>
 #include <undine/solid/assembly/mass_matrix.h>
 
+#include <cmath>
+
 namespace undine
 {
   namespace
@@ -66,6 +68,31 @@ namespace undine
     loads       = models.solid->vector();
     models.surface->add_to_bodies(loads, geometry.pressure_forces(state.fluid.pressure));
     models.surface->add_to_bodies(loads, geometry.other_forces(gravity, time));
+  }
+
+
+  template <int dim>
+  void
+  ViscousCoupling<dim>::end(const FluidStage<dim>    &fluid,
+                            const State<dim>         &state,
+                            const FluidGeometry<dim> &geometry)
+  {
+    last_forces = fluid.friction->on_nodes;
+    last_defect = 0;
+    if (fluid.wall_damping.empty())
+      return;
+    const auto velocities =
+      models.surface->with_bodies(state.solid.velocity, fluid.wall_velocities);
+    const auto pressures = geometry.pressure_forces(state.fluid.pressure);
+    double     missing = 0, all = 0;
+    for (unsigned int node = 0; node < models.surface->n_body_nodes(); ++node)
+      {
+        const auto change = velocities[node] - fluid.wall_velocities[node];
+        for (unsigned int d = 0; d < dim; ++d)
+          missing += fluid.wall_damping[node][d] * std::abs(change[d]);
+        all += last_forces[node].norm() + pressures[node].norm();
+      }
+    last_defect = all > 0 ? missing / all : 0;
   }
 
 

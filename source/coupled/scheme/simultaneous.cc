@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/coupled/immersed/aitken_relaxation.h>
 #include <undine/coupled/scheme/stepping_scheme.h>
 #include <undine/coupled/step/coupled_stage.h>
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/solid_side.h>
-
-#include <fmt/format.h>
+#include <undine/coupled/step/surface_placement.h>
 
 namespace undine
 {
   /// The section `Coupling`.
   struct CouplingSettings
   {
-    std::string         boundary_flux = "initial"; ///< initial | swept
+    std::string         boundary_flux      = "initial"; ///< initial | swept
+    double              friction_tolerance = 3e-3;      ///< see ViscousCoupling::defect()
     BlockSolverSettings solver;
   };
 
@@ -25,9 +24,12 @@ namespace undine
   ///
   /// Stages that keep rates cut the grid where bodies are expected at their end. If these come to
   /// another place, by more than a small part of a cell, the stage is solved again with the grid
-  /// cut there, and then where AitkenRelaxation expects them: else the fluid would have left, or
-  /// entered, what it has not, and light bodies that shake from stage to stage would gain energy by
-  /// that.
+  /// cut elsewhere (SurfacePlacement): else the fluid would have left, or entered, what it has not,
+  /// and light bodies that shake from stage to stage would gain energy by that.
+  ///
+  /// The friction of 1 knows the pressures of the stage before. Where bodies leave a stage so much
+  /// faster or slower than these made friction expect that it would differ, the stage is solved
+  /// again with the pressures found.
   template <int dim>
   class SimultaneousPhysics : public Physics<dim>
   {
@@ -64,42 +66,34 @@ namespace undine
     {
       if (stage.is_first)
         report.stages_again = 0;
-      if (!stage.keeps_rates())
+      State<dim>            begin         = state;
+      const Report          report_before = report;
+      const Budget<dim>     budget_before = budget;
+      SurfacePlacement<dim> placement(models);
+      bool                  is_corrected = false; ///< friction
+      while (true)
         {
           solve_once(state, stage, report);
-          return;
-        }
-      const State<dim>          begin         = state;
-      const Report              report_before = report;
-      const Budget<dim>         budget_before = budget;
-      const auto                cut_at = [&] { return fluid_side.geometry()->surface_positions(); };
-      AitkenRelaxation<dim>     relaxation;
-      auto                      best   = cut_at();
-      double                    lowest = std::numeric_limits<double>::infinity();
-      std::vector<Misplacement> misplacements;
-      for (unsigned int round = 0;; ++round)
-        {
-          solve_once(state, stage, report);
-          const auto places = models.surface->positions(state.solid, state.clock.time + stage.end);
-          misplacements.push_back(fluid_side.misplacement(places));
-          const double cells = misplacements.back().cells;
-          if (cells <= (round < most_rounds ? small_misplacement : largest_misplacement))
+          const auto cut_at = fluid_side.geometry()->surface_positions();
+          // Stages of other integrators begin where the grid is cut.
+          const auto places =
+            stage.keeps_rates()
+              ? models.surface->positions(state.solid, state.clock.time + stage.end)
+              : cut_at;
+          const bool is_placed = placement.accepts(cut_at, places, fluid_side.misplacement(places));
+          if (is_placed && (is_corrected || placement.is_at_limit() ||
+                            fluid_side.friction_defect() <= settings.friction_tolerance))
             return;
-          if (cells < lowest)
+          fluid_side.expect(is_placed ? cut_at : placement.next(cut_at, places));
+          if (is_placed)
             {
-              lowest = cells;
-              best   = cut_at();
+              is_corrected            = true;
+              begin.fluid.pressure    = state.fluid.pressure;
+              begin.solid.fluid_loads = state.solid.fluid_loads;
             }
-          if (round >= most_rounds && lowest > largest_misplacement)
-            throw SolveError(misplacement_complaint(models, places, misplacements));
-          const auto newton = report.newton_iterations, linear = report.linear_iterations;
-          report                   = report_before;
-          report.newton_iterations = newton;
-          report.linear_iterations = linear;
-          report.stages_again += round + 1;
-          fluid_side.expect(round < most_rounds ? relaxation.next(cut_at(), places) : best);
           state = begin;
           budget.go_back_to(budget_before);
+          go_back_to(report_before, report);
         }
     }
 
@@ -110,14 +104,17 @@ namespace undine
     }
 
   private:
-    // In cells. Bodies are where they are expected to second order in the step: steps that resolve
-    // what happens stay below the first, up to which also thin bodies under large pressures get no
-    // energy worth mentioning from the difference. Beyond the second, which steps of a body that
-    // shakes exceed however often they are solved again, the fluid has lost or gained volume that
-    // matters.
-    static constexpr double       small_misplacement   = 0.01;
-    static constexpr double       largest_misplacement = 0.3;
-    static constexpr unsigned int most_rounds          = 6;
+    /// Before the stage is solved again. Iterations count.
+    static void
+    go_back_to(const Report &before, Report &report)
+    {
+      const auto newton = report.newton_iterations, linear = report.linear_iterations;
+      const auto again         = report.stages_again;
+      report                   = before;
+      report.newton_iterations = newton;
+      report.linear_iterations = linear;
+      report.stages_again      = again + 1;
+    }
 
     void
     solve_once(State<dim> &state, const Stage &stage, Report &report)
@@ -213,6 +210,14 @@ namespace undine
                              "it is a choice for integrators of one stage",
                              "Remove it: the integrator chosen in 'Time' keeps the volume of "
                              "closed regions by itself. Or choose another one, such as 'theta'.");
+      coupling.add("Friction tolerance",
+                   settings.friction_tolerance,
+                   "1",
+                   Allowed::not_negative(),
+                   "Friction on bodies is found with the pressures of the stage before. Where it "
+                   "would differ with the velocities that bodies then get, by more than this share "
+                   "of the fluid's forces on them, the stage is solved once more with the "
+                   "pressures found. 0: always.");
       settings.solver.add_options(coupling);
     }
 

@@ -130,7 +130,7 @@ namespace undine
   FluidSide<dim>::share_parts(FluidState<dim> &state) const
   {
     const auto &parts = bodies().topology;
-    if (state.pressure.topology() == parts || !cut->is_unmoved())
+    if (state.velocity[0].topology() == parts || !cut->is_unmoved())
       return;
     for (auto *velocity : {&state.velocity, &state.acceleration, &state.change})
       for (auto &component : velocity->components)
@@ -362,8 +362,8 @@ namespace undine
     fluid.finish();
     if (fluid.friction)
       {
-        viscous_coupling.end(fluid);
         viscous_coupling.keep_loads(state, *cut, environment.gravity, fluid.end);
+        viscous_coupling.end(fluid, state, *cut);
       }
     if (cut)
       {

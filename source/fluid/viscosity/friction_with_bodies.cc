@@ -62,17 +62,17 @@ namespace undine
     : equations(equations)
     , bodies(bodies)
     , dt(dt)
+    , of_nodes(bodies.velocities().size())
   {
-    Vectors damping(bodies.velocities().size());
     x.reinit(dim + 1);
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
         x.block(axis) = equations[axis]->guess();
-        set_along(damping, axis, equations[axis]->damping());
+        set_along(of_nodes, axis, equations[axis]->damping());
       }
     x.block(dim) = bodies.vector();
     x.collect_sizes();
-    bodies.prepare(damping);
+    bodies.prepare(of_nodes);
   }
 
 

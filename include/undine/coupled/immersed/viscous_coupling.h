@@ -44,11 +44,16 @@ namespace undine
               const Stage                 &stage,
               TimingTree                  &timing);
 
-    /// The stage has ended.
+    /// The stage has ended with `state`. Collective.
     void
-    end(const FluidStage<dim> &fluid)
+    end(const FluidStage<dim> &fluid, const State<dim> &state, const FluidGeometry<dim> &geometry);
+
+    /// About how much the forces of friction in the last stage would differ if bodies had moved as
+    /// fast as friction took them to, in proportion to the forces of friction and pressure on them.
+    double
+    defect() const
     {
-      last_forces = fluid.friction->on_nodes;
+      return last_defect;
     }
 
     /// Friction of the last stage on all nodes [N]; empty without friction.
@@ -68,6 +73,7 @@ namespace undine
     std::shared_ptr<const FluidTopology<dim>>              cut_by;
     std::shared_ptr<const NoSlipSurfaces<dim>> known_surfaces; ///< of the grid that is cut so
     Vectors                                    last_forces;
+    double                                     last_defect = 0;
   };
 } // namespace undine
 

@@ -55,6 +55,13 @@ namespace undine
     void
     finish(FluidStage<dim> &fluid, State<dim> &state, Report &report, double divergence);
 
+    /// After finish(): see ViscousCoupling::defect().
+    double
+    friction_defect() const
+    {
+      return viscous_coupling.defect();
+    }
+
     /// Add to `account`, after finish() of the last stage, the powers of sides, whose balance of
     /// `pressures` that is, and of obstacles at the end of the step, and the work of what acts on
     /// bodies through the fluid: the weight that the reduced pressure leaves out, and the mean

@@ -39,6 +39,13 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>>
     finish(Velocity<dim> &velocity) const;
 
+    /// How the fluid resists the motion of each node along each axis, about [kg/s].
+    const std::vector<dealii::Tensor<1, dim>> &
+    damping() const
+    {
+      return of_nodes;
+    }
+
   private:
     using BlockVector = dealii::TrilinosWrappers::MPI::BlockVector;
     using Vectors     = std::vector<dealii::Tensor<1, dim>>;
@@ -57,6 +64,7 @@ namespace undine
     const Equations     equations;
     BodyImpedance<dim> &bodies;
     const double        dt; ///< [s]
+    Vectors             of_nodes;
     BlockVector         x;
   };
 } // namespace undine

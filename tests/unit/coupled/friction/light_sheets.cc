@@ -16,6 +16,7 @@ namespace
     unsigned int n         = 24;
     double       viscosity = 10;   ///< [Pa s]
     std::string  lid       = ".1"; ///< [m/s]
+    double       tolerance = 3e-3; ///< of friction
   };
 
 
@@ -27,6 +28,7 @@ namespace
       section("Time",
               fmt::format("set Step = {}\nset Integrator = {}", sheet.step, sheet.integrator)) +
       section("Output", "set Budget = true") +
+      section("Coupling", fmt::format("set Friction tolerance = {}", sheet.tolerance)) +
       section("Domain",
               fmt::format("set Cells = {0}, {0}{1}",
                           sheet.n,
@@ -65,7 +67,7 @@ namespace
     while (run.state.clock.time < .2 - 1e-9)
       {
         run.step();
-        CHECK(run.column("energy closure") <= 2e-9);
+        CHECK(run.column("energy closure") <= 5e-9);
         CHECK(run.column("momentum closure") <= 1e-9);
       }
     return run.column("centre of mass sheet x") - begin;
@@ -186,8 +188,16 @@ TEST_CASE("Friction holds light sheets in space", "[friction]")
 
 TEST_CASE("Light sheets in a viscous fluid move to second order in time", "[friction]")
 {
-  const auto   after  = [](const double step) { return drift(gently_dragged(.1, 1e3, step)); };
-  const double coarse = after(.02), middle = after(.01), fine = after(.005);
-  UNSCOPED_INFO(coarse << " " << middle << " " << fine);
-  CHECK(std::log2((coarse - middle) / (middle - fine)) >= 1.6);
+  // Each stage solved once, and each once more.
+  for (const double tolerance : {1e9, 0.})
+    {
+      const auto after = [&](const double step) {
+        auto sheet      = gently_dragged(.1, 1e3, step);
+        sheet.tolerance = tolerance;
+        return drift(sheet);
+      };
+      const double coarse = after(.02), middle = after(.01), fine = after(.005);
+      INFO(tolerance << ": " << coarse << " " << middle << " " << fine);
+      CHECK(std::log2((coarse - middle) / (middle - fine)) >= 1.6);
+    }
 }

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The flag of the Turek-Hron benchmark FSI2 once it swings periodically, against the published figures.
+"""The flags of the Turek-Hron benchmarks FSI2 and FSI3 once they swing periodically, against the published figures.
 
-usage: benchmarks/turek_hron_fsi2.py [PROGRAM] [--cells "120, 61"] [--step 1/100] [--end 15] [--results DIR]
+usage: benchmarks/turek_hron_swinging_flag.py [PROGRAM] [--case FSI2] [--cells "120, 61"] [--step 1/100] [--end 15]
+                                              [--results DIR]
 
 Prints means and amplitudes, (largest + smallest)/2 and (largest - smallest)/2, over the last three periods, and the
-frequency, with those of Featflow's finest level; core seconds. --results: take these results instead of running. One rank;
-five minutes with the scene's own grid and step.
+frequency, with those of Featflow's finest level; core seconds. Where they are not given, cells, step and end are the scene's.
+--results: take these results instead of running. One rank; five minutes for FSI2, twenty for FSI3.
 """
 import argparse
 import csv
@@ -18,8 +19,7 @@ sys.path[:0] = [os.path.join(ROOT, "tests", "checks"), os.path.join(ROOT, "bench
 import scene_tools  # noqa: E402
 import time_integration  # noqa: E402
 
-SCENE = os.path.join(ROOT, "prm", "turek_hron_fsi2.prm")
-REFERENCE = os.path.join(ROOT, "tests", "reference", "turek_hron_fsi2.csv")
+CASES = ("FSI2", "FSI3")
 PERIODS = 3
 
 
@@ -48,7 +48,7 @@ def figures(columns):
     half = len(times) // 2
     passages = upward_passages(times[half:], rise[half:])
     if len(passages) <= PERIODS:
-        sys.exit(f"turek_hron_fsi2.py: the flag does not swing {PERIODS} times in the second half of {times[-1]} s")
+        sys.exit(f"turek_hron_swinging_flag.py: the flag does not swing {PERIODS} times in the second half of {times[-1]} s")
     first, last = passages[-1 - PERIODS], passages[-1]
     result = {"uy_freq_Hz": PERIODS / (last - first)}
     for name, unit, values in (("ux", "_m", columns["A displacement x"]), ("uy", "_m", rise),
@@ -62,24 +62,27 @@ def figures(columns):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", nargs="?", default=os.path.join(ROOT, "build", "undine"))
-    parser.add_argument("--cells", default="120, 61")
-    parser.add_argument("--step", default="1/100")
-    parser.add_argument("--end", default="15")
+    parser.add_argument("--case", choices=CASES, default="FSI2")
+    parser.add_argument("--cells")
+    parser.add_argument("--step")
+    parser.add_argument("--end")
     parser.add_argument("--results")
     options = parser.parse_args()
     if options.results:
         columns = columns_of(options.results)
     else:
-        run = time_integration.once(options.program, SCENE, [
-            f"Domain/Cells={options.cells}", f"Time/Step={options.step}", f"Time/End={options.end}",
+        given = (("Domain/Cells", options.cells), ("Time/Step", options.step), ("Time/End", options.end))
+        scene = os.path.join(ROOT, "prm", f"turek_hron_{options.case.lower()}.prm")
+        run = time_integration.once(options.program, scene, [f"{key}={value}" for key, value in given if value] + [
             "Output/Parts=statistics", "Output/Interval=0"])
         if run.complaint:
-            sys.exit(f"turek_hron_fsi2.py: {run.complaint}")
+            sys.exit(f"turek_hron_swinging_flag.py: {run.complaint}")
         columns = run.columns
         print(f"{run.seconds:.0f} core seconds")
-    with open(REFERENCE) as file:
+    reference = os.path.join(ROOT, "tests", "reference", f"turek_hron_{options.case.lower()}.csv")
+    with open(reference) as file:
         published = next(line for line in csv.DictReader(line for line in file if not line.startswith("#"))
-                         if line["case"] == "FSI2" and line["level"] == "4+0")
+                         if line["case"] == options.case and line["level"] == "4+0")
     print("| figure | computed | published | difference |\n|---|---|---|---|")
     for name, value in figures(columns).items():
         wanted = float(published[name])
