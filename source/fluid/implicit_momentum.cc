@@ -81,6 +81,8 @@ namespace undine
         copy(axis, step.friction->on_nodes, all[axis]->forces().on_nodes);
         copy(axis, step.friction->on_boundaries, all[axis]->forces().on_boundaries);
       }
+    if (step.impedance)
+      step.impedance->add_friction_of_motion(step.friction->on_nodes, step.wall_velocities);
   }
 
 

@@ -13,10 +13,16 @@ namespace undine
                                           const FluidGeometry<dim>    &geometry,
                                           const State<dim>            &state,
                                           const Stage                 &stage,
+                                          const double                 viscosity,
                                           TimingTree                  &timing,
                                           Solvers                     &solvers)
     : models(models)
     , preconditioner(solvers.preconditioner)
+    , turning_stress(models.surface->surface(),
+                     models.surface->n_body_nodes(),
+                     geometry.surface_positions(),
+                     geometry.uniform_pressure_forces(1),
+                     viscosity)
   {
     SolidEquations<dim> equations(*models.solid,
                                   mass,
@@ -35,6 +41,7 @@ namespace undine
     tangent.copy_from(equations.jacobian(velocity));
     displacement = equations.displacement(velocity);
     of_surfaces  = models.surface->with_bodies(velocity, geometry.surface_velocities());
+    all_but_friction.add(1., by_turning_stress(of_surfaces));
   }
 
 
@@ -71,7 +78,19 @@ namespace undine
   {
     auto result = models.solid->vector();
     tangent.vmult(result, change);
+    if (!turning_stress.empty())
+      result.add(-1., by_turning_stress(on_surfaces(change)));
     return result;
+  }
+
+
+  template <int dim>
+  typename LinearisedBodies<dim>::Vector
+  LinearisedBodies<dim>::by_turning_stress(const Vectors &velocities) const
+  {
+    Vectors forces(velocities.size());
+    turning_stress.add_forces(forces, velocities);
+    return on_bodies(forces);
   }
 
 

@@ -102,12 +102,13 @@ namespace undine
                                   const FluidGeometry<dim>    &geometry,
                                   const SolidEnvironment<dim> &environment,
                                   const Stage                 &stage,
+                                  const double                 viscosity,
                                   TimingTree                  &timing)
   {
     if (!moves_bodies())
       return nullptr;
     return std::make_unique<LinearisedBodies<dim>>(
-      models, mass, environment, geometry, state, stage, timing, *solvers);
+      models, mass, environment, geometry, state, stage, viscosity, timing, *solvers);
   }
 
 

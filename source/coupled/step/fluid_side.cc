@@ -246,7 +246,8 @@ namespace undine
     {
       const auto phase = timing.section("diffuse");
       if (cut)
-        fluid->impedance = viscous_coupling.impedance(state, *cut, environment, stage, timing);
+        fluid->impedance =
+          viscous_coupling.impedance(state, *cut, environment, stage, fluid->viscosity, timing);
       run_phase(
         *fluid, [&](const auto &effect) { effect.diffuse(*fluid); }, book(BudgetTerm::diffusion));
       fluid->impedance.reset();

@@ -5,6 +5,7 @@
 #include <undine/coupled/immersed/fluid_geometry.h>
 #include <undine/coupled/state/state.h>
 #include <undine/fluid/viscosity/body_impedance.h>
+#include <undine/operators/turning_stress.h>
 #include <undine/solid/solvers/tangent_preconditioner.h>
 #include <undine/solid/solvers/tangent_solver.h>
 #include <undine/solid/step/solid_equations.h>
@@ -15,7 +16,9 @@ namespace undine
   /// pressures L of the fluid at the end of the last stage, linearised where they are at its begin,
   /// supports having moved,
   ///
-  ///     Z = dR/du (u0),   load = L - R(u0).
+  ///     Z = dR/du (u0),   load = L - R(u0),
+  ///
+  /// each with the forces of TurningStress.
   template <int dim>
   class LinearisedBodies : public BodyImpedance<dim>
   {
@@ -37,14 +40,15 @@ namespace undine
       TangentSolver<dim>         motion;         ///< of supports
     };
 
-    /// A stage begins from what `state` holds. The references to models and solvers must outlive
-    /// this. Collective. Throws SolveError.
+    /// A stage begins from what `state` holds, in a fluid with `viscosity` [Pa s]. The references
+    /// to models and solvers must outlive this. Collective. Throws SolveError.
     LinearisedBodies(const Models<dim>           &models,
                      const Matrix                &mass,
                      const SolidEnvironment<dim> &environment,
                      const FluidGeometry<dim>    &geometry,
                      const State<dim>            &state,
                      const Stage                 &stage,
+                     double                       viscosity,
                      TimingTree                  &timing,
                      Solvers                     &solvers);
 
@@ -62,6 +66,11 @@ namespace undine
     }
     Vectors
     on_surfaces(const Vector &change) const override;
+    void
+    add_friction_of_motion(Vectors &forces, const Vectors &velocities) const override
+    {
+      turning_stress.add_forces(forces, velocities);
+    }
     Vector
     on_bodies(const Vectors &forces) const override;
     Vector
@@ -72,8 +81,12 @@ namespace undine
     approximate_change(const Vector &force) const override;
 
   private:
+    Vector
+    by_turning_stress(const Vectors &velocities) const;
+
     const Models<dim>          &models;
     TangentPreconditioner<dim> &preconditioner;
+    const TurningStress<dim>    turning_stress;
     Matrix                      tangent;
     Vector                      displacement; ///< where it is that [m]
     Vector                      all_but_friction;

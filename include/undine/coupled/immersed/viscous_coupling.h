@@ -35,13 +35,14 @@ namespace undine
                const dealii::Tensor<1, dim> &gravity,
                double                        time) const;
 
-    /// How the bodies answer in a stage that begins, as long as this lives; nullptr if friction
-    /// moves none. Collective. Throws SolveError.
+    /// How the bodies answer in a stage that begins, as long as this lives, in a fluid with
+    /// `viscosity` [Pa s]; nullptr if friction moves none. Collective. Throws SolveError.
     std::unique_ptr<BodyImpedance<dim>>
     impedance(const State<dim>            &state,
               const FluidGeometry<dim>    &geometry,
               const SolidEnvironment<dim> &environment,
               const Stage                 &stage,
+              double                       viscosity,
               TimingTree                  &timing);
 
     /// The stage has ended with `state`. Collective.

@@ -31,7 +31,7 @@ namespace undine
     virtual Vector
     vector() const = 0;
 
-    /// All forces but friction at the velocities u0, inertia among them [N].
+    /// All forces but F at the velocities u0, inertia among them [N].
     virtual const Vector &
     load() const = 0;
 
@@ -42,6 +42,11 @@ namespace undine
     /// P du in all nodes of surfaces [m/s].
     virtual Vectors
     on_surfaces(const Vector &change) const = 0;
+
+    /// Add the friction on all nodes that follows from their velocities alone to `forces` [N], the
+    /// same on all ranks: load() and force() contain it, F does not.
+    virtual void
+    add_friction_of_motion(Vectors &forces, const Vectors &velocities) const = 0;
 
     /// P^T of forces in the nodes, the same on all ranks [N].
     virtual Vector
