@@ -201,26 +201,43 @@ namespace undine
   void
   DualFluxes<dim>::for_each_entering(const unsigned int axis, const Entering &action) const
   {
-    const VelocityCondition<dim> condition(axis);
     for (unsigned int d = 0; d < dim; ++d)
-      if (d != axis && !grid.periodic(d))
+      if (!grid.periodic(d))
         undine::for_each(grid.faces(d)->owned(), [&](const GridIndex<dim> &face) {
           if (!grid.at_boundary(d, face))
             return;
           const unsigned int end = face[d] == 0 ? 0 : 1;
           const auto        &boundary =
             model.boundaries().at({d, end}, moved<dim>(face, d, end == 0 ? 0 : -1));
-          if (!condition.is_dirichlet(boundary))
+          if (d == axis && boundary.prescribes_normal_velocity())
             return;
           undine::for_each_place(flow[d].divided(), face, [&](const FacePlace<dim> &place) {
             const double entering = (end == 0 ? 1 : -1) * flux(d, place);
-            if (entering > 0)
+            if (entering <= 0)
+              return;
+            if (d == axis)
+              action(place, entering, value_at(flow[d], place));
+            else
               for (const auto &one : shares(beside(d, place, 1 - end), axis))
-                action(one.place,
-                       one.share * entering,
-                       condition.dirichlet_value(boundary, d, grid.faces(d)->point(face), time));
+                action(one.place, one.share * entering, entering_velocity(boundary, d, face, axis));
           });
         });
+  }
+
+
+  /// Along `axis`, of what enters through a face normal to `d` [m/s]: at right angles through
+  /// openings.
+  template <int dim>
+  double
+  DualFluxes<dim>::entering_velocity(const Boundary<dim>  &boundary,
+                                     const unsigned int    d,
+                                     const GridIndex<dim> &face,
+                                     const unsigned int    axis) const
+  {
+    const VelocityCondition<dim> condition(axis);
+    return condition.is_dirichlet(boundary)
+             ? condition.dirichlet_value(boundary, d, grid.faces(d)->point(face), time)
+             : 0;
   }
 
 

@@ -55,7 +55,9 @@ namespace undine
     for_each_between(const unsigned int axis, const Between &action) const;
 
     /// action(place, volume rate that enters it through a side of the domain [m^dim/s], velocity
-    /// along the axis that it brings [m/s]) where that is given.
+    /// along the axis that it brings [m/s]) unless the place itself has a given velocity. What
+    /// enters through an opening does so at right angles, as fast as the flow. (If it brought the
+    /// velocity that it finds, convection would feed on itself there.)
     using Entering = std::function<void(const FacePlace<dim> &, const double, const double)>;
     void
     for_each_entering(const unsigned int axis, const Entering &action) const;
@@ -107,6 +109,11 @@ namespace undine
     supply(unsigned int axis, const Share &of) const;
     double
     flux(unsigned int axis, const FacePlace<dim> &place) const;
+    double
+    entering_velocity(const Boundary<dim>  &boundary,
+                      unsigned int          d,
+                      const GridIndex<dim> &face,
+                      unsigned int          axis) const;
     void
     within(const Shares &shares, unsigned int axis, const Between &action) const;
     void
