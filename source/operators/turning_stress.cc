@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/operators/turning_stress.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace undine
 {
@@ -33,28 +36,63 @@ namespace undine
                                     const std::vector<dealii::Point<dim>> &positions,
                                     const Vectors                         &areas,
                                     const double                           viscosity)
-    : normals(areas)
-    , viscosity(viscosity)
+    : viscosity(viscosity)
   {
     constexpr double rounding = 1e-9;
-    for (auto &normal : normals)
-      normal *= -1;
     for (auto &nodes : nodes_of_bodies(surface, n_body_nodes))
       {
         dealii::Tensor<1, dim> sum;
-        double                 area = 0, volume = 0;
+        double                 area = 0;
         for (const unsigned int node : nodes)
           {
-            sum += normals[node];
-            area += normals[node].norm();
-            volume += (positions[node] - positions[nodes.front()]) * normals[node] / dim;
+            sum += areas[node];
+            area += areas[node].norm();
           }
-        if (area > 0 && sum.norm() <= rounding * area && volume > 0)
-          bodies.push_back({std::move(nodes), volume});
+        if (area == 0 || sum.norm() > rounding * area)
+          continue;
+        if (auto body = measure(std::move(nodes), positions, areas); body.volume > 0)
+          bodies.push_back(std::move(body));
       }
   }
 
 
+  template <int dim>
+  typename TurningStress<dim>::Body
+  TurningStress<dim>::measure(std::vector<unsigned int>              nodes,
+                              const std::vector<dealii::Point<dim>> &positions,
+                              const Vectors                         &areas)
+  {
+    Body                   result;
+    dealii::Tensor<1, dim> centre;
+    double                 sum = 0;
+    for (const unsigned int node : nodes)
+      {
+        result.areas.push_back(areas[node].norm());
+        sum += result.areas.back();
+        centre += result.areas.back() * dealii::Tensor<1, dim>(positions[node]);
+      }
+    centre /= sum;
+    dealii::SymmetricTensor<2, dim> moments;
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      {
+        result.arms.push_back(positions[nodes[k]] - centre);
+        moments += result.areas[k] * symmetrize(outer_product(result.arms[k], result.arms[k]));
+        result.volume -= result.arms[k] * areas[nodes[k]] / dim;
+      }
+    const auto principal = eigenvectors(moments);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        result.axes[d]    = principal[d].second;
+        result.moments[d] = principal[d].first;
+      }
+    for (auto &arm : result.arms)
+      arm = result.axes * arm;
+    result.nodes = std::move(nodes);
+    return result;
+  }
+
+
+  /// The condition for W along the principal axes is (m_i + m_j) W_ij = A_ij.
   template <int dim>
   void
   TurningStress<dim>::add_forces(Vectors       &forces,
@@ -63,15 +101,18 @@ namespace undine
   {
     for (const auto &body : bodies)
       {
-        dealii::Tensor<2, dim> gradient;
-        for (const unsigned int node : body.nodes)
-          gradient += outer_product(velocities[node], normals[node]);
-        gradient /= body.volume;
-        auto stress = transpose(gradient);
-        for (unsigned int d = 0; d < dim; ++d)
-          stress[d][d] -= trace(gradient);
-        for (const unsigned int node : body.nodes)
-          forces[node] += factor * viscosity * (stress * normals[node]);
+        dealii::Tensor<2, dim> angular;
+        for (std::size_t k = 0; k < body.nodes.size(); ++k)
+          angular +=
+            body.areas[k] * outer_product(body.axes * velocities[body.nodes[k]], body.arms[k]);
+        angular = angular - transpose(angular);
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            angular[i][j] /= std::pow(body.moments[i] + body.moments[j], 2);
+        const double size = 2 * factor * viscosity * body.volume;
+        for (std::size_t k = 0; k < body.nodes.size(); ++k)
+          forces[body.nodes[k]] -=
+            size * body.areas[k] * (transpose(body.axes) * (angular * body.arms[k]));
       }
   }
 

@@ -11,16 +11,20 @@
 
 namespace undine
 {
-  /// Forces of the part mu (grad v)^T n of the viscous stress on bodies, which mu dv/dn leaves out
-  /// and on which moments depend. No slip and incompressibility make it mu (G^T - tr G) n with the
-  /// gradient G of the motion along the surface. For G stands the mean gradient of a body,
+  /// Forces of the part mu (grad v)^T n of the viscous stress on bodies that turn, which mu dv/dn
+  /// leaves out and on which moments depend: -mu W n where nothing slips, W being the antisymmetric
+  /// matrix of the rotation. For a body it is that of the rigid motion next to its surface's,
   ///
-  ///     F_k = mu (G^T - tr G) N_k,   G_ij = 1/V sum_k u_ki N_kj    [N]                  (I10)
+  ///     sum_k a_k |u_k - u_mean - W r_k|^2 = min,   r_k from the centre of the surface,
   ///
-  /// with the area vectors N_k of nodes, out of the body, and the volume V that they bound: exact
-  /// for bodies that turn, without resultant, symmetric in u. It takes bodies whose wet surface is
-  /// closed: on others this part has a resultant, which the fluid would have to give at the
-  /// domain's sides.
+  /// with the areas a_k of nodes, and the forces are those whose power is that of the stress on a
+  /// body that turns so and bounds the volume V,
+  ///
+  ///     F_k . u_k, summed over k, = -mu V W : W    [W]                                  (I10)
+  ///
+  /// The moment of a body that turns is exact; there is no resultant, and they only take energy.
+  /// What strains do has neither resultant nor moment. It takes bodies whose wet surface is closed:
+  /// on others this part has a resultant, which the fluid would have to give at the domain's sides.
   template <int dim>
   class TurningStress
   {
@@ -54,11 +58,19 @@ namespace undine
     struct Body
     {
       std::vector<unsigned int> nodes;
+      std::vector<double>       areas;      ///< a_k [m^(dim-1)]
+      Vectors                   arms;       ///< r_k along the principal axes [m]
+      dealii::Tensor<2, dim>    axes;       ///< principal axes of the surface, in rows
+      dealii::Tensor<1, dim>    moments;    ///< sum a r r^T along them [m^(dim+1)]
       double                    volume = 0; ///< [m^dim]
     };
 
+    static Body
+    measure(std::vector<unsigned int>              nodes,
+            const std::vector<dealii::Point<dim>> &positions,
+            const Vectors                         &areas);
+
     std::vector<Body> bodies;
-    Vectors           normals; ///< N_k of all nodes
     double            viscosity = 0;
   };
 } // namespace undine

@@ -85,7 +85,7 @@ namespace
 } // namespace
 
 
-TEST_CASE("Friction on a body knows how heavy the fluid is that it has to move", "[friction][mpi]")
+TEST_CASE("Friction on a body knows how heavy the fluid is that it has to move", "[friction]")
 {
   check_friction<2>();
   check_friction<3>();

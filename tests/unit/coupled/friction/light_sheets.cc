@@ -67,7 +67,7 @@ namespace
     while (run.state.clock.time < .2 - 1e-9)
       {
         run.step();
-        CHECK(run.column("energy closure") <= 5e-9);
+        CHECK(run.column("energy closure") <= 2e-8);
         CHECK(run.column("momentum closure") <= 1e-9);
       }
     return run.column("centre of mass sheet x") - begin;
