@@ -38,9 +38,13 @@ namespace undine
                                     const double                           viscosity)
     : viscosity(viscosity)
   {
-    constexpr double rounding = 1e-9;
-    for (auto &nodes : nodes_of_bodies(surface, n_body_nodes))
+    // A wet surface is closed if its area vectors cancel, and then bounds as much as the body has.
+    constexpr double rounding = 1e-9, same_volume = 1e-3;
+    const auto       volumes  = body_volumes(surface, positions);
+    auto             nodes_of = nodes_of_bodies(surface, n_body_nodes);
+    for (unsigned int b = 0; b < volumes.size(); ++b)
       {
+        auto                  &nodes = nodes_of[b];
         dealii::Tensor<1, dim> sum;
         double                 area = 0;
         for (const unsigned int node : nodes)
@@ -50,7 +54,8 @@ namespace undine
           }
         if (area == 0 || sum.norm() > rounding * area)
           continue;
-        if (auto body = measure(std::move(nodes), positions, areas); body.volume > 0)
+        auto body = measure(std::move(nodes), positions, areas);
+        if (body.volume > 0 && std::abs(body.volume - volumes[b]) <= same_volume * volumes[b])
           bodies.push_back(std::move(body));
       }
   }
@@ -108,7 +113,8 @@ namespace undine
         angular = angular - transpose(angular);
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
-            angular[i][j] /= std::pow(body.moments[i] + body.moments[j], 2);
+            if (i != j)
+              angular[i][j] /= std::pow(body.moments[i] + body.moments[j], 2);
         const double size = 2 * factor * viscosity * body.volume;
         for (std::size_t k = 0; k < body.nodes.size(); ++k)
           forces[body.nodes[k]] -=

@@ -84,13 +84,22 @@ namespace undine
     const auto velocities =
       models.surface->with_bodies(state.solid.velocity, fluid.wall_velocities);
     const auto pressures = geometry.pressure_forces(state.fluid.pressure);
-    double     missing = 0, all = 0;
+    const auto areas     = geometry.uniform_pressure_forces(1);
+    // The level of the pressure, which bodies hardly feel, does not count.
+    double product = 0, square = 0;
+    for (unsigned int node = 0; node < models.surface->n_body_nodes(); ++node)
+      {
+        product += pressures[node] * areas[node];
+        square += areas[node].norm_square();
+      }
+    const double level   = square > 0 ? product / square : 0;
+    double       missing = 0, all = 0;
     for (unsigned int node = 0; node < models.surface->n_body_nodes(); ++node)
       {
         const auto change = velocities[node] - fluid.wall_velocities[node];
         for (unsigned int d = 0; d < dim; ++d)
           missing += fluid.wall_damping[node][d] * std::abs(change[d]);
-        all += last_forces[node].norm() + pressures[node].norm();
+        all += last_forces[node].norm() + (pressures[node] - level * areas[node]).norm();
       }
     last_defect = all > 0 ? missing / all : 0;
   }

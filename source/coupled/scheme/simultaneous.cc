@@ -66,6 +66,11 @@ namespace undine
     {
       if (stage.is_first)
         report.stages_again = 0;
+      if (!stage.keeps_rates() && !models.has_friction())
+        {
+          solve_once(state, stage, report);
+          return;
+        }
       State<dim>            begin         = state;
       const Report          report_before = report;
       const Budget<dim>     budget_before = budget;
@@ -87,7 +92,8 @@ namespace undine
           fluid_side.expect(is_placed ? cut_at : placement.next(cut_at, places));
           if (is_placed)
             {
-              is_corrected            = true;
+              is_corrected = true;
+              placement.forget_places();
               begin.fluid.pressure    = state.fluid.pressure;
               begin.solid.fluid_loads = state.solid.fluid_loads;
             }

@@ -39,7 +39,7 @@ namespace undine
           lowest = by.cells;
           best   = at;
         }
-      if (is_at_limit() || (round == most_rounds && lowest > largest_misplacement))
+      if (round > most_rounds || (round == most_rounds && lowest > largest_misplacement))
         throw SolveError(misplacement_complaint(models, reached, misplacements));
       return false;
     }
@@ -51,11 +51,20 @@ namespace undine
       return round++ < most_rounds ? relaxation.next(at, reached) : best;
     }
 
-    /// Have all rounds been in vain? Then the best place found is taken as it is.
+    /// Have all rounds been in vain? Then a place that is accepted should be taken as it is.
     bool
     is_at_limit() const
     {
-      return round > most_rounds;
+      return round >= most_rounds;
+    }
+
+    /// Where surfaces come to follows from other forces from now on; the rounds still count.
+    void
+    forget_places()
+    {
+      relaxation = {};
+      lowest     = std::numeric_limits<double>::infinity();
+      best.clear();
     }
 
   private:
