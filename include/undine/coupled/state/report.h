@@ -21,10 +21,9 @@ namespace undine
     unsigned int cuts              = 0; ///< how often the asked step was cut and redone
     unsigned int halvings          = 0; ///< of the asked step
     unsigned int rejections        = 0; ///< those of the cuts that the error in time asked for
-    unsigned int stages_again =
-      0; ///< stages solved again: bodies elsewhere or faster than expected
-    double      newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
-    std::string note;                 ///< what the user may want to know; empty if nothing
+    unsigned int stages_again      = 0; ///< solved again: bodies were elsewhere or faster
+    double       newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
+    std::string  note;                 ///< what the user may want to know; empty if nothing
 
     /// Something unusual. Users are told once, as long as each step has one of the same subject.
     struct Warning

@@ -67,7 +67,8 @@ namespace
     while (run.state.clock.time < .2 - 1e-9)
       {
         run.step();
-        CHECK(run.column("energy closure") <= 2e-8);
+        // In the first step from rest energies are so small that the rounding of positions shows.
+        CHECK(run.column("energy closure") <= (run.state.clock.step == 1 ? 1e-8 : 2e-9));
         CHECK(run.column("momentum closure") <= 1e-9);
       }
     return run.column("centre of mass sheet x") - begin;
