@@ -4,6 +4,7 @@
 #include <undine/fluid/implicit_momentum.h>
 #include <undine/fluid/pressure/projection.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -23,14 +24,31 @@ namespace undine
         "Form",
         form,
         "",
-        Allowed::one_of({"along paths", "flux"}),
-        "'along paths': values are brought along the paths of the fluid, by 'Method'; for pictures "
-        "and for steps in which the flow crosses many cells. 'flux': momentum flows through the "
-        "faces between volumes of the grid, centrally and implicitly: it conserves the momentum of "
-        "fluid and bodies, and around obstacles at rest forces are far more accurate and do not "
-        "depend on the step. It smooths nothing: layers thinner than a cell oscillate.");
-      method =
-        options.template choose<Advection<dim>>("Method", "cubic", "How the velocity is advected.");
+        Allowed::one_of({"automatic", "along paths", "flux"}),
+        "'flux': momentum flows through the faces between volumes of the grid, centrally and "
+        "implicitly: it conserves the momentum of fluid and bodies, and forces on what stands in "
+        "the "
+        "flow are far more accurate and hardly depend on the step. It smooths nothing: without "
+        "viscosity, layers thinner than a cell oscillate. 'along paths': values are brought along "
+        "the paths of the fluid, by 'Method', which smooths such layers. 'automatic': 'flux' with "
+        "the effect viscosity if no 'Method' is given, else 'along paths'.");
+      method = options.template choose<Advection<dim>>(
+        "Method", "cubic", "How the velocity is advected along paths.");
+      if (options.is_reference())
+        return;
+      if (form == "automatic" && options.given("Method"))
+        form = "along paths";
+      if (form == "flux" && options.given("Method"))
+        throw options.error("Method",
+                            "is for convection along paths, and the form is 'flux'",
+                            "Remove the key, or set 'Form = along paths'.");
+    }
+
+    void
+    adapt_to(const std::vector<std::string> &effects) override
+    {
+      if (form == "automatic")
+        form = std::count(effects.begin(), effects.end(), "viscosity") > 0 ? "flux" : "along paths";
     }
 
     void
@@ -94,8 +112,9 @@ namespace undine
         }
       if (!projection)
         projection = std::make_unique<Projection<dim>>(step.model);
+      const auto unfitted = flow;
       step.linear_iterations += projection->fit_to_growth(flow, step.motion()->growth, step.end);
-      step.carrying.emplace(step.model, flow, step.end, *step.motion());
+      step.carrying.emplace(step.model, flow, step.end, *step.motion(), unfitted);
     }
 
     /// In flux form: together with friction, by the effect `viscosity`, if there is any.
@@ -171,7 +190,7 @@ namespace undine
       });
     }
 
-    std::string                              form = "along paths";
+    std::string                              form = "automatic";
     std::unique_ptr<Advection<dim>>          method;
     mutable ImplicitMomentum<dim>            momentum;   ///< a cache
     mutable std::unique_ptr<Projection<dim>> projection; ///< the same, for surfaces that move

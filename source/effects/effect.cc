@@ -8,6 +8,13 @@ namespace undine
 {
   template <int dim>
   void
+  Effect<dim>::adapt_to(const std::vector<std::string> &)
+  {
+  }
+
+
+  template <int dim>
+  void
   Effect<dim>::check(const Options &, const Surroundings &) const
   {
   }
@@ -127,6 +134,8 @@ namespace undine
         effects.back()->name = name;
         section.section(name).attempt([&] { effects.back()->add_options(section.section(name)); });
       }
+    for (const auto &effect : effects)
+      effect->adapt_to(names);
     return effects;
   }
 

@@ -24,6 +24,40 @@ namespace undine
     }
 
 
+    /// No value is prescribed, and none enters.
+    template <int dim>
+    class PressureCondition : public BoundaryCondition<dim>
+    {
+    public:
+      bool
+      is_dirichlet(const Boundary<dim> &) const override
+      {
+        return false;
+      }
+
+      double
+      dirichlet_value(const Boundary<dim> &,
+                      const unsigned int,
+                      const dealii::Point<dim> &,
+                      const double) const override
+      {
+        return 0;
+      }
+
+      double
+      entering_value(const dealii::Point<dim> &, const double) const override
+      {
+        return 0;
+      }
+
+      bool
+      obeys_maximum_principle() const override
+      {
+        return true;
+      }
+    };
+
+
     /// The flow in the middle of the stage.
     template <int dim>
     Velocity<dim>
@@ -93,7 +127,7 @@ namespace undine
   {
     const auto &now = tracer.bodies().topology;
     if (state.pressure.topology() != now)
-      state.pressure = moved_to(state.pressure, now);
+      state.pressure = remapped(tracer, state.pressure, PressureCondition<dim>());
     // Stages that keep rates have advected accelerations as part of velocities.
     if (stage.keeps_rates() || state.acceleration[0].topology() == now)
       return;
@@ -164,8 +198,12 @@ namespace undine
   void
   FluidStage<dim>::move_dual_volumes(const Velocity<dim> &velocity)
   {
-    const MovedDualVolumes<dim> volumes(
-      model.grid(), velocity[0].topology(), tracer.bodies().topology, state.volume_rates, stage);
+    const MovedDualVolumes<dim> volumes(model.grid(),
+                                        velocity[0].topology(),
+                                        tracer.bodies().topology,
+                                        tracer.vicinity(),
+                                        state.volume_rates,
+                                        stage);
     volumes.move_to_start(state.velocity, velocity, state.acceleration);
     if (stage.keeps_rates())
       {

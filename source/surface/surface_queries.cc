@@ -248,6 +248,43 @@ namespace undine
   }
 
 
+  /// By the point of the facets that have passed over the place which was nearest to it before.
+  template <int dim>
+  dealii::Point<dim>
+  SurfaceQueries<dim>::carried(const dealii::Point<dim> &place) const
+  {
+    auto   result = place;
+    double least  = std::numeric_limits<double>::infinity(); // square of the distance
+    if (trees->swept.empty())
+      return result;
+    const auto consider = [&](const unsigned int facet, const dealii::Point<dim> &image) {
+      if (!passes_over(facet, image))
+        return;
+      const auto             before = moved.old_nodes(facet), now = moved.nodes(facet);
+      const auto             coordinates = nearest_point(before, image);
+      dealii::Point<dim>     nearest;
+      dealii::Tensor<1, dim> motion;
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          nearest += coordinates[k] * before[k];
+          motion += coordinates[k] * (now[k] - before[k]);
+        }
+      const double square = nearest.distance_square(image);
+      if (square >= least)
+        return;
+      least  = square;
+      result = place + motion;
+    };
+    for_each_image<dim>(
+      place, place, trees->swept_box, periods, thickness, [&](const auto &image, const auto &) {
+        for_each_near(trees->swept, box_around(image, thickness), [&](const unsigned int facet) {
+          consider(facet, image);
+        });
+      });
+    return result;
+  }
+
+
   template <int dim>
   void
   SurfaceQueries<dim>::for_each_freshly_cleared(

@@ -32,7 +32,7 @@ SEES = {
     "fluid/model": BASE | {"fluid/grid", "fluid/boundary"},
     "fluid/visibility": BASE | {"fluid/grid"},
     "fluid/advection": BASE | {"fluid/grid", "fluid/boundary", "fluid/model", "fluid/visibility"},
-    "fluid/convection": BASE | {"fluid/grid", "fluid/boundary", "fluid/model"},
+    "fluid/convection": BASE | {"fluid/grid", "fluid/boundary", "fluid/model", "fluid/visibility"},
     "fluid/viscosity": BASE | {"fluid/grid", "fluid/boundary", "fluid/model", "fluid/convection"},
     "fluid/pressure": BASE | {"fluid/grid", "fluid/boundary", "fluid/model"},
     "fluid": BASE | {"fluid/grid", "fluid/boundary", "fluid/model", "fluid/advection", "fluid/convection",

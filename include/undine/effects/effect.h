@@ -42,6 +42,11 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
+    /// Choose what the scene leaves to the program, given the names of all effects that it calls
+    /// for.
+    virtual void
+    adapt_to(const std::vector<std::string> &effects);
+
     /// Throws InputError, with a hint, if the effect contradicts the rest of the scene.
     virtual void
     check(const Options &options, const Surroundings &surroundings) const;

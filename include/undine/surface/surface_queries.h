@@ -59,6 +59,9 @@ namespace undine
     bool
     is_freshly_cleared(const dealii::Point<dim> &place) const override;
 
+    dealii::Point<dim>
+    carried(const dealii::Point<dim> &place) const override;
+
     void
     for_each_freshly_cleared(
       const Lattice<dim>                                &lattice,

@@ -131,12 +131,16 @@ namespace undine
       return {};
     using Kind = typename SubLattice<dim>::Kind;
     if (!before || before->kind(part.index) == Kind::whole)
-      return is_whole ? std::nullopt : std::optional<double>(source(part.index));
+      return is_whole || tracer.vicinity().parts(lattice.point(part.index), part.place)
+               ? std::nullopt
+               : std::optional<double>(source(part.index));
     if (before->kind(part.index) == Kind::closed || !only_one(*before))
       return {};
     const int    number = before->first(part.index);
     const double then   = before->all()[number].measure;
-    if (then + part.measure <= size * (1 + rounding) || (is_whole && then > size * (1 - rounding)))
+    if (then + part.measure <= size * (1 + rounding) ||
+        (is_whole && then > size * (1 - rounding)) ||
+        tracer.vicinity().parts(before->all()[number].place, part.place))
       return {};
     return source.parts()[number];
   }

@@ -25,11 +25,14 @@ namespace undine
   DualFluxes<dim>::DualFluxes(const FluidModel<dim> &model,
                               const Velocity<dim>   &flow,
                               const double           time,
-                              const Motion          &motion_)
+                              const Motion          &motion_,
+                              const Velocity<dim>   &unfitted_)
     : DualFluxes(model, flow, time)
   {
     motion.emplace(motion_);
     exchange(motion->start);
+    unfitted = unfitted_;
+    exchange(unfitted);
   }
 
 
@@ -216,10 +219,18 @@ namespace undine
             if (entering <= 0)
               return;
             if (d == axis)
-              action(place, entering, value_at(flow[d], place));
-            else
-              for (const auto &one : shares(beside(d, place, 1 - end), axis))
-                action(one.place, one.share * entering, entering_velocity(boundary, d, face, axis));
+              {
+                action(place, entering, value_at((motion ? unfitted : flow)[d], place));
+                return;
+              }
+            const double brought = entering_velocity(boundary, d, face, axis);
+            const double genuine = boundary.is_open() ? genuine_share(d, place, entering) : 1;
+            for (const auto &one : shares(beside(d, place, 1 - end), axis))
+              action(one.place,
+                     one.share * entering,
+                     genuine < 1 ? genuine * brought +
+                                     (1 - genuine) * value_at(motion->start[axis], one.place)
+                                 : brought);
           });
         });
   }
@@ -238,6 +249,21 @@ namespace undine
     return condition.is_dirichlet(boundary)
              ? condition.dirichlet_value(boundary, d, grid.faces(d)->point(face), time)
              : 0;
+  }
+
+
+  /// Of what enters, `entering` [m^dim/s]: what does so by the flow itself.
+  template <int dim>
+  double
+  DualFluxes<dim>::genuine_share(const unsigned int    d,
+                                 const FacePlace<dim> &place,
+                                 const double          entering) const
+  {
+    if (!motion)
+      return 1;
+    const double itself =
+      (place.face[d] == 0 ? 1 : -1) * area(d, place) * value_at(unfitted[d], place);
+    return std::clamp(itself / entering, 0., 1.);
   }
 
 

@@ -31,10 +31,12 @@ namespace undine
   template <int dim>
   DualTransfer<dim>::DualTransfer(const MacGrid<dim>                              &grid,
                                   const std::shared_ptr<const FluidTopology<dim>> &topology_before,
-                                  const std::shared_ptr<const FluidTopology<dim>> &topology_now)
+                                  const std::shared_ptr<const FluidTopology<dim>> &topology_now,
+                                  const BodyVicinity<dim>                         &vicinity)
     : grid(grid)
     , before(dual_halves(grid, topology_before))
     , now(dual_halves(grid, topology_now))
+    , vicinity(vicinity)
   {
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
@@ -75,53 +77,60 @@ namespace undine
   FacePlace<dim>
   DualTransfer<dim>::successor(const unsigned int axis, const FacePlace<dim> &place) const
   {
+    using Place       = typename BodyVicinity<dim>::Place;
     const auto places = [&](const SubLattice<dim> *divided) {
-      std::vector<std::pair<FacePlace<dim>, dealii::Point<dim>>> result;
+      std::vector<std::pair<FacePlace<dim>, Place>> result;
       for_each_place(divided, place.face, [&](const FacePlace<dim> &one) {
-        result.emplace_back(
-          one, one.part < 0 ? grid.faces(axis)->point(one.face) : divided->all()[one.part].place);
+        result.emplace_back(one,
+                            vicinity.place(one.part < 0 ? grid.faces(axis)->point(one.face)
+                                                        : divided->all()[one.part].place));
       });
       return result;
     };
     auto old_places = places(before[0][axis].divided()),
          new_places = places(now[0][axis].divided());
-    while (!old_places.empty() && !new_places.empty())
+    while (true)
       {
         std::size_t i = 0, j = 0;
         double      nearest = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < old_places.size(); ++k)
           for (std::size_t l = 0; l < new_places.size(); ++l)
-            if (const double distance = old_places[k].second.distance(new_places[l].second);
-                distance < nearest)
+            if (const double distance =
+                  old_places[k].second.point.distance(new_places[l].second.point);
+                distance < nearest && vicinity.leads_to(old_places[k].second, new_places[l].second))
               {
                 nearest = distance;
                 i       = k;
                 j       = l;
               }
+        if (nearest == std::numeric_limits<double>::infinity())
+          return {place.face, none};
         if (old_places[i].first.part == place.part)
           return new_places[j].first;
         old_places.erase(old_places.begin() + i);
         new_places.erase(new_places.begin() + j);
       }
-    return {place.face, none};
   }
 
 
-  /// The nearest one of a cell now that has places along the axis; -1 if the cell is whole.
+  /// The nearest one of a cell now, on the same side of the surfaces, that has places along the
+  /// axis; -1 if the cell is whole.
   template <int dim>
   int
-  DualTransfer<dim>::component_for(const unsigned int        axis,
-                                   const GridIndex<dim>     &cell,
-                                   const dealii::Point<dim> &near) const
+  DualTransfer<dim>::component_for(const unsigned int                       axis,
+                                   const GridIndex<dim>                    &cell,
+                                   const typename BodyVicinity<dim>::Place &from) const
   {
     const auto *divided = around[axis].divided();
     if (is_whole(divided, cell))
-      return -1;
+      return vicinity.leads_to(from, vicinity.place(grid.cells()->point(cell))) ? -1 : none;
     int    result  = none;
     double nearest = std::numeric_limits<double>::infinity();
     for_each_part(*divided, cell, [&](const int component) {
-      const double distance = divided->all()[component].place.distance(near);
-      if (around[axis].parts()[component] > 0 && distance < nearest)
+      const auto  &place    = divided->all()[component].place;
+      const double distance = place.distance(from.point);
+      if (around[axis].parts()[component] > 0 && distance < nearest &&
+          vicinity.leads_to(from, vicinity.place(place)))
         {
           nearest = distance;
           result  = component;
@@ -148,36 +157,13 @@ namespace undine
   }
 
 
-  /// What stays goes to `result`, the rest is the `excess` of cells and their components, and what
-  /// finds none is `passed_on` to the cells below and above.
+  /// What stays goes to where its place is now.
   template <int dim>
   void
-  DualTransfer<dim>::collect(Field<dim>        &excess,
-                             Halves            &passed_on,
-                             Halves            &result,
-                             const unsigned int axis,
-                             const Amounts     &amounts) const
+  DualTransfer<dim>::stay(Halves &result, const unsigned int axis, const Amounts &amounts) const
   {
-    const auto *then = before[0][axis].divided();
-    for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-      for (const unsigned int end : {0, 1})
-        {
-          const auto face = moved<dim>(cell, axis, 1 - end);
-          for_each_place(then, face, [&](const FacePlace<dim> &place) {
-            double leaving = value_at(amounts.leaving[end], place);
-            if (!is_uncut(axis, face) && successor(axis, place).part == none)
-              leaving += value_at(amounts.staying[end], place);
-            if (leaving == 0)
-              return;
-            const int component = component_for(axis, cell, centre_before(axis, place, end));
-            // The cell beyond the face.
-            (component != none ? value_at(excess, cell, component) : passed_on[1 - end](cell)) +=
-              leaving;
-          });
-        }
-    });
     for_each(grid.faces(axis)->owned(), [&](const GridIndex<dim> &face) {
-      for_each_place(then, face, [&](const FacePlace<dim> &place) {
+      for_each_place(before[0][axis].divided(), face, [&](const FacePlace<dim> &place) {
         const auto to = is_uncut(axis, face) ? place : successor(axis, place);
         for (const unsigned int end : {0, 1})
           if (to.part != none)
@@ -187,23 +173,36 @@ namespace undine
   }
 
 
-  /// By the cells to which it was passed on.
+  /// What does not stay is the `excess` of cells and their components: where it was, or else beyond
+  /// the face.
   template <int dim>
   void
-  DualTransfer<dim>::take_over(Field<dim>        &excess,
-                               const Halves      &passed_on,
-                               const unsigned int axis) const
+  DualTransfer<dim>::collect(Field<dim>        &excess,
+                             const unsigned int axis,
+                             const Amounts     &amounts) const
   {
     for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-      for (const unsigned int to : {0, 1})
-        {
-          const auto from = moved<dim>(cell, axis, to == 0 ? 1 : -1);
-          if (!passed_on[to].stored().contains(from) || passed_on[to](from) == 0)
-            continue;
-          const int component = component_for(axis, cell, grid.cells()->point(from));
-          if (component != none)
-            value_at(excess, cell, component) += passed_on[to](from);
-        }
+      for (const int end : {0, 1})
+        for (const bool was_here : {true, false})
+          {
+            const auto face = moved<dim>(cell, axis, was_here ? 1 - end : end);
+            const auto home = was_here ? cell : moved<dim>(cell, axis, 2 * end - 1);
+            if (!was_here && grid.at_boundary(axis, face))
+              continue;
+            for_each_place(before[0][axis].divided(), face, [&](const FacePlace<dim> &place) {
+              double leaving = value_at(amounts.leaving[end], place);
+              if (!is_uncut(axis, face) && successor(axis, place).part == none)
+                leaving += value_at(amounts.staying[end], place);
+              if (leaving == 0)
+                return;
+              const auto from = vicinity.place(centre_before(axis, place, end));
+              if (!was_here && component_for(axis, home, from) != none)
+                return;
+              const int component = component_for(axis, cell, from);
+              if (component != none)
+                value_at(excess, cell, component) += leaving;
+            });
+          }
     });
   }
 
@@ -238,7 +237,7 @@ namespace undine
     const std::function<Amount(const FacePlace<dim> &, const unsigned int)> &amount) const
   {
     Amounts amounts;
-    Halves  result, passed_on;
+    Halves  result;
     for (const unsigned int end : {0, 1})
       {
         auto &staying = amounts.staying[end] =
@@ -253,14 +252,11 @@ namespace undine
         });
         staying.exchange(1);
         leaving.exchange(1);
-        result[end]    = Field<dim>(grid.faces(axis), now[end][axis].topology());
-        passed_on[end] = Field<dim>(grid.cells());
+        result[end] = Field<dim>(grid.faces(axis), now[end][axis].topology());
       }
     Field<dim> excess(grid.cells(), now[0][axis].topology());
-    collect(excess, passed_on, result, axis, amounts);
-    for (auto &field : passed_on)
-      field.exchange(1);
-    take_over(excess, passed_on, axis);
+    stay(result, axis, amounts);
+    collect(excess, axis, amounts);
     excess.exchange(1);
     distribute(result, excess, axis);
     for (auto &half : result)

@@ -32,9 +32,10 @@ namespace undine
   MovedDualVolumes<dim>::MovedDualVolumes(const MacGrid<dim>                              &grid,
                                           const std::shared_ptr<const FluidTopology<dim>> &before,
                                           const std::shared_ptr<const FluidTopology<dim>> &now,
+                                          const BodyVicinity<dim>                         &vicinity,
                                           const DualVolumeRates<dim>                      &kept,
                                           const Stage                                     &stage)
-    : transfer(grid, before, now)
+    : transfer(grid, before, now, vicinity)
     , kept(kept)
     , stage(stage)
   {

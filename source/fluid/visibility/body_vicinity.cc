@@ -223,6 +223,23 @@ namespace undine
 
 
   template <int dim>
+  bool
+  BodyVicinity<dim>::leads_to(const Place &before, const Place &now) const
+  {
+    return surfaces == nullptr || !is_hidden(place(surfaces->carried(before.point)), now);
+  }
+
+
+  template <int dim>
+  bool
+  BodyVicinity<dim>::parts(const dealii::Point<dim> &before, const dealii::Point<dim> &now) const
+  {
+    return surfaces != nullptr && surfaces->is_freshly_cleared(before) &&
+           surfaces->is_freshly_cleared(now) && !leads_to(place(before), place(now));
+  }
+
+
+  template <int dim>
   double
   BodyVicinity<dim>::first_hit(const Place &from, const Place &to) const
   {

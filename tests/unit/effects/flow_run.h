@@ -39,6 +39,14 @@ namespace undine_tests
   }
 
 
+  /// "flux", or along paths by this method.
+  inline std::string
+  convection_by(const std::string &method)
+  {
+    return method == "flux" ? flux_form() : convection(method);
+  }
+
+
   /// A fluid with effects, without bodies: the phases of a step in their order.
   template <int dim>
   struct FlowRun

@@ -84,8 +84,8 @@ namespace undine
     /// The value before the last motion of bodies of what has certainly been the same sub-cell or
     /// sub-face as `part`: both are the only ones of their point, and together they are larger than
     /// the point, so that they overlap. Whether surfaces hide the centroid of one from that of the
-    /// other does not matter then: a centroid may lie in a body. Nothing if both are whole, since a
-    /// thin body may have passed between.
+    /// other does not matter then: a centroid may lie in a body. Nothing if both are whole or a
+    /// surface has passed over both centroids, since a thin body may have passed between.
     std::optional<double>
     value_before(const typename SubLattice<dim>::Part &part) const;
 

@@ -35,17 +35,19 @@ namespace undine
     DualFluxes(const FluidModel<dim> &model, const Velocity<dim> &flow, double time);
 
     /// As surfaces move (F15): the rates of dual volumes, and of components and cells [m^dim/s],
-    /// which `flow` must fit, and v^0 [m/s].
+    /// which the flow must fit, and v^0 [m/s].
     struct Motion
     {
       DualHalves<dim> rates;
       Field<dim>      growth;
       Velocity<dim>   start;
     };
+    /// `flow` has been made to fit the rates, `unfitted` is the flow before that [m/s].
     DualFluxes(const FluidModel<dim> &model,
                const Velocity<dim>   &flow,
                double                 time,
-               const Motion          &motion);
+               const Motion          &motion,
+               const Velocity<dim>   &unfitted);
 
     /// action(from, to, volume rate from `from` to `to` [m^dim/s]), each on one rank only, for the
     /// same places as long as the topology is the same. Places are owned, or next to owned ones.
@@ -57,7 +59,8 @@ namespace undine
     /// action(place, volume rate that enters it through a side of the domain [m^dim/s], velocity
     /// along the axis that it brings [m/s]) unless the place itself has a given velocity. What
     /// enters through an opening does so at right angles, as fast as the flow. (If it brought the
-    /// velocity that it finds, convection would feed on itself there.)
+    /// velocity that it finds, convection would feed on itself there.) What only enters to fit the
+    /// rates of dual volumes brings v^0.
     using Entering = std::function<void(const FacePlace<dim> &, const double, const double)>;
     void
     for_each_entering(const unsigned int axis, const Entering &action) const;
@@ -114,6 +117,8 @@ namespace undine
                       unsigned int          d,
                       const GridIndex<dim> &face,
                       unsigned int          axis) const;
+    double
+    genuine_share(unsigned int d, const FacePlace<dim> &place, double entering) const;
     void
     within(const Shares &shares, unsigned int axis, const Between &action) const;
     void
@@ -126,7 +131,8 @@ namespace undine
     const MacGrid<dim>    &grid;
     Velocity<dim>          flow;
     const double           time;
-    std::optional<Motion>  motion; ///< none: nothing moves
+    std::optional<Motion>  motion;   ///< none: nothing moves
+    Velocity<dim>          unfitted; ///< if anything moves
     /// Pieces of faces around each component, [axis][component][end].
     std::array<std::vector<std::array<std::vector<int>, 2>>, dim> pieces;
   };

@@ -5,6 +5,7 @@
 #include <undine/fluid/grid/face_place.h>
 #include <undine/fluid/grid/fluid_state.h>
 #include <undine/fluid/grid/mac_grid.h>
+#include <undine/fluid/visibility/body_vicinity.h>
 
 #include <functional>
 #include <memory>
@@ -12,10 +13,11 @@
 namespace undine
 {
   /// Brings what the halves of dual volumes hold from one topology of the fluid to another one,
-  /// while surfaces have moved. Each half goes to the same face, and to the nearest piece of it, as
-  /// long as there is one. What finds none, or is to leave its place, goes to all places of its
-  /// component, in proportion to their volumes, or to those beyond the face. Nothing is lost but
-  /// what finds no place in the next cell either.
+  /// while surfaces have moved. Each half goes to the same face, and to the nearest piece of it on
+  /// the same side of the surfaces, as long as there is one. What finds none, or is to leave its
+  /// place, goes to all places of its component, in proportion to their volumes, or to those beyond
+  /// the face. Nothing crosses a surface, however thin a body is, and nothing is lost but what
+  /// finds no place in the next cell either.
   template <int dim>
   class DualTransfer
   {
@@ -23,10 +25,11 @@ namespace undine
     /// Of the faces normal to one axis: below and above them.
     using Halves = std::array<Field<dim>, 2>;
 
-    /// Collective.
+    /// `vicinity` knows how surfaces have moved, and must outlive this. Collective.
     DualTransfer(const MacGrid<dim>                              &grid,
                  const std::shared_ptr<const FluidTopology<dim>> &before,
-                 const std::shared_ptr<const FluidTopology<dim>> &now);
+                 const std::shared_ptr<const FluidTopology<dim>> &now,
+                 const BodyVicinity<dim>                         &vicinity);
 
     /// What a half holds.
     struct Amount
@@ -62,25 +65,23 @@ namespace undine
     };
 
     void
-    collect(Field<dim>        &excess,
-            Halves            &passed_on,
-            Halves            &result,
-            const unsigned int axis,
-            const Amounts     &amounts) const;
+    stay(Halves &result, const unsigned int axis, const Amounts &amounts) const;
     void
-    take_over(Field<dim> &excess, const Halves &passed_on, const unsigned int axis) const;
+    collect(Field<dim> &excess, const unsigned int axis, const Amounts &amounts) const;
     void
     distribute(Halves &result, const Field<dim> &excess, const unsigned int axis) const;
     FacePlace<dim>
     successor(const unsigned int axis, const FacePlace<dim> &place) const;
     int
-    component_for(const unsigned int        axis,
-                  const GridIndex<dim>     &cell,
-                  const dealii::Point<dim> &near) const;
+    component_for(const unsigned int                       axis,
+                  const GridIndex<dim>                    &cell,
+                  const typename BodyVicinity<dim>::Place &from) const;
     dealii::Point<dim>
     centre_before(const unsigned int    axis,
                   const FacePlace<dim> &place,
                   const unsigned int    end) const;
+
+    const BodyVicinity<dim> &vicinity;
   };
 } // namespace undine
 

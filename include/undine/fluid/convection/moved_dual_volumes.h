@@ -20,10 +20,12 @@ namespace undine
   class MovedDualVolumes
   {
   public:
-    /// `kept`: of the stage before, on the topology `before`; it must outlive this. Collective.
+    /// `vicinity` knows how surfaces have moved; `kept`: of the stage before, on the topology
+    /// `before`. Both must outlive this. Collective.
     MovedDualVolumes(const MacGrid<dim>                              &grid,
                      const std::shared_ptr<const FluidTopology<dim>> &before,
                      const std::shared_ptr<const FluidTopology<dim>> &now,
+                     const BodyVicinity<dim>                         &vicinity,
                      const DualVolumeRates<dim>                      &kept,
                      const Stage                                     &stage);
 

@@ -79,6 +79,16 @@ namespace undine
     double
     first_hit(const Place &from, const Place &to) const;
 
+    /// Is what was at `before` on the same side of the surfaces as `now`? See
+    /// Obstruction::carried().
+    bool
+    leads_to(const Place &before, const Place &now) const;
+
+    /// Has a surface passed over both places in its last motion, and left what was at `before` on
+    /// another side than `now`?
+    bool
+    parts(const dealii::Point<dim> &before, const dealii::Point<dim> &now) const;
+
   private:
     void
     mark_freshly_cleared_cells();

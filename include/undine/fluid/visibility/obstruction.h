@@ -110,6 +110,11 @@ namespace undine
     virtual bool
     is_freshly_cleared(const dealii::Point<dim> &place) const = 0;
 
+    /// Where the last motion has taken what was at `place`: along with the surface that has swept
+    /// it, to the same side of it, or nowhere.
+    virtual dealii::Point<dim>
+    carried(const dealii::Point<dim> &place) const = 0;
+
     /// Call `action` for all points of a lattice, boundary points and images included, that are in
     /// `box` and freshly cleared; for some more than once.
     virtual void

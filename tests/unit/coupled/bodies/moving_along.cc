@@ -11,16 +11,17 @@ namespace
   void
   check_moving_along(const UniformStream<dim> &stream,
                      const std::string        &scheme,
-                     const std::string        &shape)
+                     const std::string        &shape,
+                     const std::string        &form)
   {
-    INFO(dim << "D, " << scheme << ", " << shape);
+    INFO(dim << "D, " << scheme << ", " << shape << ", " << form);
     CoupledRun<dim> run("set Scheme = " + scheme + "\n" + steps_of(stream.dt) + stream.fluid() +
                         section("Bodies",
                                 body("thing",
                                      shape + "\nset Initial velocity = " + stream.vector() +
                                        "\nset Density = 300\nset Young's modulus = 1e5\nset "
                                        "Poisson's ratio = 0.3")) +
-                        section("Effects", convection()));
+                        section("Effects", form));
     const double    speed = stream.velocity.norm();
     for (unsigned int n = 0; n < 6; ++n)
       {
@@ -45,8 +46,9 @@ namespace
   void
   check_schemes(const std::string &shape)
   {
-    for (const std::string scheme : {"simultaneous", "time_splitting"})
-      check_moving_along(UniformStream<dim>({{.7, .2, .1}}, .05).through(), scheme, shape);
+    for (const auto &form : {convection(), flux_form()})
+      for (const std::string scheme : {"simultaneous", "time_splitting"})
+        check_moving_along(UniformStream<dim>({{.7, .2, .1}}, .05).through(), scheme, shape, form);
   }
 } // namespace
 

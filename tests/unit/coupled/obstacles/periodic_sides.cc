@@ -10,18 +10,23 @@ namespace
   void
   check_travels(const UniformStream<dim> &stream)
   {
-    check_translation(
-      stream,
-      "ball",
-      plane_or_space<dim>("set Centre = .24, .3\nset Radius = .2\nset Refinements = 3",
-                          "set Centre = .24, .3, .3\nset Radius = .2\nset Refinements = 2"));
-    check_translation(
-      stream,
-      "box",
-      plane_or_space<dim>(
-        "set Centre = .22, .5\nset Size = .001, .4\nset Rotation = 23\nset Cells = 1, 3",
-        "set Centre = .22, .5, .5\nset Size = .001, .4, .4\nset Rotation = 10, 20, "
-        "30\nset Cells = 1, 2, 2"));
+    for (const auto &form : {convection(), flux_form()})
+      {
+        check_translation(
+          stream,
+          "ball",
+          plane_or_space<dim>("set Centre = .24, .3\nset Radius = .2\nset Refinements = 3",
+                              "set Centre = .24, .3, .3\nset Radius = .2\nset Refinements = 2"),
+          form);
+        check_translation(
+          stream,
+          "box",
+          plane_or_space<dim>(
+            "set Centre = .22, .5\nset Size = .001, .4\nset Rotation = 23\nset Cells = 1, 3",
+            "set Centre = .22, .5, .5\nset Size = .001, .4, .4\nset Rotation = 10, 20, "
+            "30\nset Cells = 1, 2, 2"),
+          form);
+      }
   }
 
 
@@ -30,11 +35,13 @@ namespace
   void
   check_long_box(const std::array<double, 3> &velocity, const std::string &sides)
   {
-    check_translation(
-      UniformStream<dim>(velocity, .1).around(sides),
-      "box",
-      plane_or_space<dim>("set Lower corner = .01, .3\nset Upper corner = 1.96, .7",
-                          "set Lower corner = .01, .3, .02\nset Upper corner = 1.96, .7, .97"));
+    for (const auto &form : {convection(), flux_form()})
+      check_translation(
+        UniformStream<dim>(velocity, .1).around(sides),
+        "box",
+        plane_or_space<dim>("set Lower corner = .01, .3\nset Upper corner = 1.96, .7",
+                            "set Lower corner = .01, .3, .02\nset Upper corner = 1.96, .7, .97"),
+        form);
   }
 
 
