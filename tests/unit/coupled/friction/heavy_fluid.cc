@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <coupled/coupled_run.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace undine_tests;
@@ -45,13 +46,14 @@ namespace
 
   struct Result
   {
-    double friction     = 0; ///< along y, at the end [N]
+    double friction     = 0; ///< along y, mean over the last third [N]
+    double pressure     = 0; ///< the same of the pressure's force
     double solved_again = 0; ///< stages
   };
 
   template <int dim>
   Result
-  after_a_tenth_of_a_second(const double dt, const double tolerance)
+  within_a_tenth_of_a_second(const double dt, const double tolerance)
   {
     auto   run = swinging_plate<dim>(dt, tolerance);
     Result result;
@@ -59,8 +61,11 @@ namespace
       {
         run.step();
         result.solved_again += run.column("Stages solved again");
+        if (run.state.clock.time < .2 / 3 + 1e-9)
+          continue;
+        result.friction += run.column("viscous force plate y") * dt * 30;
+        result.pressure += run.column("pressure force plate y") * dt * 30;
       }
-    result.friction = run.column("viscous force plate y");
     return result;
   }
 
@@ -69,17 +74,20 @@ namespace
   void
   check_friction()
   {
-    const auto exact = after_a_tenth_of_a_second<dim>(1. / 480, 0);
+    const auto exact = within_a_tenth_of_a_second<dim>(1. / 480, 0);
     for (const double dt : {1. / 60, 1. / 120})
       {
-        const auto once  = after_a_tenth_of_a_second<dim>(dt, 1e9);
-        const auto twice = after_a_tenth_of_a_second<dim>(dt, 0);
+        const auto once  = within_a_tenth_of_a_second<dim>(dt, 1e9);
+        const auto twice = within_a_tenth_of_a_second<dim>(dt, 0);
         INFO(dim << "D, " << dt << " s: " << once.friction << " " << twice.friction << ", "
                  << exact.friction << " N; " << once.solved_again << " " << twice.solved_again
                  << " stages again");
         CHECK(once.solved_again < twice.solved_again);
-        CHECK(std::abs(twice.friction - exact.friction) <=
-              std::abs(once.friction - exact.friction) / 5);
+        // Friction fluctuates by some ten-thousandths of the pressure's force as the plate moves.
+        const double noise = 5e-4 * exact.pressure;
+        const auto error = [&](const Result &of) { return std::abs(of.friction - exact.friction); };
+        CHECK(error(twice) <= std::max(error(once) / 5, noise));
+        CHECK(error(once) <= 10 * noise);
       }
   }
 } // namespace
