@@ -27,11 +27,12 @@ namespace undine
         Allowed::one_of({"automatic", "along paths", "flux"}),
         "'flux': momentum flows through the faces between volumes of the grid, centrally and "
         "implicitly: it conserves the momentum of fluid and bodies, and forces on what stands in "
-        "the "
-        "flow are far more accurate and hardly depend on the step. It smooths nothing: without "
+        "it "
+        "are far more accurate and hardly depend on the step. It smooths nothing: without "
         "viscosity, layers thinner than a cell oscillate. 'along paths': values are brought along "
         "the paths of the fluid, by 'Method', which smooths such layers. 'automatic': 'flux' with "
-        "the effect viscosity if no 'Method' is given, else 'along paths'.");
+        "the effect viscosity, if no 'Method' is given and there is no vorticity confinement, else "
+        "'along paths'.");
       method = options.template choose<Advection<dim>>(
         "Method", "cubic", "How the velocity is advected along paths.");
       if (options.is_reference())
@@ -48,7 +49,9 @@ namespace undine
     adapt_to(const std::vector<std::string> &effects) override
     {
       if (form == "automatic")
-        form = std::count(effects.begin(), effects.end(), "viscosity") > 0 ? "flux" : "along paths";
+        form = is_among(effects, "viscosity") && !is_among(effects, "vorticity confinement")
+                 ? "flux"
+                 : "along paths";
     }
 
     void
@@ -58,6 +61,10 @@ namespace undine
         throw options.error("",
                             "convection acts on a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
+      if (has_flux_form() && is_among(around.effects, "vorticity confinement"))
+        throw options.error("Form",
+                            "'flux' smooths nothing that vorticity confinement could make good",
+                            "Set 'Form = along paths', or remove 'vorticity confinement'.");
     }
 
     std::string
@@ -138,6 +145,12 @@ namespace undine
     }
 
   private:
+    static bool
+    is_among(const std::vector<std::string> &effects, const std::string &name)
+    {
+      return std::count(effects.begin(), effects.end(), name) > 0;
+    }
+
     bool
     has_flux_form() const
     {

@@ -24,40 +24,6 @@ namespace undine
     }
 
 
-    /// No value is prescribed, and none enters.
-    template <int dim>
-    class PressureCondition : public BoundaryCondition<dim>
-    {
-    public:
-      bool
-      is_dirichlet(const Boundary<dim> &) const override
-      {
-        return false;
-      }
-
-      double
-      dirichlet_value(const Boundary<dim> &,
-                      const unsigned int,
-                      const dealii::Point<dim> &,
-                      const double) const override
-      {
-        return 0;
-      }
-
-      double
-      entering_value(const dealii::Point<dim> &, const double) const override
-      {
-        return 0;
-      }
-
-      bool
-      obeys_maximum_principle() const override
-      {
-        return true;
-      }
-    };
-
-
     /// The flow in the middle of the stage.
     template <int dim>
     Velocity<dim>
@@ -127,7 +93,10 @@ namespace undine
   {
     const auto &now = tracer.bodies().topology;
     if (state.pressure.topology() != now)
-      state.pressure = remapped(tracer, state.pressure, PressureCondition<dim>());
+      {
+        pressure_before = state.pressure;
+        state.pressure  = moved_to(state.pressure, now);
+      }
     // Stages that keep rates have advected accelerations as part of velocities.
     if (stage.keeps_rates() || state.acceleration[0].topology() == now)
       return;

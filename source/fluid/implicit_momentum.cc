@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/advection/remap.h>
 #include <undine/fluid/boundary/boundary_quantities.h>
 #include <undine/fluid/grid/field_algebra.h>
 #include <undine/fluid/implicit_momentum.h>
@@ -107,7 +108,10 @@ namespace undine
                                const Action      &use_w)
   {
     auto &velocity = step.state.velocity;
-    auto  pressure = step.state.pressure;
+    // Friction must not see the pressure of the other side of a thin body that has moved.
+    if (step.pressure_before)
+      step.state.pressure = remapped(step.tracer, *step.pressure_before, PressureCondition<dim>());
+    auto pressure = step.state.pressure;
     pressure.exchange(1);
     const auto gradient = pressure_acceleration(
       step.model,

@@ -253,8 +253,8 @@ namespace undine
   dealii::Point<dim>
   SurfaceQueries<dim>::carried(const dealii::Point<dim> &place) const
   {
-    auto   result = place;
-    double least  = std::numeric_limits<double>::infinity(); // square of the distance
+    auto   result = place, surface = place; // carried along, and its nearest point of the surface
+    double least = std::numeric_limits<double>::infinity(); // square of the distance
     if (trees->swept.empty())
       return result;
     const auto consider = [&](const unsigned int facet, const dealii::Point<dim> &image) {
@@ -272,8 +272,9 @@ namespace undine
       const double square = nearest.distance_square(image);
       if (square >= least)
         return;
-      least  = square;
-      result = place + motion;
+      least   = square;
+      result  = place + motion;
+      surface = result + (nearest - image);
     };
     for_each_image<dim>(
       place, place, trees->swept_box, periods, thickness, [&](const auto &image, const auto &) {
@@ -281,6 +282,12 @@ namespace undine
           consider(facet, image);
         });
       });
+    // In a gap that closes it stays before the other side.
+    constexpr double off  = 1e-3; // of the way from the surface
+    const auto       way  = result - surface;
+    const double     free = first_hit(surface + off * way, result);
+    if (free <= 1)
+      result = surface + (off + (1 - off) * free / 2) * way;
     return result;
   }
 

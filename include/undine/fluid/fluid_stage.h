@@ -129,8 +129,9 @@ namespace undine
     std::unique_ptr<BodyImpedance<dim>> impedance;
 
     /// Results of effects for finish(). @{
-    std::optional<Velocity<dim>> advected;            ///< v' [m/s], by convection
-    std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
+    std::optional<Velocity<dim>> advected;     ///< v' [m/s], by convection
+    std::optional<Field<dim>> pressure_before; ///< that of the state, if surfaces have moved [Pa]
+    std::optional<Field<dim>> pressure_correction; ///< -mu div w [Pa], by viscosity
     std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces
     std::vector<dealii::Tensor<1, dim>> wall_velocities;            ///< for which that is [m/s]
     std::vector<dealii::Tensor<1, dim>>

@@ -46,6 +46,41 @@ namespace undine
   }
 
 
+  template <int dim>
+  bool
+  PressureCondition<dim>::is_dirichlet(const Boundary<dim> &boundary) const
+  {
+    return boundary.is_open();
+  }
+
+
+  template <int dim>
+  double
+  PressureCondition<dim>::dirichlet_value(const Boundary<dim> &boundary,
+                                          const unsigned int,
+                                          const dealii::Point<dim> &place,
+                                          const double              time) const
+  {
+    return boundary.kind == BoundaryKind::pressure ? boundary.pressure.value(place, time) : 0;
+  }
+
+
+  template <int dim>
+  double
+  PressureCondition<dim>::entering_value(const dealii::Point<dim> &, const double) const
+  {
+    return 0;
+  }
+
+
+  template <int dim>
+  bool
+  PressureCondition<dim>::obeys_maximum_principle() const
+  {
+    return true;
+  }
+
+
   namespace
   {
     /// The value of one boundary point: shares that are prescribed or that enter, plus the rest of
@@ -150,6 +185,8 @@ namespace undine
   }
 
 
+  template class PressureCondition<2>;
+  template class PressureCondition<3>;
   template class VelocityCondition<2>;
   template class VelocityCondition<3>;
   template void

@@ -218,19 +218,20 @@ namespace undine
             const double entering = (end == 0 ? 1 : -1) * flux(d, place);
             if (entering <= 0)
               return;
+            const double genuine = boundary.is_open() ? genuine_share(d, place, entering) : 1;
+            const auto   bring = [&](const FacePlace<dim> &to, const double rate, double brought) {
+              if (genuine < 1)
+                brought = genuine * brought + (1 - genuine) * value_at(motion->start[axis], to);
+              action(to, rate, brought);
+            };
             if (d == axis)
               {
-                action(place, entering, value_at((motion ? unfitted : flow)[d], place));
+                bring(place, entering, value_at((motion ? unfitted : flow)[d], place));
                 return;
               }
             const double brought = entering_velocity(boundary, d, face, axis);
-            const double genuine = boundary.is_open() ? genuine_share(d, place, entering) : 1;
             for (const auto &one : shares(beside(d, place, 1 - end), axis))
-              action(one.place,
-                     one.share * entering,
-                     genuine < 1 ? genuine * brought +
-                                     (1 - genuine) * value_at(motion->start[axis], one.place)
-                                 : brought);
+              bring(one.place, one.share * entering, brought);
           });
         });
   }

@@ -71,24 +71,40 @@ namespace undine
   }
 
 
+  /// The places of a face on a topology.
+  template <int dim>
+  std::vector<typename DualTransfer<dim>::Opening>
+  DualTransfer<dim>::openings(const SubLattice<dim> *divided,
+                              const unsigned int     axis,
+                              const GridIndex<dim>  &face) const
+  {
+    std::vector<Opening> result;
+    for_each_place(divided, face, [&](const FacePlace<dim> &one) {
+      if (one.part < 0)
+        result.push_back(
+          {one.part, vicinity.place(grid.faces(axis)->point(face)), grid.face_area(axis, face)});
+      else
+        result.push_back({one.part,
+                          vicinity.place(divided->all()[one.part].place),
+                          divided->all()[one.part].measure});
+    });
+    return result;
+  }
+
+
   /// The place on the same face that a place has become; part `none`: there is no such. Places and
-  /// successors are one to one, the nearest ones first.
+  /// successors are one to one, the nearest ones first. The only ones of a face are the same if
+  /// they overlap and no surface has passed between: their centroids may lie in a body.
   template <int dim>
   FacePlace<dim>
   DualTransfer<dim>::successor(const unsigned int axis, const FacePlace<dim> &place) const
   {
-    using Place       = typename BodyVicinity<dim>::Place;
-    const auto places = [&](const SubLattice<dim> *divided) {
-      std::vector<std::pair<FacePlace<dim>, Place>> result;
-      for_each_place(divided, place.face, [&](const FacePlace<dim> &one) {
-        result.emplace_back(one,
-                            vicinity.place(one.part < 0 ? grid.faces(axis)->point(one.face)
-                                                        : divided->all()[one.part].place));
-      });
-      return result;
-    };
-    auto old_places = places(before[0][axis].divided()),
-         new_places = places(now[0][axis].divided());
+    auto old_places = openings(before[0][axis].divided(), axis, place.face),
+         new_places = openings(now[0][axis].divided(), axis, place.face);
+    if (old_places.size() == 1 && new_places.size() == 1 &&
+        old_places[0].area + new_places[0].area > grid.face_area(axis, place.face) &&
+        !vicinity.parts(old_places[0].centre.point, new_places[0].centre.point))
+      return {place.face, new_places[0].part};
     while (true)
       {
         std::size_t i = 0, j = 0;
@@ -96,8 +112,8 @@ namespace undine
         for (std::size_t k = 0; k < old_places.size(); ++k)
           for (std::size_t l = 0; l < new_places.size(); ++l)
             if (const double distance =
-                  old_places[k].second.point.distance(new_places[l].second.point);
-                distance < nearest && vicinity.leads_to(old_places[k].second, new_places[l].second))
+                  old_places[k].centre.point.distance(new_places[l].centre.point);
+                distance < nearest && vicinity.leads_to(old_places[k].centre, new_places[l].centre))
               {
                 nearest = distance;
                 i       = k;
@@ -105,38 +121,67 @@ namespace undine
               }
         if (nearest == std::numeric_limits<double>::infinity())
           return {place.face, none};
-        if (old_places[i].first.part == place.part)
-          return new_places[j].first;
+        if (old_places[i].part == place.part)
+          return {place.face, new_places[j].part};
         old_places.erase(old_places.begin() + i);
         new_places.erase(new_places.begin() + j);
       }
   }
 
 
-  /// The nearest one of a cell now, on the same side of the surfaces, that has places along the
-  /// axis; -1 if the cell is whole.
+  /// The nearest one of a cell now, `on_side`: on the same side of the surfaces, that has places
+  /// along the axis; -1 if the cell is whole.
   template <int dim>
   int
   DualTransfer<dim>::component_for(const unsigned int                       axis,
                                    const GridIndex<dim>                    &cell,
-                                   const typename BodyVicinity<dim>::Place &from) const
+                                   const typename BodyVicinity<dim>::Place &from,
+                                   const bool                               on_side) const
   {
+    const auto leads_to = [&](const dealii::Point<dim> &place) {
+      return !on_side || vicinity.leads_to(from, vicinity.place(place));
+    };
     const auto *divided = around[axis].divided();
     if (is_whole(divided, cell))
-      return vicinity.leads_to(from, vicinity.place(grid.cells()->point(cell))) ? -1 : none;
+      return leads_to(grid.cells()->point(cell)) ? -1 : none;
     int    result  = none;
     double nearest = std::numeric_limits<double>::infinity();
     for_each_part(*divided, cell, [&](const int component) {
       const auto  &place    = divided->all()[component].place;
       const double distance = place.distance(from.point);
-      if (around[axis].parts()[component] > 0 && distance < nearest &&
-          vicinity.leads_to(from, vicinity.place(place)))
+      if (around[axis].parts()[component] > 0 && distance < nearest && leads_to(place))
         {
           nearest = distance;
           result  = component;
         }
     });
     return result;
+  }
+
+
+  /// Where a half that does not stay goes: to what its cell has on its side of the surfaces, or the
+  /// cell beyond the face. A centroid may lie in a body, which hides it, though no surface has
+  /// passed over it: then the side does not count.
+  template <int dim>
+  typename DualTransfer<dim>::Destination
+  DualTransfer<dim>::destination(const unsigned int    axis,
+                                 const FacePlace<dim> &place,
+                                 const unsigned int    end) const
+  {
+    const auto from   = vicinity.place(centre_before(axis, place, end));
+    const auto home   = moved<dim>(place.face, axis, end == 0 ? -1 : 0);
+    const auto beyond = moved<dim>(place.face, axis, end == 0 ? 0 : -1);
+    for (const bool on_side : {true, false})
+      for (const auto &cell : {home, beyond})
+        {
+          if (!on_side && vicinity.is_swept(from))
+            continue;
+          if (cell == beyond && grid.at_boundary(axis, place.face))
+            continue;
+          if (const int component = component_for(axis, cell, from, on_side); component != none)
+            return {cell, component};
+        }
+    return {home, none};
   }
 
 
@@ -173,8 +218,7 @@ namespace undine
   }
 
 
-  /// What does not stay is the `excess` of cells and their components: where it was, or else beyond
-  /// the face.
+  /// What does not stay is the `excess` of cells and their components.
   template <int dim>
   void
   DualTransfer<dim>::collect(Field<dim>        &excess,
@@ -182,25 +226,19 @@ namespace undine
                              const Amounts     &amounts) const
   {
     for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-      for (const int end : {0, 1})
-        for (const bool was_here : {true, false})
+      for (const unsigned int side : {0, 1})
+        for (const unsigned int end : {0, 1})
           {
-            const auto face = moved<dim>(cell, axis, was_here ? 1 - end : end);
-            const auto home = was_here ? cell : moved<dim>(cell, axis, 2 * end - 1);
-            if (!was_here && grid.at_boundary(axis, face))
-              continue;
+            const auto face = moved<dim>(cell, axis, side);
             for_each_place(before[0][axis].divided(), face, [&](const FacePlace<dim> &place) {
               double leaving = value_at(amounts.leaving[end], place);
               if (!is_uncut(axis, face) && successor(axis, place).part == none)
                 leaving += value_at(amounts.staying[end], place);
               if (leaving == 0)
                 return;
-              const auto from = vicinity.place(centre_before(axis, place, end));
-              if (!was_here && component_for(axis, home, from) != none)
-                return;
-              const int component = component_for(axis, cell, from);
-              if (component != none)
-                value_at(excess, cell, component) += leaving;
+              const auto to = destination(axis, place, end);
+              if (to.cell == cell && to.component != none)
+                value_at(excess, cell, to.component) += leaving;
             });
           }
     });

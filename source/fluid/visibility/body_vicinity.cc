@@ -224,6 +224,14 @@ namespace undine
 
   template <int dim>
   bool
+  BodyVicinity<dim>::is_swept(const Place &place) const
+  {
+    return surfaces != nullptr && surfaces->is_freshly_cleared(place.point);
+  }
+
+
+  template <int dim>
+  bool
   BodyVicinity<dim>::leads_to(const Place &before, const Place &now) const
   {
     return surfaces == nullptr || !is_hidden(place(surfaces->carried(before.point)), now);

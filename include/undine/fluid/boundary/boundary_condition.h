@@ -74,6 +74,28 @@ namespace undine
     unsigned int axis;
   };
 
+  /// The pressure, which is given at openings.
+  template <int dim>
+  class PressureCondition : public BoundaryCondition<dim>
+  {
+  public:
+    bool
+    is_dirichlet(const Boundary<dim> &boundary) const override;
+
+    double
+    dirichlet_value(const Boundary<dim>      &boundary,
+                    const unsigned int        normal_axis,
+                    const dealii::Point<dim> &place,
+                    const double              time) const override;
+
+    /// Not asked for.
+    double
+    entering_value(const dealii::Point<dim> &place, const double time) const override;
+
+    bool
+    obeys_maximum_principle() const override;
+  };
+
   /// Call `action(boundary, fraction, cell)` for the boundary faces around the boundary point
   /// `index` of a lattice on `side`, with the cell that touches the face; the fractions of the
   /// point's share add up to one. A tangential face has half of its share on either of two boundary

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace undine
 {
@@ -72,10 +73,33 @@ namespace undine
     distribute(Halves &result, const Field<dim> &excess, const unsigned int axis) const;
     FacePlace<dim>
     successor(const unsigned int axis, const FacePlace<dim> &place) const;
+
+    /// A place of a face.
+    struct Opening
+    {
+      int                               part;
+      typename BodyVicinity<dim>::Place centre;
+      double                            area; ///< [m^(dim-1)]
+    };
+
+    std::vector<Opening>
+    openings(const SubLattice<dim> *divided,
+             const unsigned int     axis,
+             const GridIndex<dim>  &face) const;
+
+    struct Destination
+    {
+      GridIndex<dim> cell;
+      int            component; ///< -1: the cell is whole
+    };
+
+    Destination
+    destination(const unsigned int axis, const FacePlace<dim> &place, const unsigned int end) const;
     int
     component_for(const unsigned int                       axis,
                   const GridIndex<dim>                    &cell,
-                  const typename BodyVicinity<dim>::Place &from) const;
+                  const typename BodyVicinity<dim>::Place &from,
+                  const bool                               on_side) const;
     dealii::Point<dim>
     centre_before(const unsigned int    axis,
                   const FacePlace<dim> &place,

@@ -79,6 +79,10 @@ namespace undine
     double
     first_hit(const Place &from, const Place &to) const;
 
+    /// Has a surface passed over the place in its last motion?
+    bool
+    is_swept(const Place &place) const;
+
     /// Is what was at `before` on the same side of the surfaces as `now`? See
     /// Obstruction::carried().
     bool

@@ -51,7 +51,7 @@ namespace
                        plane_or_space<dim>(".03 * sin(9 * t); 0", ".03 * sin(9 * t); 0; 0"))) +
            section(
              "Effects",
-             convection() + section("gravity", "set Acceleration = " + down) +
+             form + section("gravity", "set Acceleration = " + down) +
                section("viscosity", "set Dynamic viscosity = .01") +
                section("damping", "set Mass coefficient = .1\nset Stiffness coefficient = 1e-3")) +
            more;
