@@ -48,7 +48,7 @@ def heated(rayleigh, cells, step):
 CASES = {
     "cavity, Re 100": cavity(100, 48, 20),
     "cavity, Re 400": cavity(400, 64, 40),
-    "cavity, Re 1000": cavity(1000, 64, 60),
+    "cavity, Re 1000": cavity(1000, 96, 60),
     "heated cavity, Ra 1e3": heated(1e3, 32, 0.01),
     "heated cavity, Ra 1e4": heated(1e4, 32, 0.005),
     "heated cavity, Ra 1e5": heated(1e5, 48, 0.002),
