@@ -5,6 +5,7 @@
 #include <undine/fluid/grid/field_algebra.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace undine
 {
@@ -94,8 +95,8 @@ namespace undine
     const auto &now = tracer.bodies().topology;
     if (state.pressure.topology() != now)
       {
-        pressure_before = state.pressure;
-        state.pressure  = moved_to(state.pressure, now);
+        pressure_before = std::move(state.pressure);
+        state.pressure  = moved_to(*pressure_before, now);
       }
     // Stages that keep rates have advected accelerations as part of velocities.
     if (stage.keeps_rates() || state.acceleration[0].topology() == now)

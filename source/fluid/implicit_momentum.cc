@@ -126,8 +126,9 @@ namespace undine
         step.linear_iterations += diffusion(step, axis).step(velocity[axis], step.end, step.dt);
     use_w(velocity);
     std::size_t memory = pressure.memory_consumption() + undine::memory_consumption(gradient);
-    if (step.pressure_correction)
-      memory += step.pressure_correction->memory_consumption();
+    for (const auto *field : {&step.pressure_correction, &step.pressure_before})
+      if (*field)
+        memory += (*field)->memory_consumption();
     step.timing.memory.hold_briefly(effect, memory);
     add(velocity, -step.dt, gradient);
   }

@@ -128,10 +128,12 @@ namespace undine
     /// Of bodies that give way to friction, before `diffuse`; nullptr: surfaces move as is given.
     std::unique_ptr<BodyImpedance<dim>> impedance;
 
+    /// The pressure of the stage before, on its topology, if surfaces have moved since [Pa].
+    std::optional<Field<dim>> pressure_before;
+
     /// Results of effects for finish(). @{
-    std::optional<Velocity<dim>> advected;     ///< v' [m/s], by convection
-    std::optional<Field<dim>> pressure_before; ///< that of the state, if surfaces have moved [Pa]
-    std::optional<Field<dim>> pressure_correction; ///< -mu div w [Pa], by viscosity
+    std::optional<Velocity<dim>> advected;            ///< v' [m/s], by convection
+    std::optional<Field<dim>>    pressure_correction; ///< -mu div w [Pa], by viscosity
     std::optional<FrictionForces<dealii::Tensor<1, dim>>> friction; ///< by viscosity, with surfaces
     std::vector<dealii::Tensor<1, dim>> wall_velocities;            ///< for which that is [m/s]
     std::vector<dealii::Tensor<1, dim>>

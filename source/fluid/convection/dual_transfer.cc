@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -171,17 +172,17 @@ namespace undine
     const auto from   = vicinity.place(centre_before(axis, place, end));
     const auto home   = moved<dim>(place.face, axis, end == 0 ? -1 : 0);
     const auto beyond = moved<dim>(place.face, axis, end == 0 ? 0 : -1);
-    for (const bool on_side : {true, false})
+    const auto find   = [&](const bool on_side) -> std::optional<Destination> {
       for (const auto &cell : {home, beyond})
-        {
-          if (!on_side && vicinity.is_swept(from))
-            continue;
-          if (cell == beyond && grid.at_boundary(axis, place.face))
-            continue;
+        if (cell == home || !grid.at_boundary(axis, place.face))
           if (const int component = component_for(axis, cell, from, on_side); component != none)
-            return {cell, component};
-        }
-    return {home, none};
+            return Destination{cell, component};
+      return {};
+    };
+    auto result = find(true);
+    if (!result && !vicinity.is_swept(from))
+      result = find(false);
+    return result.value_or(Destination{home, none});
   }
 
 

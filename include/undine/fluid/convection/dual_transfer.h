@@ -17,8 +17,9 @@ namespace undine
   /// while surfaces have moved. Each half goes to the same face, and to the nearest piece of it on
   /// the same side of the surfaces, as long as there is one. What finds none, or is to leave its
   /// place, goes to all places of its component, in proportion to their volumes, or to those beyond
-  /// the face. Nothing crosses a surface, however thin a body is, and nothing is lost but what
-  /// finds no place in the next cell either.
+  /// the face. Nothing crosses a surface, however thin a body is, but where one passes over a whole
+  /// face and both cells beside it; nothing is lost but what finds no place in the next cell
+  /// either.
   template <int dim>
   class DualTransfer
   {
