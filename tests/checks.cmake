@@ -56,6 +56,13 @@ foreach(ranks 1 2)
   set_tests_properties(runs/iterations.mpirun=${ranks} PROPERTIES PROCESSORS ${ranks} TIMEOUT 300)
 endforeach()
 
+# Studies: their arithmetic, and tiny ones of each kind.
+add_test(NAME studies/arithmetic COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_study.py)
+add_test(NAME studies/tiny
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_study.py $<TARGET_FILE:undine>
+                 ${CMAKE_CURRENT_SOURCE_DIR}/studies)
+set_tests_properties(studies/tiny PROPERTIES PROCESSORS 2 TIMEOUT 300)
+
 # Stopped by signals, and what a user is told then.
 add_test(NAME runs/signals
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_signals.py $<TARGET_FILE:undine>

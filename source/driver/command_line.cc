@@ -67,11 +67,20 @@ namespace undine
       ->type_name("DIR");
     add_run_options(*resume, request, "folder for what follows, which leaves the run as it is");
 
+    CLI::App *study = app.add_subcommand(
+      "read-study", "check a study and print it as JSON, which './undine study' reads");
+    study->add_option("study", request.scene_file, "its parameter file")
+      ->required()
+      ->type_name("STUDY.prm");
+    CLI::App *evaluate = app.add_subcommand(
+      "evaluate", "evaluate an expression at each line 'x y z t' of the standard input");
+    evaluate->add_option("expression", request.expression, "in x, y, z, t")->required();
+
     std::ostringstream out, err;
     try
       {
         app.parse(argc, argv);
-        if (!resume->parsed() && !reference && request.scene_file.empty())
+        if (app.get_subcommands().empty() && !reference && request.scene_file.empty())
           throw CLI::ValidationError(
             "no scene", "name a parameter file, for example prm/cantilever.prm; see --help");
       }
@@ -86,10 +95,12 @@ namespace undine
         return request;
       }
 
-    request.action = resume->parsed() ? Request::Action::resume
-                     : reference      ? Request::Action::reference
-                     : validate       ? Request::Action::validate
-                                      : Request::Action::run;
+    request.action = resume->parsed()     ? Request::Action::resume
+                     : study->parsed()    ? Request::Action::study
+                     : evaluate->parsed() ? Request::Action::evaluate
+                     : reference          ? Request::Action::reference
+                     : validate           ? Request::Action::validate
+                                          : Request::Action::run;
     return request;
   }
 } // namespace undine

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/model/implied_effect.h>
 #include <undine/driver/effects_report.h>
+#include <undine/driver/json_text.h>
 #include <undine/particles/execution/phases.h>
 
 #include <algorithm>
@@ -19,31 +20,6 @@ namespace undine
       if (bytes < 1e9)
         return fmt::format("{:.1f} MB", bytes / 1e6);
       return fmt::format("{:.1f} GB", bytes / 1e9);
-    }
-
-
-    std::string
-    quoted(const std::string &text)
-    {
-      std::string result = "\"";
-      for (const char c : text)
-        if (c == '"' || c == '\\')
-          result += std::string("\\") + c;
-        else
-          result += c == '\n' ? ' ' : c;
-      return result + "\"";
-    }
-
-
-    /// "[\n first,\n second\n ]" with what `write` makes of each item.
-    template <class Items, class Write>
-    std::string
-    json_list(const Items &items, const Write &write)
-    {
-      std::string result;
-      for (const auto &item : items)
-        result += (result.empty() ? "\n    " : ",\n    ") + write(item);
-      return "[" + result + "\n  ]";
     }
   } // namespace
 

@@ -2,6 +2,7 @@
 #include <undine/driver/machine.h>
 
 #include <algorithm>
+#include <ctime>
 #include <fstream>
 #include <sstream>
 
@@ -152,6 +153,20 @@ namespace undine
   memory_in_use()
   {
     return kibi * std::max(0., number_after("/proc/self/status", "VmRSS:"));
+  }
+
+
+  double
+  peak_memory()
+  {
+    return kibi * std::max(0., number_after("/proc/self/status", "VmHWM:"));
+  }
+
+
+  double
+  core_seconds()
+  {
+    return double(std::clock()) / CLOCKS_PER_SEC;
   }
 
 

@@ -11,10 +11,13 @@
 #include <undine/driver/progress.h>
 #include <undine/driver/run.h>
 #include <undine/driver/run_directory.h>
+#include <undine/driver/run_summary.h>
 #include <undine/driver/size_check.h>
+#include <undine/driver/study_file.h>
 #include <undine/output/checkpoint/checkpoint.h>
 #include <undine/scene/scene.h>
 
+#include <functional>
 #include <iostream>
 #include <optional>
 
@@ -22,11 +25,19 @@ namespace undine
 {
   namespace
   {
+    /// What watches a run: the step of the report has led to the state.
+    template <int dim>
+    using Observe = std::function<void(const State<dim> &, const Report &)>;
+
+
     /// The whole of a simulation. `state` is at its first time, initial or resumed.
     template <int dim>
     void
-    run_time_loop(
-      State<dim> &state, Scene<dim> &scene, Adviser<dim> &adviser, Log &log, TimingTree &timing)
+    run_time_loop(State<dim>         &state,
+                  Scene<dim>         &scene,
+                  const Observe<dim> &observe,
+                  Log                &log,
+                  TimingTree         &timing)
     {
       Progress      progress(log, state.clock);
       MeasuredCosts costs(log, state.clock, scene.models.communicator());
@@ -41,7 +52,7 @@ namespace undine
           const double dt     = scene.scheme->choose_dt(state);
           const Report report = scene.scheme->step(state, dt);
           state.clock.advance(report.dt); // what was accepted; retries happen inside step
-          adviser.observe(state, report);
+          observe(state, report);
           const auto timed = timing.section("output");
           for (auto &output : scene.outputs)
             if (output->due(state.clock))
@@ -103,14 +114,14 @@ namespace undine
     void
     run_keeping_last_state(State<dim>         &state,
                            Scene<dim>         &scene,
-                           Adviser<dim>       &adviser,
+                           const Observe<dim> &observe,
                            const ResultFolder &folder,
                            Log                &log,
                            TimingTree         &timing)
     {
       try
         {
-          run_time_loop(state, scene, adviser, log, timing);
+          run_time_loop(state, scene, observe, log, timing);
         }
       catch (const FileError &error)
         {
@@ -128,6 +139,27 @@ namespace undine
       catch (const Error &error)
         {
           throw SolveError(failure_report(error, state, scene, folder, log));
+        }
+    }
+
+
+    /// Leave what the run knows of itself, and why it has failed, if that can be written.
+    template <int dim>
+    void
+    write_summary_of_failure(ResultFolder          &folder,
+                             const RunSummary<dim> &summary,
+                             const Clock           &clock,
+                             const Error           &failure,
+                             const MPI_Comm         communicator)
+    {
+      try
+        {
+          write_whole_file(
+            folder, "summary.json", summary.json(clock, failure.what()), communicator);
+        }
+      catch (const FileError &)
+        {
+          // The failure itself is what the user must hear of.
         }
     }
 
@@ -280,12 +312,31 @@ namespace undine
       Adviser<dim>             adviser(scene.models, state);
       effects.print_start(log);
       write_whole_file(folder, "effects.json", effects.json({}), communicator);
-      run_keeping_last_state(state, scene, adviser, folder, log, timing);
+      RunSummary<dim> summary(scene, options, state.clock);
+      try
+        {
+          run_keeping_last_state(state,
+                                 scene,
+                                 {[&](const State<dim> &now, const Report &report) {
+                                   adviser.observe(now, report);
+                                   summary.observe(report);
+                                 }},
+                                 folder,
+                                 log,
+                                 timing);
+        }
+      catch (const Error &failure)
+        {
+          write_summary_of_failure(folder, summary, state.clock, failure, communicator);
+          throw;
+        }
       write_checkpoint(folder.path(), scene.models, state, folder.statistics_digest);
       write_timing(folder, timing, log, communicator);
       const auto advice = adviser.advice();
       effects.print_end(log, advice);
+      summary.print(log);
       write_whole_file(folder, "effects.json", effects.json(advice), communicator);
+      write_whole_file(folder, "summary.json", summary.json(state.clock, ""), communicator);
       folder.finish();
     }
 
@@ -300,6 +351,54 @@ namespace undine
                    "that the scene chooses;\nan *italic condition* says when a key exists. "
                    "Vectors are listed with three numbers; plane scenes give\ntwo.\n";
       write_reference(std::cout, options);
+      std::cout << "\n# Parameters of studies\n\nOf `./undine study STUDY.prm`, see "
+                   "[studies](studies.md).\n";
+      const auto study = Options::for_reference();
+      read_study(study);
+      write_reference(std::cout, study);
+    }
+
+
+    void
+    print_study(const std::string &file)
+    {
+      const auto options = Options::collecting(ParameterFile(file));
+      read_study(options);
+      options.assert_all_used();
+      options.throw_mistakes();
+      write_json(std::cout, options);
+    }
+
+
+    /// A line for each line "x y z t" of the standard input.
+    void
+    print_values(const std::string &text)
+    {
+      const Expression<3> expression(text);
+      dealii::Point<3>    place;
+      for (double time = 0; std::cin >> place[0] >> place[1] >> place[2] >> time;)
+        std::cout << fmt::format("{:.17g}\n", expression.value(place, time));
+    }
+
+
+    bool
+    needs_scene(const Request &request)
+    {
+      return request.action == Request::Action::run || request.action == Request::Action::resume ||
+             request.action == Request::Action::validate;
+    }
+
+
+    /// What needs no scene.
+    void
+    answer(const Request &request)
+    {
+      if (request.action == Request::Action::reference)
+        print_reference();
+      else if (request.action == Request::Action::study)
+        print_study(request.scene_file);
+      else if (request.action == Request::Action::evaluate)
+        print_values(request.expression);
     }
 
 
@@ -322,12 +421,10 @@ namespace undine
   void
   execute(const Request &request, const MPI_Comm communicator)
   {
-    if (request.action == Request::Action::nothing)
-      return;
-    if (request.action == Request::Action::reference)
+    if (!needs_scene(request))
       {
         if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-          print_reference();
+          answer(request);
         return;
       }
     const auto options   = Options::collecting(parameter_file(request));

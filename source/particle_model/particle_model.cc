@@ -412,6 +412,14 @@ namespace undine
 
 
   template <int dim>
+  std::size_t
+  ParticleModel<dim>::n_particles() const
+  {
+    return n_fluid + constants.reference.size() + n_wall + constants.n_moving + n_inflow;
+  }
+
+
+  template <int dim>
   std::string
   ParticleModel<dim>::counts() const
   {

@@ -16,7 +16,7 @@ import scene_tools
 
 TOLERANCE = 1e-7
 WRITTEN = ("log.txt", "original.prm", "parameters.prm", "parameters.json", "timing",
-           "effects.json")
+           "effects.json", "summary.json")
 
 
 def settings(scene):

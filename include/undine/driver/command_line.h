@@ -19,12 +19,15 @@ namespace undine
       resume,    ///< continue the run in `directory`
       validate,  ///< read and check `scene_file`, run nothing
       reference, ///< print all parameters
+      study,     ///< read the study in `scene_file` and print it as JSON
+      evaluate,  ///< evaluate `expression` at the places and times of the standard input
       nothing    ///< help or version was printed
     };
 
     Action                   action = Action::nothing;
     std::string              scene_file;
     std::string              directory;         ///< of the run to resume
+    std::string              expression;        ///< to evaluate
     std::string              output;            ///< --output; empty: not given
     std::vector<std::string> assignments;       ///< of --set
     bool                     overwrite = false; ///< an unfinished run in the folder for results

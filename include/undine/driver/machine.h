@@ -36,6 +36,14 @@ namespace undine
   double
   memory_in_use();
 
+  /// The largest memory that this process has ever used [bytes]; 0 if the system does not tell.
+  double
+  peak_memory();
+
+  /// What this process has used of processors so far [s].
+  double
+  core_seconds();
+
   /// Free space on the disk on which `folder` is or will be.
   Room
   free_disk(const std::filesystem::path &folder);

@@ -107,6 +107,10 @@ namespace undine
     std::string
     counts() const;
 
+    /// Of all kinds together.
+    std::size_t
+    n_particles() const;
+
     /// What the user may not expect; one sentence each.
     const std::vector<std::string> &
     notes() const

@@ -100,6 +100,14 @@ namespace undine
         return "";
       return dealii::Utilities::trim(line.substr(word.size()));
     }
+
+
+    /// Keys of a scene, as studies change them.
+    bool
+    may_name_paths(const std::vector<std::string> &sections)
+    {
+      return !sections.empty() && sections.back() == "Settings";
+    }
   } // namespace
 
 
@@ -203,7 +211,7 @@ namespace undine
       line_mistakes.push_back(place + ": cannot understand " + quoted(line) +
                               ".\n  Allowed: 'subsection NAME', 'set KEY = VALUE', 'end', "
                               "'include FILE' and comments that begin with '#'.");
-    else if (key.find('/') != std::string::npos)
+    else if (key.find('/') != std::string::npos && !may_name_paths(sections))
       line_mistakes.push_back(place + ": the key '" + key +
                               "' must not contain '/'.\n  Try: 'subsection NAME', 'set KEY = "
                               "VALUE' and 'end', each on a line of its own.");

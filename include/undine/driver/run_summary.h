@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_driver_run_summary_h
+#define undine_driver_run_summary_h
+
+#include <undine/base/options/options.h>
+#include <undine/coupled/state/report.h>
+#include <undine/driver/log.h>
+#include <undine/scene/scene.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace undine
+{
+  /// What a run knows at its end of its cost and of its own error, for the user and as the file
+  /// `summary.json`. Only what the run has measured is in it: where nothing estimates an error, it
+  /// says so.
+  template <int dim>
+  class RunSummary
+  {
+  public:
+    /// The run stands before its first step, set up or taken up again at `start`. The references
+    /// must outlive it.
+    RunSummary(const Scene<dim> &scene, const Options &options, const Clock &start);
+
+    /// A step has been made.
+    void
+    observe(const Report &report);
+
+    /// A line for each kind of error that the run knows.
+    void
+    print(Log &log) const;
+
+    /// All of it; `failure`: why the run has ended before its time, empty: it has not. Collective.
+    std::string
+    json(const Clock &clock, const std::string &failure) const;
+
+  private:
+    /// Of a kind of error: the largest of a dimensionless measure in any step.
+    struct Largest
+    {
+      std::string meaning;
+      double      value = 0; ///< [1]
+    };
+    using Errors = std::vector<std::pair<std::string, Largest>>;
+
+    void
+    observe_column(const Columns     &columns,
+                   const std::string &name,
+                   const std::string &kind,
+                   const std::string &meaning);
+    Largest &
+    largest(const std::string &kind, const std::string &meaning);
+    std::string
+    costs() const;
+    std::string
+    unknowns() const;
+    std::string
+    tolerances() const;
+
+    const Scene<dim>   &scene;
+    const Options       options;
+    const Clock         start;
+    const double        core_seconds_of_start; ///< of this rank
+    unsigned int        n_steps = 0, newton_iterations = 0, linear_iterations = 0, cuts = 0;
+    std::optional<bool> time_is_estimated; ///< none before the first step
+    Errors              errors;
+
+    const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+  };
+} // namespace undine
+
+#endif

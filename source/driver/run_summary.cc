@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/version.h>
+#include <undine/driver/json_text.h>
+#include <undine/driver/machine.h>
+#include <undine/driver/run_summary.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  template <int dim>
+  RunSummary<dim>::RunSummary(const Scene<dim> &scene, const Options &options, const Clock &start)
+    : scene(scene)
+    , options(options)
+    , start(start)
+    , core_seconds_of_start(core_seconds())
+  {
+  }
+
+
+  template <int dim>
+  typename RunSummary<dim>::Largest &
+  RunSummary<dim>::largest(const std::string &kind, const std::string &meaning)
+  {
+    for (auto &[name, error] : errors)
+      if (name == kind)
+        return error;
+    errors.emplace_back(kind, Largest{meaning});
+    return errors.back().second;
+  }
+
+
+  /// The largest value of a column that the scene may not have.
+  template <int dim>
+  void
+  RunSummary<dim>::observe_column(const Columns     &columns,
+                                  const std::string &name,
+                                  const std::string &kind,
+                                  const std::string &meaning)
+  {
+    for (const auto &column : columns)
+      if (column.name == name)
+        {
+          auto &error = largest(kind, meaning);
+          error.value = std::max(error.value, std::abs(column.value));
+        }
+  }
+
+
+  template <int dim>
+  void
+  RunSummary<dim>::observe(const Report &report)
+  {
+    ++n_steps;
+    newton_iterations += report.newton_iterations;
+    linear_iterations += report.linear_iterations;
+    cuts += report.cuts;
+    time_is_estimated = report.error_in_time.has_value();
+    if (report.error_in_time)
+      largest("time", "estimate, of all steps together, relative to how far the bodies have moved")
+        .value = *report.error_in_time;
+    if (scene.models.solid)
+      {
+        auto &error = largest("Newton", "residual of forces that Newton's method leaves in a step");
+        error.value = std::max(error.value, report.newton_reduction);
+      }
+    observe_column(report.columns,
+                   "Fluid divergence",
+                   "mass",
+                   "|div v| dx in a cell, of the fluid's largest speed");
+    if (report.account)
+      {
+        auto       &error   = largest("energy created",
+                              "by all steps and not lost again, of the largest energy so far");
+        const auto &account = *report.account;
+        if (account.largest > 0)
+          error.value = std::max(error.value, account.created / account.largest);
+      }
+    observe_column(
+      report.columns, "energy closure", "energy", "what the terms of the energy balance leave");
+    observe_column(
+      report.columns, "momentum closure", "momentum", "what the terms of the momentum leave");
+  }
+
+
+  template <int dim>
+  void
+  RunSummary<dim>::print(Log &log) const
+  {
+    log.print("\nwhat the run knows of its own error, the largest in any step:");
+    if (time_is_estimated && !*time_is_estimated)
+      log.print("  {:<15} not estimated; shorter steps or 'Time / Tolerance' tell", "time");
+    for (const auto &[kind, error] : errors)
+      log.print("  {:<15} {:.1e}  {}", kind, error.value, error.meaning);
+  }
+
+
+  template <int dim>
+  std::string
+  RunSummary<dim>::costs() const
+  {
+    const auto   communicator = scene.models.communicator();
+    const auto   now          = std::chrono::steady_clock::now();
+    const double of_start     = dealii::Utilities::MPI::sum(core_seconds_of_start, communicator);
+    const double whole        = dealii::Utilities::MPI::sum(core_seconds(), communicator);
+    return fmt::format("{{\"wall seconds\": {:.6g}, \"core seconds\": {:.6g}, \"core seconds of "
+                       "the start\": {:.6g}, \"peak memory [bytes]\": {:.0f}}}",
+                       std::chrono::duration<double>(now - begin).count(),
+                       whole - of_start,
+                       of_start,
+                       dealii::Utilities::MPI::sum(peak_memory(), communicator));
+  }
+
+
+  template <int dim>
+  std::string
+  RunSummary<dim>::unknowns() const
+  {
+    std::string result;
+    const auto  add = [&](const std::string &name, const double number) {
+      result += fmt::format("{}\"{}\": {:.0f}", result.empty() ? "" : ", ", name, number);
+    };
+    if (scene.models.solid)
+      add("velocities of bodies", scene.models.solid->dof_handler().n_dofs());
+    if (scene.models.fluid)
+      add("cells of the fluid", scene.models.fluid->grid().n_cells());
+    if (scene.models.particles)
+      add("particles", scene.models.particles->n_particles());
+    return "{" + result + "}";
+  }
+
+
+  /// All keys of the scene that are tolerances, with their values.
+  template <int dim>
+  std::string
+  RunSummary<dim>::tolerances() const
+  {
+    std::string result;
+    for (const auto &entry : options.entries())
+      if (entry.key.find("olerance") != std::string::npos)
+        result += (result.empty() ? "" : ", ") + quoted(entry.section + entry.key) + ": " +
+                  quoted(entry.value);
+    return "{" + result + "}";
+  }
+
+
+  template <int dim>
+  std::string
+  RunSummary<dim>::json(const Clock &clock, const std::string &failure) const
+  {
+    const auto known = json_list(errors, [](const auto &error) {
+      return fmt::format("{{\"kind\": {}, \"largest\": {:.6g}, \"meaning\": {}}}",
+                         quoted(error.first),
+                         error.second.value,
+                         quoted(error.second.meaning));
+    });
+    return fmt::format(
+      "{{\n  \"program\": {},\n  \"title\": {},\n  \"scene\": {},\n  \"dimension\": {},\n"
+      "  \"ranks\": {},\n  \"ended\": {},\n  \"failure\": {},\n  \"begin [s]\": {:.10g},\n"
+      "  \"time [s]\": {:.10g},\n  \"end [s]\": {:.10g},\n  \"steps\": {},\n  \"step cuts\": {},\n"
+      "  \"Newton iterations\": {},\n  \"linear iterations\": {},\n  \"unknowns\": {},\n"
+      "  \"cost\": {},\n  \"tolerances\": {},\n  \"time is estimated\": {},\n  \"errors\": "
+      "{}\n}}\n",
+      quoted("undine " UNDINE_VERSION),
+      quoted(scene.title),
+      quoted(options.file().name()),
+      dim,
+      dealii::Utilities::MPI::n_mpi_processes(scene.models.communicator()),
+      clock.ended(),
+      quoted(failure),
+      start.time,
+      clock.time,
+      clock.end_time,
+      n_steps,
+      cuts,
+      newton_iterations,
+      linear_iterations,
+      unknowns(),
+      costs(),
+      tolerances(),
+      time_is_estimated.value_or(false),
+      known);
+  }
+
+
+  template class RunSummary<2>;
+  template class RunSummary<3>;
+} // namespace undine

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""All runs of a study: in parallel, resumable, within a limit of time."""
+import os
+import sys
+import threading
+import time
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+
+from study import runs
+from study.predictions import Predictions
+
+LATER = {"failure": "left out: would not end within the time allowed", "left out": True}
+
+
+def readable(seconds):
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+class Campaign:
+    """Makes the runs of a study, or takes them from the folder of an earlier time. `within`: seconds, or None."""
+
+    def __init__(self, program, study, cases, folder, jobs, within):
+        self.program, self.study, self.cases, self.jobs = program, study, cases, max(1, jobs // study.ranks)
+        digest = runs.digest_of_file(program)
+        self.folders = {case: os.path.join(folder, "cases", runs.identity(study, case, digest)) for case in cases}
+        self.end = None if within is None else time.monotonic() + within
+        self.predictions = Predictions(study)
+        self.results, self.begin = {}, time.monotonic()
+        self.lock = threading.Lock()
+
+    def say(self, text):
+        print(text, file=sys.stderr, flush=True)
+
+    def take_finished(self):
+        """Results of an earlier time."""
+        for case, folder in self.folders.items():
+            result = runs.finished(folder)
+            if result:
+                self.results[case] = result
+                self.predictions.add(case, result)
+        if self.results:
+            self.say(f"{len(self.results)} of {len(self.cases)} runs are there already")
+
+    def fits(self, case):
+        """Whether a case is expected to end in time."""
+        if self.end is None:
+            return True
+        expected = self.predictions.wall_seconds(case)
+        return time.monotonic() + (expected or 0) <= self.end
+
+    def time_left(self, waiting):
+        expected = [self.predictions.wall_seconds(case) for case in waiting]
+        if not waiting or None in expected:
+            return ""
+        return f"; about {readable(max(sum(expected) / self.jobs, max(expected)))} left"
+
+    def report(self, case, result, waiting):
+        said = result["failure"] or f"{result['core seconds']:.3g} core s"
+        self.say(f"[{len(self.results)}/{len(self.cases)}] {case.name(self.study)}: {said}{self.time_left(waiting)}")
+
+    def make(self, case):
+        """A run; one that was expected to fit into the time must not break that promise."""
+        limit = self.study.limit
+        if self.end is not None:
+            remaining = max(1.0, self.end - time.monotonic())
+            limit = min(limit, remaining) if limit else remaining
+        result = runs.run(self.program, self.study, case, self.folders[case], limit)
+        return dict(LATER) if result["stopped"] and limit != self.study.limit else result
+
+    def carry_out(self):
+        """{case: result} of all cases, coarse ones first; those that do not fit into the time are left out."""
+        self.take_finished()
+        waiting = [case for case in self.cases if case not in self.results]
+        with ThreadPoolExecutor(self.jobs) as pool:
+            under_way = {}
+            try:
+                while waiting or under_way:
+                    while waiting and len(under_way) < self.jobs:
+                        case = waiting.pop(0)
+                        if self.fits(case):
+                            under_way[pool.submit(self.make, case)] = case
+                        else:
+                            self.results[case] = dict(LATER)
+                            self.report(case, LATER, waiting)
+                    done, _ = wait(under_way, return_when=FIRST_COMPLETED) if under_way else ((), ())
+                    for future in done:
+                        case = under_way.pop(future)
+                        self.results[case] = future.result()
+                        self.predictions.add(case, self.results[case])
+                        self.report(case, self.results[case], waiting + list(under_way.values()))
+            except KeyboardInterrupt:
+                self.say("stopped; finished runs are kept, the same command goes on")
+                os._exit(130)
+        return self.results

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Orders of convergence and limits of sequences over lengths of steps or cells (Roache, Annu. Rev. Fluid Mech. 29
+(1997) 123)."""
+import math
+from dataclasses import dataclass
+
+import numpy
+
+LARGEST_ORDER = 4  # a greater one is chance
+SMALLEST_ORDER = 0.5  # with a smaller one, the limit is far from all that was computed
+SURE, UNSURE = 1.25, 3.0  # factors of safety: the order is seen twice, or once
+
+
+def norm(values):
+    """Root of the mean square."""
+    return math.sqrt(numpy.mean(numpy.square(values)))
+
+
+def order(lengths, coarse_difference, fine_difference):
+    """p of differences between three values with errors C h^p; nan if they do not fall."""
+    h1, h2, h3 = lengths
+
+    def excess(p):
+        return (h1 ** p - h2 ** p) / (h2 ** p - h3 ** p) - coarse_difference / fine_difference
+
+    if not coarse_difference > 0 or not fine_difference > 0:
+        return math.nan
+    low, high = 0.01, 12.0
+    if excess(low) > 0:
+        return math.nan
+    if excess(high) < 0:
+        return high
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if excess(middle) < 0 else (low, middle)
+    return low
+
+
+def order_to_limit(lengths, errors):
+    """p of two errors."""
+    if not (errors[0] > 0 and errors[1] > 0):
+        return math.nan
+    return math.log(errors[0] / errors[1]) / math.log(lengths[0] / lengths[1])
+
+
+@dataclass
+class Limit:
+    """Where a sequence leads: its limit, how far that may be off, the order, and what is wrong with it ("")."""
+    value: numpy.ndarray
+    uncertainty: float
+    order: float
+    remark: str
+
+
+def observed_order(lengths, values):
+    """From the differences of the last three values; nan if they do not fall, or turn back."""
+    if len(values) < 3:
+        return math.nan
+    first, second = values[-2] - values[-3], values[-1] - values[-2]
+    if numpy.sum(first * second) < 0:
+        return math.nan
+    return order(lengths[-3:], norm(first), norm(second))
+
+
+def limit(lengths, values):
+    """Of values with falling lengths, by the last three, or fewer."""
+    finest = values[-1]
+    if len(values) < 2:
+        return Limit(finest, math.inf, math.nan, "was not refined")
+    last = norm(values[-1] - values[-2])
+    if last == 0:
+        return Limit(finest, 0.0, math.nan, "")
+    if len(values) < 3:
+        ratio = lengths[-2] / lengths[-1]
+        return Limit(finest, UNSURE * last / (ratio - 1), math.nan, "has two values only: no order is known")
+    p = observed_order(lengths, values)
+    if math.isnan(p):
+        turns = numpy.sum((values[-2] - values[-3]) * (values[-1] - values[-2])) < 0
+        largest = max(last, norm(values[-2] - values[-3])) if turns else last
+        return Limit(finest, UNSURE * largest, math.nan,
+                     "goes up and down" if turns else "does not come closer")
+    used = min(max(p, SMALLEST_ORDER), LARGEST_ORDER)
+    share = 1 / ((lengths[-2] / lengths[-1]) ** used - 1)
+    seen_twice = len(values) > 3 and abs(observed_order(lengths[:-1], values[:-1]) - p) < 0.5
+    slow = p < SMALLEST_ORDER
+    return Limit(finest + share * (values[-1] - values[-2]), (SURE if seen_twice and not slow else UNSURE) * share * last,
+                 p, "converges slowly" if slow else "")

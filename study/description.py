@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A study as its file describes it; the program itself reads that file."""
+import json
+import os
+import subprocess
+import sys
+from dataclasses import dataclass, field
+
+AXES = "xyz"
+FIELD_COLUMNS = {"velocity": "velocity", "pressure": "pressure", "displacement": "displacement",
+                 "body velocity": "velocity"}
+
+
+@dataclass
+class Variation:
+    """Something that is varied: settings and a name for each of its values and, of a refinement, lengths."""
+    name: str
+    kind: str
+    names: list
+    settings: list  # a dictionary {"Section/Key": value} for each value
+    lengths: list
+
+    def is_refinement(self):
+        return self.kind == "refinement"
+
+
+@dataclass
+class Quantity:
+    """What is evaluated and what it should be, see `undine --reference`."""
+    name: str
+    columns: list
+    factor: float
+    unit: str
+    evaluate: str
+    share_of_step: float
+    start: float
+    until: float
+    periods: int
+    period_of: str
+    field: str
+    body: str
+    lower: list
+    upper: list
+    n_points: list
+    reference: list
+    reference_file: str
+    reference_column: str
+    reference_row: dict
+    reference_times: str
+    reference_factor: float
+    scale: float
+
+    def has_reference(self):
+        return bool(self.reference or self.reference_file)
+
+    def points(self):
+        """Of a field, evenly distributed in its box."""
+        result = [[]]
+        for lower, upper, count in zip(self.lower, self.upper, map(int, self.n_points)):
+            places = [lower + (upper - lower) * (k + 0.5) / count for k in range(count)]
+            result = [point + [place] for point in result for place in places]
+        return result
+
+    def probe(self, k):
+        """Name of the probe at one of the points."""
+        return f"{self.name} {k}"
+
+    def settings(self):
+        """Probes at the points of a field."""
+        result = {}
+        if self.field:
+            for k, point in enumerate(self.points()):
+                section = f"Probes/{self.probe(k)}"
+                result[f"{section}/Kind"] = "body point" if self.body else "fluid point"
+                result[f"{section}/Point"] = ", ".join(map(repr, point))
+                if self.body:
+                    result[f"{section}/Body"] = self.body
+        return result
+
+    def components(self):
+        """Columns of each component of the quantity at each place; those of one list are added up."""
+        if not self.field:
+            return [self.columns]
+        suffixes = [""] if self.field == "pressure" else [f" {axis}" for axis in AXES[:len(self.lower)]]
+        return [[f"{self.probe(k)} {FIELD_COLUMNS[self.field]}{suffix}"]
+                for suffix in suffixes for k in range(len(self.points()))]
+
+
+@dataclass
+class Study:
+    title: str
+    file: str
+    scene: str
+    ranks: int
+    repeat_below: float
+    limit: float
+    cost: str
+    combine: str
+    levels: list
+    settings: dict
+    variations: list
+    quantities: list = field(default_factory=list)
+
+    def refinements(self):
+        """Positions of the variations that are refinements."""
+        return [k for k, variation in enumerate(self.variations) if variation.is_refinement()]
+
+
+def split(text, separator):
+    return [part.strip() for part in text.split(separator)] if text.strip() else []
+
+
+def numbers(text):
+    return [float(word) for word in split(text, ",")]
+
+
+def flat(section, path=""):
+    """{"Section/Key": text} of nested sections."""
+    result = {}
+    for key, value in section.items():
+        if isinstance(value, dict):
+            result.update(flat(value, f"{path}{key}/"))
+        else:
+            result[path + key] = value
+    return result
+
+
+def variation(name, section):
+    values = {key: split(text, "|") for key, text in flat(section["Settings"]).items()}
+    settings = [dict(zip(values, combination)) for combination in zip(*values.values())]
+    names = split(section["Names"], ",") or [next(iter(each.values())) for each in settings]
+    return Variation(name, section["Kind"], names, settings, numbers(section["Lengths"]))
+
+
+def quantity(name, section, folder):
+    text = section.get
+    file = os.path.normpath(os.path.join(folder, text("Reference file"))) if text("Reference file") else ""
+    return Quantity(
+        name, split(text("Columns"), ";"), float(text("Factor")), text("Unit"), text("Evaluate"),
+        float(text("Share of step")), float(text("From")), float(text("Until")), int(text("Periods")), text("Period of"),
+        "" if text("Field") == "none" else text("Field"), text("Body"), numbers(text("Lower corner")),
+        numbers(text("Upper corner")), numbers(text("Points")), split(text("Reference"), ";"), file,
+        text("Reference column"), dict(split(part, "=") for part in split(text("Reference row"), ",")),
+        text("Reference times"), float(text("Reference factor")), float(text("Scale")))
+
+
+def from_json(text, file):
+    """The study that the program has read from a file."""
+    top, folder = json.loads(text), os.path.dirname(os.path.abspath(file))
+    study = Study(top["Title"], file, os.path.normpath(os.path.join(folder, top["Scene"])), int(top["Ranks"]),
+                  float(top["Repeat below"]), float(top["Limit"]), top["Cost"], top["Combine"], numbers(top["Levels"]),
+                  flat(top.get("Settings", {})),
+                  [variation(*item) for item in top["Vary"].items()],
+                  [quantity(*item, folder) for item in top["Quantities"].items()])
+    for each in study.quantities:
+        study.settings.update(each.settings())
+    return study
+
+
+def read(program, file):
+    """Read a study; a mistake in it ends the program with its message."""
+    result = subprocess.run([program, "read-study", file], capture_output=True, text=True)
+    if result.returncode != 0:
+        sys.stderr.write(result.stderr)
+        sys.exit(result.returncode)
+    return from_json(result.stdout, file)

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Work-precision diagrams."""
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot, ticker  # noqa: E402
+
+from study.cases import variant, variant_name  # noqa: E402
+
+STYLES = ("-", "--", ":", "-.")
+MARKERS = "os^Dvp*Xh<>"
+
+
+def curves(found, result):
+    """[(variant, positions of all refinements but the last, cases along that last one)]."""
+    refinements = found.study.refinements()
+    last = refinements[-1:]
+    groups = {}
+    for case in sorted(result.errors, key=lambda case: case.index):
+        others = tuple(case.index[axis] for axis in refinements if axis not in last)
+        groups.setdefault((variant(found.study, case), others), []).append(case)
+    return [(key, others, group) for (key, others), group in groups.items()]
+
+
+def label(found, key, others, several_variants):
+    refinements = found.study.refinements()[:-1]
+    words = [variant_name(found.study, key)] if several_variants or not refinements else []
+    words += [f"{found.study.variations[axis].name} {found.study.variations[axis].names[position]}"
+              for axis, position in zip(refinements, others)]
+    return ", ".join(words)
+
+
+def ordered(values):
+    return list(dict.fromkeys(values))
+
+
+def draw_curves(axes, found, result):
+    lines = curves(found, result)
+    variants, groups = ordered(key for key, _, _ in lines), ordered(others for _, others, _ in lines)
+    several = len(variants) > 1
+    for key, others, cases in lines:
+        colour = variants.index(key) if several else groups.index(others)
+        style = STYLES[groups.index(others) % len(STYLES)] if several else "-"
+        axes.plot([found.cost(case) for case in cases], [max(result.errors[case], 1e-16) for case in cases], style,
+                  color=f"C{colour % 10}", marker=MARKERS[groups.index(others) % len(MARKERS)], markersize=4.5,
+                  linewidth=1.1, label=label(found, key, others, several))
+
+
+def draw_front(axes, found, result):
+    front = found.front(result)
+    axes.plot([found.cost(case) for case in front], [max(result.errors[case], 1e-16) for case in front], "o",
+              markersize=10, markerfacecolor="none", markeredgecolor="black", markeredgewidth=0.9,
+              label="none is cheaper and more accurate")
+    if result.uncertainty() > 0:
+        axes.axhline(result.uncertainty(), color="grey", linestyle="-.", linewidth=0.8,
+                     label="uncertainty of the reference")
+
+
+def style(axes):
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    for axis in (axes.xaxis, axes.yaxis):
+        low, high = axis.get_view_interval()
+        if high < 50 * low:  # less than two powers of ten: numbers between them, too
+            axis.set_minor_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+        else:
+            axis.set_minor_formatter(ticker.NullFormatter())
+    axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{100 * value:g} %"))
+    if axes.yaxis.get_view_interval()[1] < 50 * axes.yaxis.get_view_interval()[0]:
+        axes.yaxis.set_minor_formatter(ticker.FuncFormatter(lambda value, _: f"{100 * value:.3g} %"))
+    axes.grid(alpha=0.3, which="both", linewidth=0.4)
+
+
+def work_precision(found, result, path):
+    """Relative error over cost, a curve for each variant and each value of all refinements but the last."""
+    figure, axes = pyplot.subplots(figsize=(8.6, 4.6))
+    draw_curves(axes, found, result)
+    draw_front(axes, found, result)
+    style(axes)
+    refined = found.study.refinements()
+    axes.set_xlabel(f"{found.study.cost} of a run" + (
+        f" (along a curve: {found.study.variations[refined[-1]].name})" if refined else ""))
+    axes.set_ylabel(f"relative error of {result.quantity.name}")
+    axes.set_title(found.study.title, fontsize=11)
+    axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
+    figure.tight_layout()
+    figure.savefig(path, dpi=100)
+    pyplot.close(figure)

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How long a run of a study will take, from those that have ended."""
+import math
+
+import numpy
+
+GROWTH = 2.0  # a priori: seconds over the inverse of a length, of cells in the plane
+STRENGTH = 0.05  # of what is assumed against what was seen
+
+
+class Predictions:
+    """log(seconds) = a + sum_k b_k log(1/length_k) + c(variant), by least squares with weak assumptions on b and c."""
+
+    def __init__(self, study):
+        self.study, self.rows, self.seen = study, [], []
+
+    def features(self, case):
+        result = [1.0]
+        for variation, position in zip(self.study.variations, case.index):
+            if variation.is_refinement():
+                result.append(math.log(variation.lengths[0] / variation.lengths[position]))
+            else:
+                result += [float(position == k) for k in range(len(variation.names))]
+        return result
+
+    def assumed(self):
+        """Exponents before anything was seen, in the order of features()."""
+        result = [0.0]
+        for variation in self.study.variations:
+            if variation.is_refinement():
+                result.append(1.0 if any(key.startswith("Time/") for key in variation.settings[0]) else GROWTH)
+            else:
+                result += [0.0] * len(variation.names)
+        return numpy.array(result)
+
+    def add(self, case, result):
+        if not result["failure"]:
+            self.rows.append(self.features(case))
+            self.seen.append(math.log(max(result["wall seconds"] * result.get("repetitions", 1), 1e-3)))
+
+    def wall_seconds(self, case):
+        """Expected; None before anything was seen."""
+        if not self.rows:
+            return None
+        rows, assumed = numpy.array(self.rows), self.assumed()
+        weights = numpy.full(len(assumed), STRENGTH)
+        weights[0] = 0
+        normal = rows.T @ rows + numpy.diag(weights) + 1e-9 * numpy.eye(len(assumed))
+        deviation = numpy.linalg.solve(normal, rows.T @ (numpy.array(self.seen) - rows @ assumed))
+        return math.exp(numpy.array(self.features(case)) @ (assumed + deviation))

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One run of a study: started, measured, and kept so that it need not be made again."""
+import ctypes
+import hashlib
+import json
+import os
+import re
+import shutil
+import signal
+import statistics
+import subprocess
+import time
+
+REPETITIONS = 3
+KEPT_FILES = ("statistics", "summary.json")
+
+
+def environment():
+    """MPI allowed for root and on few cores; one thread a rank."""
+    return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                OMPI_MCA_rmaps_base_oversubscribe="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+
+
+def text_of_scene(file, seen=()):
+    """The text of a scene with the files that it includes and names."""
+    try:
+        with open(file, errors="replace") as stream:
+            text = stream.read()
+    except OSError:
+        return ""
+    folder = os.path.dirname(file)
+    for name in re.findall(r"^\s*include\s+(\S+)|=\s*(\S+\.(?:msh|stl|csv))\s*$", text, re.M):
+        other = os.path.join(folder, name[0] or name[1])
+        if other not in seen:
+            text += text_of_scene(other, (*seen, file))
+    return text
+
+
+def digest_of_file(path):
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest()
+
+
+def identity(study, case, program_digest):
+    """A name for the folder of a case: the same only for the same scene, settings and program."""
+    parts = [text_of_scene(study.scene), json.dumps(case.settings(study), sort_keys=True), str(study.ranks),
+             program_digest]
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+def message_of(text):
+    """Why a run has failed, without the advice that follows."""
+    error = re.search(r"Error: (.*?)(?=\n|\Z)", text, re.S)
+    return error[1].strip() if error else (text.strip().splitlines() or ["no message"])[-1]
+
+
+def command(program, study, case, folder):
+    words = (["mpirun", "-n", str(study.ranks)] if study.ranks > 1 else []) + [program, study.scene, "--output", folder]
+    settings = {"Output/Interval": "0", "Output/Parts": "statistics", **case.settings(study)}
+    for key, value in settings.items():
+        words += ["--set", f"{key}={value}"]
+    return words
+
+
+def end_with_parent():
+    """Ask the system to end this process when the one that has started it ends, however that happens."""
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+
+
+def wait(process, limit):
+    """Seconds of processors of a process, and whether it was stopped at the limit [s]."""
+    begin, stopped = time.monotonic(), False
+    while True:
+        pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+        if pid:
+            process.returncode = os.waitstatus_to_exitcode(status)
+            return usage.ru_utime + usage.ru_stime, stopped
+        if limit and not stopped and time.monotonic() - begin > limit:
+            os.killpg(process.pid, signal.SIGKILL)
+            stopped = True
+        time.sleep(0.02)
+
+
+def once(program, study, case, folder, limit):
+    """The result of a run as a dictionary; its files stay in the folder."""
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    begin = time.monotonic()
+    with open(os.path.join(folder, "printed"), "w+") as printed:
+        process = subprocess.Popen(command(program, study, case, os.path.join(folder, "run")), env=environment(),
+                                   stdout=printed, stderr=printed, stdin=subprocess.DEVNULL, start_new_session=True,
+                                   preexec_fn=end_with_parent)
+        seconds, stopped = wait(process, limit)
+        printed.seek(0)
+        text = printed.read()
+    failure = "" if process.returncode == 0 else message_of(text)
+    result = {"failure": f"took longer than {limit:.3g} s" if stopped else failure, "stopped": stopped,
+              "core seconds": seconds, "wall seconds": time.monotonic() - begin}
+    result.update(summary_of(os.path.join(folder, "run", "summary.json")))
+    return result
+
+
+def summary_of(path):
+    """What a run says of itself: costs without those of its start."""
+    try:
+        with open(path) as file:
+            summary = json.load(file)
+    except (OSError, ValueError):
+        return {}
+    cost = summary["cost"]
+    return {"core seconds": cost["core seconds"], "wall seconds": cost["wall seconds"],
+            "memory": cost["peak memory [bytes]"], "steps": summary["steps"],
+            "Newton iterations": summary["Newton iterations"], "linear iterations": summary["linear iterations"],
+            "unknowns": sum(summary["unknowns"].values()), "reached": summary["time [s]"]}
+
+
+def keep(folder, result):
+    """Leave what is needed of a run in the folder, and the result as the last file: with it, the case is finished."""
+    for name in KEPT_FILES:
+        source = os.path.join(folder, "run", name)
+        if os.path.exists(source):
+            os.replace(source, os.path.join(folder, name))
+    shutil.rmtree(os.path.join(folder, "run"), ignore_errors=True)
+    path = os.path.join(folder, "result.json")
+    with open(path + ".new", "w") as file:
+        json.dump(result, file, indent=1)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(path + ".new", path)
+
+
+def finished(folder):
+    """The result of a case, or None."""
+    try:
+        with open(os.path.join(folder, "result.json")) as file:
+            return json.load(file)
+    except (OSError, ValueError):
+        return None
+
+
+def run(program, study, case, folder, limit):
+    """Make a run, three times if it is short: the medians count. One that is stopped at the limit [s] of the study is a
+    result, one that is stopped earlier is not kept."""
+    results = [once(program, study, case, folder, limit)]
+    while (not results[0]["failure"] and results[0]["core seconds"] < study.repeat_below
+           and len(results) < REPETITIONS):
+        results.append(once(program, study, case, folder, limit))
+    result = results[-1]
+    for cost in ("core seconds", "wall seconds"):
+        result[cost] = statistics.median(each[cost] for each in results)
+    result["repetitions"] = len(results)
+    result["case"] = case.name(study)
+    result["settings"] = case.settings(study)
+    if not result["stopped"] or limit == study.limit:
+        keep(folder, result)
+    return result

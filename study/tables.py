@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tables of a study."""
+import csv
+import io
+import math
+
+import numpy
+
+from study.cases import variant, variant_name
+
+
+def row(cells):
+    return "| " + " | ".join(map(str, cells)) + " |"
+
+
+def table(head, rows):
+    return [row(head), "|---" * len(head) + "|"] + [row(cells) for cells in rows] + [""]
+
+
+def percent(value):
+    """A relative error with two digits: "2.3 %"."""
+    if math.isnan(value):
+        return ""
+    if value != 0 and not 1e-7 < value < 100:
+        return f"{100 * value:.1e} %"
+    return f"{numpy.format_float_positional(100 * value, 2, fractional=False, trim='-')} %"
+
+
+def number(value, form=".2f"):
+    return "" if value is None or math.isnan(value) else format(value, form)
+
+
+def settings(found, case):
+    """The names of its values."""
+    return [variation.names[position] for variation, position in zip(found.study.variations, case.index)]
+
+
+def value_of(result, case):
+    """The value of a scalar."""
+    return f"{result.values[case].flat[0]:.6g}"
+
+
+def errors(found, result):
+    """A row for each run; the fronts' ones are bold."""
+    front = found.front(result)
+    rows = []
+    for case in sorted(found.results, key=lambda case: case.index):
+        cells = settings(found, case)
+        if case in result.errors:
+            error = percent(result.errors[case])
+            cells += ([value_of(result, case)] if result.is_scalar() else []) + [
+                f"**{error}**" if case in front else error, f"{found.cost(case):.3g}"]
+        else:
+            why = found.results[case]["failure"] or result.missing.get(case, "")
+            cells += ([""] if result.is_scalar() else []) + [why, ""]
+        rows.append(cells)
+    unit = f" [{result.quantity.unit}]" if result.quantity.unit else ""
+    head = [variation.name for variation in found.study.variations] + (["value" + unit] if result.is_scalar() else []) + [
+        "error", found.study.cost]
+    return table(head, rows)
+
+
+def orders(found, result):
+    rows = []
+    for base, axis, own, against in found.orders(result):
+        others = [f"{variation.name} {variation.names[position]}" for k, (variation, position) in enumerate(
+            zip(found.study.variations, base.index)) if k != axis]
+        rows.append([found.study.variations[axis].name, ", ".join(others), number(own), number(against)])
+    if not rows:
+        return []
+    return ["Observed orders of convergence (own: by differences of the last three values):", ""] + table(
+        ["refined", "with", "own order", "order of the error"], rows)
+
+
+def shares(each):
+    return ", ".join(f"{share.name} {percent(share.size)}" for share in each)
+
+
+def advice(found, result):
+    if found.study.combine != "all":  # what is not refined together cannot be recommended together
+        return []
+    rows = []
+    for each in found.advice(result):
+        if each.case:
+            rows.append([percent(each.level), *settings(found, each.case), percent(result.errors[each.case]),
+                         f"{found.cost(each.case):.3g}", shares(each.shares)])
+    if not rows:
+        return ["No run is accurate enough for any of the levels, and all finer ones, too.", ""]
+    lines = ["Cheapest settings for an error that all finer settings keep, too:", ""] + table(
+        ["error at most", *(variation.name for variation in found.study.variations), "error", found.study.cost,
+         "moved by refining"], rows)
+    price = found.price_of_a_digit(result)
+    if not math.isnan(price):
+        lines += [f"A tenth of the error costs about {price:.3g} times as much.", ""]
+    return lines
+
+
+def budget(found, result):
+    """How much of the error of the first values comes from what, if one thing at a time was refined."""
+    if found.study.combine == "all":
+        return []
+    lines = []
+    for base in found.bases(result):
+        name = variant_name(found.study, variant(found.study, base))
+        rows = [[share.name, percent(share.size), percent(share.uncertainty), share.remark]
+                for share in found.budget(result, base)]
+        lines += [f"Budget of the error of the first values ({name}):", ""] + table(
+            ["refined alone", "moves the value by", "uncertain by", "remark"], rows)
+    return lines
+
+
+def section(found, result):
+    """All about a quantity, as lines of Markdown."""
+    reference = result.reference
+    lines = [f"## {result.quantity.name}", ""]
+    value = f"{reference.values.flat[0]:.6g}, " if result.is_scalar() else ""
+    sure = f", uncertain by {percent(result.uncertainty())}" if reference.uncertainty else ""
+    lines += [f"Reference: {value}{reference.source}{sure}. Bold: no other run is both cheaper and more accurate.", ""]
+    lines += [f"Warning: {warning}." for warning in reference.warnings] + ([""] if reference.warnings else [])
+    return lines + errors(found, result) + orders(found, result) + budget(found, result) + advice(found, result)
+
+
+def costs(found):
+    """What each run took."""
+    rows = []
+    for case in sorted(found.results, key=lambda case: case.index):
+        result = found.results[case]
+        if result.get("steps"):
+            rows.append([*settings(found, case), result["unknowns"], result["steps"], result["Newton iterations"],
+                         result["linear iterations"], f"{result['core seconds']:.3g}", f"{result['wall seconds']:.3g}",
+                         f"{result['memory'] / 1e6:.0f}"])
+    head = [variation.name for variation in found.study.variations] + [
+        "unknowns", "steps", "Newton iterations", "linear iterations", "core seconds", "wall seconds", "memory [MB]"]
+    return ["## Costs", ""] + table(head, rows) if rows else []
+
+
+def failures(found):
+    """Each reason once, with the runs that it holds for."""
+    reasons = {}
+    for case, why in found.failures().items():
+        reasons.setdefault(why, []).append(case.name(found.study))
+    lines = [f"- {'all runs' if len(names) == len(found.results) else '; '.join(names)}: {why}"
+             for why, names in reasons.items()]
+    return ["## Runs without a result", "", *lines, ""] if lines else []
+
+
+def records(found):
+    """A dictionary for each run."""
+    rows = []
+    for case, outcome in sorted(found.results.items(), key=lambda item: item[0].index):
+        cells = {variation.name: name for variation, name in zip(found.study.variations, settings(found, case))}
+        for result in found.quantities:
+            if result.is_scalar():
+                cells[result.quantity.name] = result.values[case].flat[0] if case in result.values else ""
+            cells[f"error of {result.quantity.name}"] = result.errors.get(case, "")
+        cells.update({key: outcome.get(key, "") for key in (
+            "core seconds", "wall seconds", "memory", "unknowns", "steps", "Newton iterations", "linear iterations",
+            "failure")})
+        rows.append(cells)
+    return rows
+
+
+def csv_of(found):
+    stream, rows = io.StringIO(), records(found)
+    writer = csv.DictWriter(stream, rows[0], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return stream.getvalue()
+
+
+def escaped(text):
+    for sign in "&%$#_{}":
+        text = text.replace(sign, "\\" + sign)
+    return text
+
+
+def latex_of(found):
+    """A table of errors for each quantity."""
+    lines = []
+    for result in found.quantities:
+        head = [variation.name for variation in found.study.variations] + ["relative error", found.study.cost]
+        lines += [f"% {result.quantity.name}", "\\begin{tabular}{" + "l" * (len(head) - 2) + "rr}", "\\hline",
+                  " & ".join(map(escaped, head)) + " \\\\", "\\hline"]
+        lines += [" & ".join([*map(escaped, settings(found, case)), f"{result.errors[case]:.2e}",
+                              f"{found.cost(case):.3g}"]) + " \\\\"
+                  for case in sorted(result.errors, key=lambda case: case.index)]
+        lines += ["\\hline", "\\end{tabular}", ""]
+    return "\n".join(lines)
+
+
+def finite(value):
+    """For JSON."""
+    return None if math.isnan(value) else value
+
+
+def data_of(found):
+    """For other programs."""
+    return {"title": found.study.title, "cost": found.study.cost, "runs": records(found), "quantities": [
+        {"name": result.quantity.name, "orders": [
+            {"refined": found.study.variations[axis].name, "from": base.settings(found.study), "own": finite(own),
+             "of the error": finite(against)} for base, axis, own, against in found.orders(result)],
+         "budget": [{"refined": share.name, "moves by": share.size, "remark": share.remark}
+                    for base in found.bases(result)[:1] for share in found.budget(result, base)],
+         "reference": result.reference.values.ravel().tolist(),
+         "from": result.reference.source, "uncertainty": result.uncertainty(), "warnings": result.reference.warnings,
+         "advice": [{"error at most": each.level, "settings": each.case.settings(found.study),
+                     "error": result.errors[each.case], "cost": found.cost(each.case)}
+                    for each in found.advice(result) if each.case]}
+        for result in found.quantities]}

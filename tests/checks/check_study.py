@@ -1,0 +1,134 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tiny studies of each kind, as users run them: orders of convergence, budgets, files, resumption after a kill, limits of
+time, and what is said of mistakes.
+
+usage: check_study.py PROGRAM STUDIES
+"""
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import xml.dom.minidom
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+FILES = ("study.md", "study.csv", "study.tex", "study.json", "index.html", "work_precision_1.svg", "work_precision_1.png")
+
+
+def command(program, study, out, *options):
+    return ["/usr/bin/python3", "-B", "-m", "study", study, "--program", program, "--out", out, *options]
+
+
+def environment():
+    return dict(os.environ, PYTHONPATH=ROOT)
+
+
+def run(*arguments):
+    return subprocess.run(command(*arguments), env=environment(), capture_output=True, text=True)
+
+
+def require(condition, what):
+    if not condition:
+        sys.exit(f"check_study.py: {what}")
+
+
+def results(program, studies, name, folder):
+    """The results of a study by quantity, after its files were looked at."""
+    out = os.path.join(folder, name)
+    done = run(program, os.path.join(studies, f"{name}.prm"), out)
+    require(done.returncode == 0, f"{name}: exit code {done.returncode}\n{done.stdout}\n{done.stderr}")
+    for file in FILES:
+        require(os.path.getsize(os.path.join(out, file)) > 100, f"{name}: {file} is missing or empty")
+    xml.dom.minidom.parse(os.path.join(out, "work_precision_1.svg"))
+    with open(os.path.join(out, "study.json")) as file:
+        data = json.load(file)
+    with open(os.path.join(out, "study.csv")) as file:
+        require(len(list(csv.DictReader(file))) == len(data["runs"]), f"{name}: study.csv lacks runs")
+    return {quantity["name"]: quantity for quantity in data["quantities"]}
+
+
+def own_orders(quantity):
+    return [row["own"] for row in quantity["orders"]]
+
+
+def check_kinds(program, studies, folder):
+    solid = results(program, studies, "solid", folder)
+    require(all(order and order > 1.7 for order in own_orders(solid["sag over time"])),
+            f"orders of the cantilever's sag: {own_orders(solid['sag over time'])}")
+    fluid = results(program, studies, "fluid", folder)
+    require(own_orders(fluid["velocity"])[0] > 1.8, f"order of the vortices: {own_orders(fluid['velocity'])}")
+    coupled = results(program, studies, "coupled", folder)["tip"]
+    require(coupled["budget"][0]["refined"] == "step" and own_orders(coupled)[0] > 1.8, f"budget of the piston: {coupled}")
+    particles = results(program, studies, "particles", folder)["energy"]
+    require("two values only" in particles["warnings"][0], f"warnings of particles: {particles['warnings']}")
+
+
+def finished(out):
+    """Times at which results of runs were written, by folder."""
+    found = {}
+    for folder, _, files in os.walk(os.path.join(out, "cases")):
+        if "result.json" in files:
+            found[folder] = os.path.getmtime(os.path.join(folder, "result.json"))
+    return found
+
+
+def check_kill(program, studies, folder):
+    """What has ended before a kill is not made again, and nothing goes on running."""
+    out = os.path.join(folder, "killed")
+    study = os.path.join(studies, "solid.prm")
+    process = subprocess.Popen(command(program, study, out, "--jobs", "1"), env=environment(), stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+    for _ in range(600):
+        time.sleep(0.05)
+        if len(finished(out)) >= 2:
+            break
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    time.sleep(0.2)
+    left = subprocess.run(["pgrep", "-f", out], capture_output=True, text=True).stdout.split()
+    require(not left, f"after a kill there are still processes {left}")
+    before = finished(out)
+    require(2 <= len(before) < 8, f"{len(before)} runs had ended before the kill")
+    done = run(program, study, out)
+    require(done.returncode == 0, f"resumption: {done.stderr}")
+    after = finished(out)
+    require(len(after) == 8 and all(after[case] == then for case, then in before.items()),
+            "resumption has made finished runs again")
+
+
+def check_limit(program, studies, folder):
+    done = run(program, os.path.join(studies, "solid.prm"), os.path.join(folder, "limited"), "--jobs", "1", "--within", "0.5")
+    require("left out" in done.stderr, f"a limit of half a second leaves out nothing:\n{done.stderr}")
+
+
+def check_mistakes(program, studies, folder):
+    with open(os.path.join(studies, "coupled.prm")) as file:
+        text = file.read()
+    scenes = os.path.join(ROOT, "prm")
+    text = text.replace("../../prm", scenes)
+    for wrong, said in ((text.replace("1/20 | 1/40 | 1/80", "1/20 | 1/80 | 1/40"), "must become finer"),
+                        (text.replace("Columns", "Column"), "Did you mean 'Columns'"),
+                        (text.replace("tip displacement x", "tip displacment x"), "similar: tip displacement x"),
+                        (text.replace("Time/End", "Time/Ende"), "Did you mean 'End'"),
+                        (text.replace("over time", "in time"), "largest")):
+        path = os.path.join(folder, "wrong.prm")
+        with open(path, "w") as file:
+            file.write(wrong)
+        done = run(program, path, os.path.join(folder, "wrong"))
+        require(done.returncode not in (0, -11) and said in done.stdout + done.stderr,
+                f"'{said}' is not said, exit code {done.returncode}:\n{done.stdout}\n{done.stderr}")
+
+
+def main():
+    program, studies = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        for check in (check_kinds, check_kill, check_limit, check_mistakes):
+            check(program, studies, folder)
+
+
+if __name__ == "__main__":
+    main()
