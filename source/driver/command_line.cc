@@ -14,6 +14,19 @@ namespace undine
 {
   namespace
   {
+    void
+    add_assignments(CLI::App &command, Request &request)
+    {
+      command
+        .add_option("--set",
+                    request.assignments,
+                    "change a parameter: --set \"Time/End=2\" (may be given several times)")
+        ->type_name("Section/Key=value")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+
+
     /// Where results go, and with which settings: for new runs and for those that are taken up
     /// again.
     void
@@ -31,13 +44,7 @@ namespace undine
       command.add_flag("--overwrite",
                        request.overwrite,
                        "replace a run in that folder which has not reached its end");
-      command
-        .add_option("--set",
-                    request.assignments,
-                    "change a parameter: --set \"Time/End=2\" (may be given several times)")
-        ->type_name("Section/Key=value")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      add_assignments(command, request);
     }
   } // namespace
 
@@ -72,6 +79,12 @@ namespace undine
     study->add_option("study", request.scene_file, "its parameter file")
       ->required()
       ->type_name("STUDY.prm");
+    CLI::App *parameters = app.add_subcommand(
+      "read-scene", "check the sections of a scene and print all parameters as JSON");
+    parameters->add_option("scene", request.scene_file, "its parameter file")
+      ->required()
+      ->type_name("SCENE.prm");
+    add_assignments(*parameters, request);
     CLI::App *evaluate = app.add_subcommand(
       "evaluate", "evaluate an expression at each line 'x y z t' of the standard input");
     evaluate->add_option("expression", request.expression, "in x, y, z, t")->required();
@@ -95,12 +108,13 @@ namespace undine
         return request;
       }
 
-    request.action = resume->parsed()     ? Request::Action::resume
-                     : study->parsed()    ? Request::Action::study
-                     : evaluate->parsed() ? Request::Action::evaluate
-                     : reference          ? Request::Action::reference
-                     : validate           ? Request::Action::validate
-                                          : Request::Action::run;
+    request.action = resume->parsed()       ? Request::Action::resume
+                     : study->parsed()      ? Request::Action::study
+                     : parameters->parsed() ? Request::Action::parameters
+                     : evaluate->parsed()   ? Request::Action::evaluate
+                     : reference            ? Request::Action::reference
+                     : validate             ? Request::Action::validate
+                                            : Request::Action::run;
     return request;
   }
 } // namespace undine

@@ -370,6 +370,21 @@ namespace undine
     }
 
 
+    void
+    print_parameters(const Request &request)
+    {
+      ParameterFile file(request.scene_file);
+      for (const auto &assignment : request.assignments)
+        file.set(assignment);
+      const auto options = Options::collecting(file);
+      if (read_dimension(options) == 2)
+        check_sections<2>(options);
+      else
+        check_sections<3>(options);
+      write_json(std::cout, options);
+    }
+
+
     /// A line for each line "x y z t" of the standard input.
     void
     print_values(const std::string &text)
@@ -395,6 +410,8 @@ namespace undine
     {
       if (request.action == Request::Action::reference)
         print_reference();
+      else if (request.action == Request::Action::parameters)
+        print_parameters(request);
       else if (request.action == Request::Action::study)
         print_study(request.scene_file);
       else if (request.action == Request::Action::evaluate)

@@ -15,13 +15,14 @@ namespace undine
     /// What the program is to do.
     enum class Action
     {
-      run,       ///< run `scene_file`
-      resume,    ///< continue the run in `directory`
-      validate,  ///< read and check `scene_file`, run nothing
-      reference, ///< print all parameters
-      study,     ///< read the study in `scene_file` and print it as JSON
-      evaluate,  ///< evaluate `expression` at the places and times of the standard input
-      nothing    ///< help or version was printed
+      run,        ///< run `scene_file`
+      resume,     ///< continue the run in `directory`
+      validate,   ///< read and check `scene_file`, run nothing
+      reference,  ///< print all parameters
+      parameters, ///< read the sections of `scene_file` and print its parameters as JSON
+      study,      ///< read the study in `scene_file` and print it as JSON
+      evaluate,   ///< evaluate `expression` at the places and times of the standard input
+      nothing     ///< help or version was printed
     };
 
     Action                   action = Action::nothing;
