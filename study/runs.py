@@ -81,23 +81,25 @@ def wait(process, limit):
         time.sleep(0.02)
 
 
+def execute(words, limit, printed):
+    """Run a program until its end or for `limit` seconds; what it prints goes to a file."""
+    begin = time.monotonic()
+    process = subprocess.Popen(words, env=environment(), stdout=printed, stderr=printed, stdin=subprocess.DEVNULL,
+                               start_new_session=True, preexec_fn=end_with_parent)
+    seconds, stopped = wait(process, limit)
+    printed.seek(0)
+    failure = "" if process.returncode == 0 else message_of(printed.read())
+    return {"failure": f"took longer than {limit:.3g} s" if stopped else failure, "stopped": stopped,
+            "core seconds": seconds, "wall seconds": time.monotonic() - begin}
+
+
 def once(program, study, case, folder, limit):
     """The result of a run as a dictionary; its files stay in the folder."""
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    begin = time.monotonic()
     with open(os.path.join(folder, "printed"), "w+") as printed:
-        process = subprocess.Popen(command(program, study, case, os.path.join(folder, "run")), env=environment(),
-                                   stdout=printed, stderr=printed, stdin=subprocess.DEVNULL, start_new_session=True,
-                                   preexec_fn=end_with_parent)
-        seconds, stopped = wait(process, limit)
-        printed.seek(0)
-        text = printed.read()
-    failure = "" if process.returncode == 0 else message_of(text)
-    result = {"failure": f"took longer than {limit:.3g} s" if stopped else failure, "stopped": stopped,
-              "core seconds": seconds, "wall seconds": time.monotonic() - begin}
-    result.update(summary_of(os.path.join(folder, "run", "summary.json")))
-    return result
+        result = execute(command(program, study, case, os.path.join(folder, "run")), limit, printed)
+    return {**result, **summary_of(os.path.join(folder, "run", "summary.json"))}
 
 
 def summary_of(path):

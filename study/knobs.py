@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What makes a scene more accurate: its step, cells, elements and spacings, each of which can be refined by a factor."""
+import json
+import math
+import subprocess
+import sys
+from dataclasses import dataclass
+
+from study.description import flat, numbers
+
+FEWEST_CELLS = 3
+
+
+@dataclass
+class Knob:
+    """Something of a scene that can be refined. `order`: what is expected of its error; `growth`: of the cost over the
+    factor of refinement."""
+    name: str
+    values: dict  # {"Section/Key": [numbers]} of the scene
+    order: float
+    growth: float
+    counts: bool  # numbers of cells, which grow; else lengths, which fall
+
+    def settings(self, factor):
+        """{"Section/Key": value}, finer than the scene by the factor."""
+        result = {}
+        for key, values in self.values.items():
+            if self.counts:
+                result[key] = ", ".join(str(max(1, round(value * factor))) for value in values)
+            else:
+                result[key] = f"{values[0] / factor:.4g}"
+        return result
+
+    def realised(self, factor):
+        """The factor that whole numbers of cells make of another one: that of the largest number."""
+        if not self.counts:
+            return factor
+        largest = max(value for values in self.values.values() for value in values)
+        return max(1, round(largest * factor)) / largest
+
+    def coarsest(self):
+        """The smallest factor that is sensible."""
+        if not self.counts:
+            return 1 / 64
+        largest = min(max(values) for values in self.values.values())
+        return min(1.0, FEWEST_CELLS / largest)
+
+
+def parameters(program, scene, assignments):
+    """{"Section/Key": text} of a scene with its defaults; a mistake ends the program with its message."""
+    words = [program, "read-scene", scene]
+    for assignment in assignments:
+        words += ["--set", assignment]
+    result = subprocess.run(words, capture_output=True, text=True)
+    if result.returncode != 0:
+        sys.stderr.write(result.stderr)
+        sys.exit(result.returncode)
+    return flat(json.loads(result.stdout))
+
+
+def knobs_of(found):
+    """All that the parameters of a scene have, by name."""
+    dimension = int(found["Dimension"])
+    if found["Scheme"] == "particle":
+        return [Knob("spacing of particles", {"Particles/Spacing": numbers(found["Particles/Spacing"])}, 1.0, dimension + 1,
+                     False)]
+    result = []
+    if found.get("Time/Integrator") != "static":
+        result.append(Knob("time step", {"Time/Step": numbers(found["Time/Step"])}, 2.0, 1.0, False))
+    if "Domain/Cells" in found:
+        result.append(Knob("cells of the fluid", {"Domain/Cells": numbers(found["Domain/Cells"])}, 2.0, dimension, True))
+    elements = {key: numbers(text) for key, text in found.items()
+                if key.startswith("Bodies/") and key.count("/") == 2 and key.endswith("/Cells")}
+    if elements:
+        degree = int(found.get("Solid numerics/Element degree", "1"))
+        result.append(Knob("elements of bodies", elements, degree + 1.0, dimension, True))
+    return result
+
+
+def snapped(knob, factor):
+    """A factor that gives whole numbers of cells, not coarser than is sensible."""
+    return max(knob.realised(max(factor, knob.coarsest())), 1e-6) if not math.isinf(factor) else 1.0

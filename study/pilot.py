@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Coarse runs of a scene, which tell what part of its error comes from what."""
+import math
+import os
+import sys
+import time
+from dataclasses import dataclass, field
+
+from study import convergence, error_model, knobs, quantities, runs
+from study.columns import NotEvaluated, read
+from study.description import Quantity
+
+COARSER = 2.0  # neighbours, in one thing
+SMALLEST_ORDER, LARGEST_ORDER = 0.7, 3.5
+
+
+class Refused(Exception):
+    """Why there is no run of that accuracy."""
+
+
+class NoCoarserRun(Refused):
+    """Nothing can be told of a setting, since what is coarser fails."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Factors of refinement of all knobs; what `runs` needs of a case."""
+    knobs: tuple = field(compare=False)
+    factors: tuple
+
+    def settings(self, study):
+        result = dict(study.settings)
+        for knob, factor in zip(self.knobs, self.factors):
+            result.update(knob.settings(factor))
+        return result
+
+    def name(self, _):
+        return ", ".join(f"{key} {value}" for knob, factor in zip(self.knobs, self.factors)
+                         for key, value in knob.settings(factor).items())
+
+    def with_factor(self, k, factor):
+        return Setting(self.knobs, self.factors[:k] + (factor,) + self.factors[k + 1:])
+
+
+@dataclass
+class Estimate:
+    """Of the error of a setting: its parts, and whether what they are made of is sure."""
+    setting: Setting
+    parts: list
+    remarks: list = field(default_factory=list)
+
+    def total(self):
+        return sum(part.size for part in self.parts)
+
+
+def quantity_of(name, measure):
+    """The quantity to be accurate: one column."""
+    texts = dict.fromkeys(("unit", "period_of", "field", "body", "reference_file", "reference_column", "reference_times"), "")
+    return Quantity(name=name, columns=[name], factor=1.0, evaluate=measure, share_of_step=1.0, start=0.0, until=0.0,
+                    periods=0, lower=[], upper=[], n_points=[], reference=[], reference_row={}, reference_factor=1.0,
+                    scale=0.0, **texts)
+
+
+class Pilot:
+    """Makes runs of a scene and remembers what they gave. Folders of coarse runs are in `folder`. `choose`: the quantity
+    that is to be accurate, by the columns of the first run."""
+
+    def __init__(self, program, study, choose, folder, deadline):
+        self.program, self.study, self.choose, self.quantity = program, study, choose, None
+        self.folder, self.deadline = folder, deadline
+        self.values, self.costs, self.failures = {}, {}, {}
+
+    def limit(self):
+        """Seconds that a run may take; 0: as many as it likes."""
+        return max(1.0, self.deadline - time.monotonic()) if self.deadline else 0
+
+    def run(self, setting):
+        """Values of the quantity with a setting; None if the run has failed."""
+        if setting not in self.costs:
+            folder = os.path.join(self.folder, f"{len(self.costs)}")
+            self.take(setting, runs.once(self.program, self.study, setting, folder, self.limit()),
+                      os.path.join(folder, "run"))
+        return self.values.get(setting)
+
+    def run_with_outputs(self, setting, words, folder):
+        """The same with all outputs that the scene asks for, in the user's folder; None if the run has failed."""
+        for key, value in setting.settings(self.study).items():
+            words += ["--set", f"{key}={value}"]
+        with open(os.path.join(self.folder, "printed"), "w+") as printed:
+            result = runs.execute(words, self.limit(), printed)
+        self.take(setting, {**result, **runs.summary_of(os.path.join(folder, "summary.json"))}, folder)
+        return self.values.get(setting)
+
+    def take(self, setting, result, folder):
+        """Note what a run in a folder has given."""
+        if result["stopped"]:
+            raise Refused("the time allowed is over")
+        self.costs[setting] = result["core seconds"]
+        said = result["failure"]
+        print(f"  {setting.name(self.study)}: {said or format(result['core seconds'], '.3g') + ' core s'}", file=sys.stderr,
+              flush=True)
+        if said:
+            self.failures[setting] = said
+            return
+        try:
+            columns = read(os.path.join(folder, "statistics"))
+            self.quantity = self.quantity or self.choose(columns)
+            self.values[setting] = quantities.evaluate(self.quantity, columns)
+        except NotEvaluated as reason:
+            raise Refused(str(reason)) from reason
+
+    def compare(self, settings):
+        """Values of several settings at common times, [setting][time][component]."""
+        found = [self.values[setting] for setting in settings]
+        if self.quantity.evaluate != "over time":
+            return [each.values for each in found]
+        times = min((each.times for each in found), key=len)
+        return [each.at(times) for each in found]
+
+
+def observed_part(pilot, setting, k, coarser):
+    """Part of the error that one knob has, from values with it ever coarser; and a remark."""
+    knob = setting.knobs[k]
+    chain = [setting] + [each for each in coarser if each in pilot.values]
+    if len(chain) < 2:
+        return None, f"{knob.name}: no coarser run has succeeded"
+    values = pilot.compare(chain)
+    scale = convergence.norm(values[0])
+    if scale == 0:
+        raise Refused("the quantity is zero all the time: choose another one with --of")
+    factors = [each.factors[k] for each in chain]
+    difference = convergence.norm(values[0] - values[1]) / scale
+    order, remark = knob.order, ""
+    if len(chain) > 2 and difference > 0:
+        seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
+        if math.isnan(seen):
+            order, remark = SMALLEST_ORDER, f"{knob.name}: values do not come closer yet"
+            difference = max(difference, convergence.norm(values[1] - values[2]) / scale)
+        else:
+            order = min(max(seen, SMALLEST_ORDER), LARGEST_ORDER)
+    size = difference / ((factors[0] / factors[1]) ** order - 1)
+    return error_model.Part(size, factors[0], order, knob.growth), remark
+
+
+def coarser_neighbours(setting, k, count):
+    """With one knob coarser by two, by four, ..., as far as that is sensible and differs."""
+    knob, found = setting.knobs[k], []
+    for n in range(1, count + 1):
+        factor = knobs.snapped(knob, setting.factors[k] / COARSER ** n)
+        if factor < 0.8 * (found[-1] if found else setting).factors[k]:
+            found.append(setting.with_factor(k, factor))
+    return found
+
+
+def estimate(pilot, setting, known, count):
+    """The parts of a setting's error. `known`: parts from an earlier setting, whose orders are kept where `count` coarser
+    neighbours are too few to see them."""
+    parts, remarks = [], []
+    for k, knob in enumerate(setting.knobs):
+        neighbours = coarser_neighbours(setting, k, count)
+        for each in neighbours:
+            pilot.run(each)
+        part, remark = observed_part(pilot, setting, k, neighbours)
+        if part is None:
+            raise NoCoarserRun(remark)
+        if len(neighbours) < 2 and known:  # the order between the two settings
+            before = known[k]
+            order = before.order
+            if before.size > 0 and part.size > 0 and setting.factors[k] > 1.2 * before.factor:
+                raw = part.size * ((COARSER ** order) - 1)
+                raw_before = before.size * ((COARSER ** before.order) - 1)
+                seen = math.log(raw_before / raw) / math.log(setting.factors[k] / before.factor)
+                order = min(max(seen, SMALLEST_ORDER), LARGEST_ORDER)
+                ratio = setting.factors[k] / neighbours[0].factors[k]
+                difference = part.size * (ratio ** part.order - 1)
+                part = error_model.Part(difference / (ratio ** order - 1), part.factor, order, knob.growth)
+        parts.append(part)
+        remarks += [remark] if remark else []
+    return Estimate(setting, parts, remarks)
+
+
+def predicted(found, setting):
+    """The estimate of a setting by one of another."""
+    parts = [error_model.Part(part.at(factor), factor, part.order, part.growth)
+             for part, factor in zip(found.parts, setting.factors)]
+    return Estimate(setting, parts, found.remarks)
