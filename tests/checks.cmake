@@ -56,6 +56,11 @@ foreach(ranks 1 2)
   set_tests_properties(runs/iterations.mpirun=${ranks} PROPERTIES PROCESSORS ${ranks} TIMEOUT 300)
 endforeach()
 
+add_test(NAME runs/summary
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_summary.py $<TARGET_FILE:undine>
+                 ${PROJECT_SOURCE_DIR}/prm)
+set_tests_properties(runs/summary PROPERTIES PROCESSORS 2 TIMEOUT 300)
+
 # Studies: their arithmetic, and tiny ones of each kind.
 add_test(NAME studies/arithmetic COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_study.py)
 add_test(NAME studies/tiny

@@ -62,7 +62,8 @@ namespace undine
         .value = *report.error_in_time;
     if (scene.models.solid)
       {
-        auto &error = largest("Newton", "residual of forces that Newton's method leaves in a step");
+        auto &error =
+          largest("Newton", "residual that Newton's method leaves, of that which it began with");
         error.value = std::max(error.value, report.newton_reduction);
       }
     observe_column(report.columns,
