@@ -39,7 +39,7 @@ def next_setting(found, wanted):
     yet."""
     factors = error_model.cheapest(found.parts, wanted, least_factors(found))
     ratio = error_model.cost_ratio(found.parts, factors)
-    jump = CAREFUL_JUMP if found.remarks else LARGEST_JUMP
+    jump = CAREFUL_JUMP if found.remarks or found.total() > KNOWN else LARGEST_JUMP
     if ratio > jump:
         share = math.log(jump) / math.log(ratio)
         factors = [part.factor * (factor / part.factor) ** share for part, factor in zip(found.parts, factors)]
@@ -89,9 +89,17 @@ def refuse_what_does_not_converge(history):
                       "are chaotic have no accurate values over time: ask for a mean with --as mean, or for a shorter time")
 
 
+def say(found):
+    """Where a setting stands."""
+    parts = ", ".join(f"{knob.name} {percent(part.size)} (order {part.order:.1f})"
+                      for knob, part in zip(found.setting.knobs, found.parts))
+    print(f"error about {percent(found.total())}: {parts}", file=sys.stderr, flush=True)
+
+
 def search(pilot, all_knobs, wanted, run_with_outputs):
     """Estimates of all settings tried; the last one is accurate enough, and its run is the one that the user gets."""
     history = [first_estimate(pilot, all_knobs)]
+    say(history[0])
     while True:
         found = history[-1]
         setting = next_setting(found, AIM * wanted)
@@ -99,6 +107,7 @@ def search(pilot, all_knobs, wanted, run_with_outputs):
         if run_with_outputs(setting) is None:
             raise Refused(f"the run with {setting.name(pilot.study)} fails: {pilot.failures[setting]}")
         history.append(estimate(pilot, setting, found.parts, 1) if found.total() > wanted else predicted(found, setting))
+        say(history[-1])
         if history[-1].total() <= wanted:
             return history
         if len(history) > ROUNDS:

@@ -20,6 +20,7 @@ class Knob:
     order: float
     growth: float
     counts: bool  # numbers of cells, which grow; else lengths, which fall
+    multiple: float = 0  # a length that is a whole number of these lengths; 0: none
 
     def settings(self, factor):
         """{"Section/Key": value}, finer than the scene by the factor."""
@@ -28,11 +29,14 @@ class Knob:
             if self.counts:
                 result[key] = ", ".join(str(max(1, round(value * factor))) for value in values)
             else:
-                result[key] = f"{values[0] / factor:.4g}"
+                result[key] = f"{values[0] / self.realised(factor):.{12 if self.multiple else 4}g}"
         return result
 
     def realised(self, factor):
         """The factor that whole numbers of cells make of another one: that of the largest number."""
+        if self.multiple:
+            length = next(iter(self.values.values()))[0]
+            return max(1, round(self.multiple / length * factor)) * length / self.multiple
         if not self.counts:
             return factor
         largest = max(value for values in self.values.values() for value in values)
@@ -58,12 +62,29 @@ def parameters(program, scene, assignments):
     return flat(json.loads(result.stdout))
 
 
+def common_length(lengths):
+    """The largest length of which all others are whole multiples."""
+    result = 0.0
+    for length in lengths:
+        while length > 1e-9 * max(lengths):
+            result, length = length, result % length if result else 0.0
+            if length > result - 1e-9 * max(lengths):
+                length = 0.0
+    return result
+
+
+def spacing(found, dimension):
+    """Of particles: it divides the sides of the domain."""
+    sides = [upper - lower for lower, upper in zip(numbers(found["Domain/Lower corner"]), numbers(found["Domain/Upper corner"]))]
+    return Knob("spacing of particles", {"Particles/Spacing": numbers(found["Particles/Spacing"])}, 1.0, dimension + 1, False,
+                common_length(sides))
+
+
 def knobs_of(found):
     """All that the parameters of a scene have, by name."""
     dimension = int(found["Dimension"])
     if found["Scheme"] == "particle":
-        return [Knob("spacing of particles", {"Particles/Spacing": numbers(found["Particles/Spacing"])}, 1.0, dimension + 1,
-                     False)]
+        return [spacing(found, dimension)]
     result = []
     if found.get("Time/Integrator") != "static":
         result.append(Knob("time step", {"Time/Step": numbers(found["Time/Step"])}, 2.0, 1.0, False))

@@ -11,7 +11,9 @@ from study.columns import NotEvaluated, read
 from study.description import Quantity
 
 COARSER = 2.0  # neighbours, in one thing
-SMALLEST_ORDER, LARGEST_ORDER = 0.7, 3.5
+SMALLEST_ORDER = 0.7
+EXCESS_ORDER = 0.5  # above the expected order; a greater one is chance
+APART = 1.5  # factor between two settings that can tell an order
 
 
 class Refused(Exception):
@@ -130,15 +132,15 @@ def observed_part(pilot, setting, k, coarser):
         raise Refused("the quantity is zero all the time: choose another one with --of")
     factors = [each.factors[k] for each in chain]
     difference = convergence.norm(values[0] - values[1]) / scale
-    order, remark = knob.order, ""
+    order, order_of_size, remark = knob.order, knob.order, ""
     if len(chain) > 2 and difference > 0:
         seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
-        if math.isnan(seen):
-            order, remark = SMALLEST_ORDER, f"{knob.name}: values do not come closer yet"
+        if math.isnan(seen):  # a size that is no less than it may be, but no hope that it falls as slowly for ever
+            order_of_size, remark = SMALLEST_ORDER, f"{knob.name}: values do not come closer yet"
             difference = max(difference, convergence.norm(values[1] - values[2]) / scale)
         else:
-            order = min(max(seen, SMALLEST_ORDER), LARGEST_ORDER)
-    size = difference / ((factors[0] / factors[1]) ** order - 1)
+            order = order_of_size = sensible(seen, knob)
+    size = difference / ((factors[0] / factors[1]) ** order_of_size - 1)
     return error_model.Part(size, factors[0], order, knob.growth), remark
 
 
@@ -152,9 +154,22 @@ def coarser_neighbours(setting, k, count):
     return found
 
 
+def sensible(order, knob):
+    return min(max(order, SMALLEST_ORDER), knob.order + EXCESS_ORDER)
+
+
+def order_between(part, before, ratio, knob):
+    """The order that follows from the differences to coarser neighbours at two settings, each by `ratio` in this thing."""
+    if not (before.size > 0 and part.size > 0 and part.factor > APART * before.factor):
+        return before.order
+    differences = [each.size * (ratio ** each.order - 1) for each in (before, part)]
+    seen = math.log(differences[0] / differences[1]) / math.log(part.factor / before.factor)
+    return sensible(seen, knob)
+
+
 def estimate(pilot, setting, known, count):
-    """The parts of a setting's error. `known`: parts from an earlier setting, whose orders are kept where `count` coarser
-    neighbours are too few to see them."""
+    """The parts of a setting's error. `known`: parts from an earlier setting, which tell the order where `count` coarser
+    neighbours are too few for that."""
     parts, remarks = [], []
     for k, knob in enumerate(setting.knobs):
         neighbours = coarser_neighbours(setting, k, count)
@@ -163,17 +178,11 @@ def estimate(pilot, setting, known, count):
         part, remark = observed_part(pilot, setting, k, neighbours)
         if part is None:
             raise NoCoarserRun(remark)
-        if len(neighbours) < 2 and known:  # the order between the two settings
-            before = known[k]
-            order = before.order
-            if before.size > 0 and part.size > 0 and setting.factors[k] > 1.2 * before.factor:
-                raw = part.size * ((COARSER ** order) - 1)
-                raw_before = before.size * ((COARSER ** before.order) - 1)
-                seen = math.log(raw_before / raw) / math.log(setting.factors[k] / before.factor)
-                order = min(max(seen, SMALLEST_ORDER), LARGEST_ORDER)
-                ratio = setting.factors[k] / neighbours[0].factors[k]
-                difference = part.size * (ratio ** part.order - 1)
-                part = error_model.Part(difference / (ratio ** order - 1), part.factor, order, knob.growth)
+        if len(neighbours) == 1 and known:
+            ratio = setting.factors[k] / neighbours[0].factors[k]
+            order = order_between(part, known[k], ratio, knob)
+            difference = part.size * (ratio ** part.order - 1)
+            part = error_model.Part(difference / (ratio ** order - 1), part.factor, order, part.growth)
         parts.append(part)
         remarks += [remark] if remark else []
     return Estimate(setting, parts, remarks)

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How true the estimates of `--accuracy` are: the error that it promises against that by independent finer runs, and its cost
+against that of the best settings found by trying them all.
+
+usage: benchmarks/estimates.py [PROGRAM] [--case bar]... [--accuracy 5%]... [--best]
+
+Five scenes (benchmarks/estimates), 5 and 1 %. Truth: runs twice as fine in everything, extrapolated with the run itself and
+one half as fine. --best: also try all settings between half and twice as fine in each thing that cost no more. One core; a
+quarter of an hour, with --best an hour.
+"""
+import argparse
+import itertools
+import os
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, ROOT)
+from study import convergence, error_model, knobs, runs  # noqa: E402
+from study.accuracy import search, share  # noqa: E402
+from study.description import Study  # noqa: E402
+from study.pilot import Pilot, Refused, Setting, quantity_of  # noqa: E402
+from study.tables import percent  # noqa: E402
+
+CASES = {"bar": "tip displacement y", "panel": "corner displacement x", "disc": "behind velocity x",
+         "sheet": "tip displacement x", "column": "Kinetic energy of fluid"}
+TRIED = [2 ** (k / 2) for k in (-2, -1, 0, 1, 2)]  # factors around those of the run
+
+
+def scaled(setting, factor):
+    """Finer in everything."""
+    return Setting(setting.knobs, tuple(knobs.snapped(knob, factor * each)
+                                        for knob, each in zip(setting.knobs, setting.factors)))
+
+
+def errors(pilot, settings, truth, times):
+    """Relative, of settings that have values."""
+    scale = convergence.norm(truth)
+    return {setting: convergence.norm(pilot.values[setting].at(times) - truth) / scale for setting in settings
+            if setting in pilot.values}
+
+
+def limit(pilot, setting):
+    """What three runs lead to that are ever finer in everything, and the times of its values."""
+    chain = [scaled(setting, 0.5), setting, scaled(setting, 2)]
+    for each in chain:
+        pilot.run(each)
+    chain = [each for each in chain if each in pilot.values]
+    times = min((pilot.values[each].times for each in chain), key=len)
+    lengths = [2.0 ** -k for k in range(len(chain))]
+    return convergence.limit(lengths, [pilot.values[each].at(times) for each in chain]), times
+
+
+def best_cost(pilot, found, wanted, truth, times):
+    """Of the cheapest setting that is as accurate as asked for, among those expected to cost no more than the run."""
+    for factors in itertools.product(TRIED, repeat=len(found.parts)):
+        trial = [factor * each for factor, each in zip(factors, found.setting.factors)]
+        if error_model.cost_ratio(found.parts, trial) <= 1:
+            pilot.run(Setting(found.setting.knobs, tuple(map(knobs.snapped, found.setting.knobs, trial))))
+    accurate = [setting for setting, error in errors(pilot, pilot.values, truth, times).items() if error <= wanted]
+    return min((pilot.costs[setting] for setting in accurate), default=float("nan"))
+
+
+def row(program, name, wanted, with_best):
+    scene = os.path.join(ROOT, "benchmarks", "estimates", f"{name}.prm")
+    study = Study("", scene, scene, 1, 0.0, 0.0, "core seconds", "all", [], {}, [])
+    with tempfile.TemporaryDirectory() as folder:
+        pilot = Pilot(program, study, lambda _: quantity_of(CASES[name], "over time"), folder, None)
+        try:
+            history = search(pilot, tuple(knobs.knobs_of(knobs.parameters(program, scene, []))), wanted, pilot.run)
+        except Refused as reason:
+            return f"| {name} | {percent(wanted)} | refused: {reason} |"
+        found = history[-1]
+        cost = pilot.costs[found.setting]
+        others = sum(pilot.costs.values()) - cost
+        true, times = limit(pilot, found.setting)
+        error = errors(pilot, [found.setting], true.value, times)[found.setting]
+        best = best_cost(pilot, found, wanted, true.value, times) if with_best else float("nan")
+    settings = "; ".join(f"{value}" for knob, factor in zip(found.setting.knobs, found.setting.factors)
+                         for value in knob.settings(factor).values())
+    return (f"| {name} | {percent(wanted)} | {settings} | {percent(found.total())} | {percent(error)} | "
+            f"{error / wanted:.2f} | {found.total() / error:.2f} | {cost:.3g} | {others:.3g} | {best:.3g} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", default=os.path.join(ROOT, "build", "undine"))
+    parser.add_argument("--case", action="append", choices=CASES)
+    parser.add_argument("--accuracy", action="append", type=share)
+    parser.add_argument("--best", action="store_true")
+    options = parser.parse_args()
+    os.environ.update(runs.environment())
+    print("| scene | asked for | settings | estimated | true | true / asked for | estimated / true | run [core s] | "
+          "other runs [core s] | best settings [core s] |\n" + 10 * "|---" + "|", flush=True)
+    for name in options.case or CASES:
+        for wanted in options.accuracy or (0.05, 0.01):
+            print(row(options.program, name, wanted, options.best), flush=True)
+
+
+if __name__ == "__main__":
+    main()
