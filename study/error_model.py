@@ -2,20 +2,32 @@
 """An error as a sum of parts, one for each thing that can be refined: part_k = size_k (factor_k)^-order_k; and the cheapest
 factors for an error that is asked for."""
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass
 class Part:
-    """Of the error with the factor at which it was measured."""
-    size: float  # relative
+    """Of the error, with the factor of refinement at which it was measured: by the difference to a value that is coarser in
+    this thing by a ratio. The size of the part follows with one order, how it falls further with another: where no order
+    has been seen, it is prudent to take a lower one for the size."""
+    difference: float  # relative
+    ratio: float
     factor: float
+    order_of_size: float
     order: float
     growth: float  # of the cost over the factor
+
+    @property
+    def size(self):
+        return self.difference / (self.ratio ** self.order_of_size - 1)
 
     def at(self, factor):
         """Its size with another factor."""
         return self.size * (factor / self.factor) ** -self.order
+
+    def moved_to(self, factor):
+        """What is expected with another factor."""
+        return replace(self, difference=self.difference * (factor / self.factor) ** -self.order, factor=factor)
 
 
 def total(parts, factors):

@@ -4,7 +4,7 @@ import math
 import os
 import sys
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from study import convergence, error_model, knobs, quantities, runs
 from study.columns import NotEvaluated, read
@@ -12,6 +12,7 @@ from study.description import Quantity
 
 COARSER = 2.0  # neighbours, in one thing
 SMALLEST_ORDER = 0.7
+UNSEEN_ORDER = 1.5  # assumed of coarse runs, for the size of an error
 EXCESS_ORDER = 0.5  # above the expected order; a greater one is chance
 APART = 1.5  # factor between two settings that can tell an order
 
@@ -132,7 +133,7 @@ def observed_part(pilot, setting, k, coarser):
         raise Refused("the quantity is zero all the time: choose another one with --of")
     factors = [each.factors[k] for each in chain]
     difference = convergence.norm(values[0] - values[1]) / scale
-    order, order_of_size, remark = knob.order, knob.order, ""
+    order, order_of_size, remark = knob.order, min(knob.order, UNSEEN_ORDER), ""
     if len(chain) > 2 and difference > 0:
         seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
         if math.isnan(seen):  # a size that is no less than it may be, but no hope that it falls as slowly for ever
@@ -140,8 +141,7 @@ def observed_part(pilot, setting, k, coarser):
             difference = max(difference, convergence.norm(values[1] - values[2]) / scale)
         else:
             order = order_of_size = sensible(seen, knob)
-    size = difference / ((factors[0] / factors[1]) ** order_of_size - 1)
-    return error_model.Part(size, factors[0], order, knob.growth), remark
+    return error_model.Part(difference, factors[0] / factors[1], factors[0], order_of_size, order, knob.growth), remark
 
 
 def coarser_neighbours(setting, k, count):
@@ -158,13 +158,14 @@ def sensible(order, knob):
     return min(max(order, SMALLEST_ORDER), knob.order + EXCESS_ORDER)
 
 
-def order_between(part, before, ratio, knob):
-    """The order that follows from the differences to coarser neighbours at two settings, each by `ratio` in this thing."""
-    if not (before.size > 0 and part.size > 0 and part.factor > APART * before.factor):
-        return before.order
-    differences = [each.size * (ratio ** each.order - 1) for each in (before, part)]
-    seen = math.log(differences[0] / differences[1]) / math.log(part.factor / before.factor)
-    return sensible(seen, knob)
+def with_order_between(part, before, knob):
+    """A part with the order that follows from the differences at two settings, if these are far enough from each other to
+    tell one; else with that of the earlier one."""
+    order, order_of_size = before.order, before.order_of_size
+    if before.difference > 0 and part.difference > 0 and part.factor > APART * before.factor:
+        seen = math.log(before.difference / part.difference) / math.log(part.factor / before.factor)
+        order = order_of_size = sensible(seen, knob)
+    return replace(part, order=order, order_of_size=order_of_size)
 
 
 def estimate(pilot, setting, known, count):
@@ -179,10 +180,7 @@ def estimate(pilot, setting, known, count):
         if part is None:
             raise NoCoarserRun(remark)
         if len(neighbours) == 1 and known:
-            ratio = setting.factors[k] / neighbours[0].factors[k]
-            order = order_between(part, known[k], ratio, knob)
-            difference = part.size * (ratio ** part.order - 1)
-            part = error_model.Part(difference / (ratio ** order - 1), part.factor, order, part.growth)
+            part = with_order_between(part, known[k], knob)
         parts.append(part)
         remarks += [remark] if remark else []
     return Estimate(setting, parts, remarks)
@@ -190,6 +188,4 @@ def estimate(pilot, setting, known, count):
 
 def predicted(found, setting):
     """The estimate of a setting by one of another."""
-    parts = [error_model.Part(part.at(factor), factor, part.order, part.growth)
-             for part, factor in zip(found.parts, setting.factors)]
-    return Estimate(setting, parts, found.remarks)
+    return Estimate(setting, [part.moved_to(factor) for part, factor in zip(found.parts, setting.factors)], found.remarks)

@@ -9,9 +9,11 @@ import unittest
 import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-from study import convergence, predictions, quantities  # noqa: E402
+from study import accuracy, convergence, error_model, predictions, quantities  # noqa: E402
 from study.cases import make_cases  # noqa: E402
 from study.columns import NotEvaluated  # noqa: E402
+from study.knobs import Knob, common_length, knobs_of, snapped  # noqa: E402
+from study.pilot import Refused  # noqa: E402
 from study.description import Quantity, Study, Variation, flat, numbers, split  # noqa: E402
 
 
@@ -123,6 +125,82 @@ class Cases(unittest.TestCase):
         for case in cases[:6]:
             known.add(case, {"failure": "", "wall seconds": seconds(case)})
         self.assertLess(abs(math.log(known.wall_seconds(cases[-1]) / seconds(cases[-1]))), 0.2)
+
+
+class FakePilot:
+    """Runs whose errors are powers of the factors, of a value over time, and which cost what is expected."""
+
+    def __init__(self, sizes, orders, deadline=None, noise=0.0):
+        self.sizes, self.orders, self.deadline, self.noise = sizes, orders, deadline, noise
+        self.times, self.values, self.costs, self.failures = numpy.linspace(0, 1, 11), {}, {}, {}
+        self.study, self.quantity = study(), quantity(evaluate="over time")
+
+    def exact(self):
+        return numpy.cos(self.times)
+
+    def error(self, setting):
+        waves = (numpy.cos(self.times), numpy.sin(2 * self.times), self.times)
+        parts = sum(size * wave * factor ** -order for size, wave, factor, order in
+                    zip(self.sizes, waves, setting.factors, self.orders))
+        return parts + self.noise * numpy.cos(100 * sum(setting.factors) * self.times)
+
+    def run(self, setting):
+        self.costs[setting] = math.prod(factor ** knob.growth for knob, factor in zip(setting.knobs, setting.factors))
+        self.values[setting] = quantities.Values(self.times, (self.exact() + self.error(setting))[:, None])
+        return self.values[setting]
+
+    def compare(self, settings):
+        return [self.values[setting].values for setting in settings]
+
+    def true_error(self, setting):
+        return convergence.norm(self.error(setting)) / convergence.norm(self.exact())
+
+
+class Accuracy(unittest.TestCase):
+    knobs = (Knob("step", {"Time/Step": [0.01]}, 2.0, 1.0, False), Knob("cells", {"Domain/Cells": [4000, 2000]}, 2.0, 2.0, True))
+
+    def search(self, pilot, wanted):
+        with open(os.devnull, "w") as nowhere:
+            before, sys.stderr = sys.stderr, nowhere
+            try:
+                return accuracy.search(pilot, self.knobs, wanted, pilot.run)
+            finally:
+                sys.stderr = before
+
+    def test_the_cheapest_factors_for_an_error(self):
+        parts = [error_model.Part(0.3, 2, 1, 2, 2, 1), error_model.Part(0.6, 2, 1, 1, 1, 2)]
+        found = error_model.cheapest(parts, 0.01, [0.1, 0.1])
+        self.assertAlmostEqual(error_model.total(parts, found), 0.01)
+        for share in numpy.linspace(0.02, 0.98, 49):  # no other division of the error is cheaper
+            other = [(part.size / (0.01 * each)) ** (1 / part.order) for part, each in zip(parts, (share, 1 - share))]
+            self.assertLessEqual(error_model.cost_ratio(parts, found), error_model.cost_ratio(parts, other) * (1 + 1e-9))
+
+    def test_factors_have_a_least_value(self):
+        parts = [error_model.Part(1e-6, 2, 1, 2, 2, 1), error_model.Part(0.3, 2, 1, 2, 2, 2)]
+        found = error_model.cheapest(parts, 0.01, [0.5, 0.1])
+        self.assertEqual(found[0], 0.5)
+        self.assertAlmostEqual(error_model.total(parts, found), 0.01)
+
+    def test_errors_that_are_powers_are_found(self):
+        for orders in ((2, 2), (1, 2), (2, 1.2)):
+            for wanted in (0.05, 0.01, 0.002):
+                pilot = FakePilot((0.02, 0.03), orders)
+                found = self.search(pilot, wanted)[-1]
+                self.assertLessEqual(pilot.true_error(found.setting), wanted)
+                self.assertLess(abs(math.log(found.total() / pilot.true_error(found.setting))), math.log(3))
+
+    def test_what_does_not_converge_is_refused(self):
+        with self.assertRaisesRegex(Refused, "do not come closer"):
+            self.search(FakePilot((0, 0), (2, 2), noise=0.3), 0.01)
+
+    def test_spacings_of_particles_divide_the_domain(self):
+        self.assertAlmostEqual(common_length([1, 0.8]), 0.2)
+        self.assertAlmostEqual(common_length([0.584, 0.35, 0.15]), 0.002)
+        (knob,) = knobs_of({"Dimension": "2", "Scheme": "particle", "Particles/Spacing": "0.02", "Domain/Lower corner": "0, 0",
+                            "Domain/Upper corner": "1, 0.8"})
+        for factor in (0.21, 0.5, 1, 1.3, 2.7):
+            spacing = float(knob.settings(snapped(knob, factor))["Particles/Spacing"])
+            self.assertAlmostEqual(0.2 / spacing, round(0.2 / spacing), 9)
 
 
 if __name__ == "__main__":
