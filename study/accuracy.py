@@ -126,6 +126,8 @@ def report(pilot, history, wanted):
              f"{percent(wanted)} were asked for; the truth may be a factor of two and more away from an estimate",
              *table(["what", "value", "part of the error", "order"], rows)]
     lines += [f"note: {remark}" for remark in found.remarks]
+    lines += [f"note: '{key}' has a single cell along an axis in all runs: what that does to the error is not known"
+              for knob, factor in zip(found.setting.knobs, found.setting.factors) for key in knob.single_cells(factor)]
     lines += [f"this run: {pilot.costs[found.setting]:.3g} core s; {len(pilot.costs) - 1} others before: {others:.3g} core s",
               f"half of the error would take about "
               f"{expected_cost(pilot, found, half):.3g} core s"]

@@ -43,11 +43,18 @@ class Knob:
         return max(1, round(largest * factor)) / largest
 
     def coarsest(self):
-        """The smallest factor that is sensible."""
+        """The smallest factor that is sensible: whole numbers of cells can fall along all axes alike."""
         if not self.counts:
             return 1 / 64
         largest = min(max(values) for values in self.values.values())
-        return min(1.0, FEWEST_CELLS / largest)
+        smallest = min((value for values in self.values.values() for value in values if value > 1), default=largest)
+        return min(1.0, max(FEWEST_CELLS / largest, 1 / smallest))
+
+    def single_cells(self, factor):
+        """Keys with a single cell along an axis, of which no run can tell what it does to the error."""
+        if not self.counts or factor >= 1.5:
+            return []
+        return [key for key, values in self.values.items() if 1 in values]
 
 
 def parameters(program, scene, assignments):

@@ -13,7 +13,6 @@ from study.description import Quantity
 COARSER = 2.0  # neighbours, in one thing
 SMALLEST_ORDER = 0.7
 UNSEEN_ORDER = 1.5  # assumed of coarse runs, for the size of an error
-EXCESS_ORDER = 0.5  # above the expected order; a greater one is chance
 APART = 1.5  # factor between two settings that can tell an order
 
 
@@ -155,7 +154,8 @@ def coarser_neighbours(setting, k, count):
 
 
 def sensible(order, knob):
-    return min(max(order, SMALLEST_ORDER), knob.order + EXCESS_ORDER)
+    """One greater than expected is chance, or an error that will not fall as fast for long."""
+    return min(max(order, SMALLEST_ORDER), knob.order)
 
 
 def with_order_between(part, before, knob):

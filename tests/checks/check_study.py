@@ -105,6 +105,63 @@ def check_limit(program, studies, folder):
     require("left out" in done.stderr, f"a limit of half a second leaves out nothing:\n{done.stderr}")
 
 
+# Scene of benchmarks/estimates: its column, settings, and for each thing its key with values that are good and bad.
+BUDGETS = {
+    "bar": ("tip displacement y", {"Time/End": 0.3}, {
+        "step": ("Time/Step", "1/200 | 1/400", "1/20 | 1/80"),
+        "elements": ("Bodies/bar/Cells", "24, 3 | 48, 6", "4, 1 | 16, 2")}),
+    "panel": ("corner displacement x", {"Time/Integrator": "static", "Time/Step": 0.05, "Time/End": 0.05,
+                                       "Bodies/panel/Boundaries/pushed/Traction": "3e4; 0"}, {
+        "elements": ("Bodies/panel/Cells", "16, 16 | 32, 32", "2, 2 | 8, 8"),
+        "corrections": ("Solid numerics/Newton iterations", "5 | 6", "1 | 5")}),
+    "disc": ("behind velocity x", {"Time/End": 0.6}, {
+        "step": ("Time/Step", "1/20 | 1/40", "1/2 | 1/20"),
+        "cells": ("Domain/Cells", "48, 24 | 64, 32", "10, 5 | 40, 20")}),
+    "column": ("Kinetic energy of fluid", {"Time/End": 0.1}, {
+        "spacing": ("Particles/Spacing", "0.02 | 0.016", "0.1 | 0.025"),
+        "tolerance": ("Particles/Pressure/Tolerance", "1e-5 | 1e-6", "0.1 | 1e-4")}),
+}
+
+
+def budget_study(scene, bad):
+    """A study of which one thing is made bad on purpose."""
+    column, settings, things = BUDGETS[scene]
+    settings = "\n".join(f"  set {key} = {value}" for key, value in settings.items())
+    text = f"""set Scene = {ROOT}/benchmarks/estimates/{scene}.prm
+set Combine = one at a time
+set Repeat below = 0
+subsection Settings
+{settings}
+end
+subsection Quantities
+  subsection q
+    set Columns = {column}
+    set Evaluate = over time
+  end
+end
+subsection Vary
+"""
+    for name, (key, good, worse) in things.items():
+        text += (f"subsection {name}\n set Lengths = 2, 1\n subsection Settings\n  set {key} = "
+                 f"{worse if name == bad else good}\n end\nend\n")
+    return text + "end\n"
+
+
+def check_budgets(program, _, folder):
+    """What is made bad on purpose is named first."""
+    for scene, bad in (("bar", "step"), ("bar", "elements"), ("panel", "corrections"), ("disc", "cells"),
+                       ("column", "spacing")):
+        path, out = os.path.join(folder, f"{scene}_{bad}.prm"), os.path.join(folder, f"{scene}_{bad}")
+        with open(path, "w") as file:
+            file.write(budget_study(scene, bad))
+        done = run(program, path, out)
+        require(done.returncode == 0, f"{scene} with bad {bad}: {done.stderr}")
+        with open(os.path.join(out, "study.json")) as file:
+            budget = json.load(file)["quantities"][0]["budget"]
+        require(budget[0]["refined"] == bad and budget[0]["moves by"] > 1.5 * budget[1]["moves by"],
+                f"{scene} with bad {bad}: {budget}")
+
+
 def check_mistakes(program, studies, folder):
     with open(os.path.join(studies, "coupled.prm")) as file:
         text = file.read()
@@ -126,7 +183,7 @@ def check_mistakes(program, studies, folder):
 def main():
     program, studies = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
-        for check in (check_kinds, check_kill, check_limit, check_mistakes):
+        for check in (check_kinds, check_budgets, check_kill, check_limit, check_mistakes):
             check(program, studies, folder)
 
 
