@@ -7,6 +7,7 @@ import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 
 from study import runs
+from study.cases import ranks
 from study.predictions import Predictions
 
 LATER = {"failure": "left out: would not end within the time allowed", "left out": True}
@@ -22,7 +23,8 @@ class Campaign:
     """Makes the runs of a study, or takes them from the folder of an earlier time. `within`: seconds, or None."""
 
     def __init__(self, program, study, cases, folder, jobs, within):
-        self.program, self.study, self.cases, self.jobs = program, study, cases, max(1, jobs // study.ranks)
+        self.program, self.study, self.cases = program, study, cases
+        self.jobs = max(1, jobs // max(ranks(study, case) for case in cases))
         digest = runs.digest_of_file(program)
         self.folders = {case: os.path.join(folder, "cases", runs.identity(study, case, digest)) for case in cases}
         self.end = None if within is None else time.monotonic() + within
