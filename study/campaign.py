@@ -6,8 +6,8 @@ import threading
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 
-from study import runs
-from study.cases import ranks
+from study import description, runs
+from study.cases import make_cases, ranks
 from study.predictions import Predictions
 
 LATER = {"failure": "left out: would not end within the time allowed", "left out": True}
@@ -17,6 +17,14 @@ def readable(seconds):
     if seconds < 90:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+def of_file(program, file, folder, jobs, within=None):
+    """The study of a file, and the results and folders of its cases, of which those are run that are not there."""
+    study = description.read(program, file)
+    os.makedirs(folder, exist_ok=True)
+    campaign = Campaign(program, study, make_cases(study), folder, jobs, within)
+    return study, campaign.carry_out(), campaign.folders
 
 
 class Campaign:

@@ -69,7 +69,7 @@ def errors(found, result):
 def reason(result):
     """Why a run has failed, without which step it was and what else is said of it."""
     step = re.match(r"step \d+, which begins at \S+ s: (?:a step of \S+ s failed, the last one of \S+ s: )?"
-                    r"(?:body .*?the point that rests at .*?: )?(.*)", result["failure"], re.S)
+                    r"(?:\S+\.prm: at \S+ s )?(?:body .*?the point that rests at .*?: )?(.*)", result["failure"], re.S)
     return re.split(r"[:;] |\.(?: |$)", step[1])[0] if step else result["failure"]
 
 

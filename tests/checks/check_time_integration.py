@@ -19,7 +19,7 @@ import numpy
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.append(ROOT)
-from study import analysis, campaign, cases, convergence, description, quantities, report, runs  # noqa: E402
+from study import analysis, campaign, convergence, description, quantities, report, runs  # noqa: E402
 
 STUDIES = os.path.join(ROOT, "prm", "studies", "time_integration_*.prm")
 BAR = os.path.join(ROOT, "tests", "time_integration", "bar_study.prm")
@@ -93,11 +93,10 @@ def estimators():
 
 def integrators(program):
     """Orders, errors and costs of the bar's motion."""
-    study = description.read(program, BAR)
     with tempfile.TemporaryDirectory() as folder:
-        runs_of_bar = campaign.Campaign(program, study, cases.make_cases(study), folder, 1, None)
-        found = analysis.Analysis(program, study, runs_of_bar.carry_out(), runs_of_bar.folders)
+        found = analysis.Analysis(program, *campaign.of_file(program, BAR, folder, 1))
         text = report.text(found)
+    study = found.study
     for why in list(found.failures().values()) + list(found.unevaluated.values()):
         yield why
     for result in found.quantities:
