@@ -3,7 +3,7 @@
 """Seconds that projections of a million cells and the cutting of a grid take, as Markdown tables: doc/costs.md holds those
 of one machine, and names the studies that measure seconds per step by phase.
 
-usage: benchmarks/cost_table.py [PROGRAM]
+usage: benchmarks/geometry_costs.py [PROGRAM]
 
 PROGRAM is geometry_benchmark, which './undine test' builds (default: build/tests/geometry_benchmark). Nothing else should
 run meanwhile.
