@@ -146,4 +146,4 @@ def make(program, study, quantity, times, values):
     return by_finest(study, values)
 
 
-__all__ = ["NoReference", "Reference", "Values", "along", "base_cases", "limit_of_all", "make", "on_common_times"]
+__all__ = ["NoReference", "Reference", "Values", "along", "base_cases", "limit_of_all", "make", "on_common_times", "table"]
