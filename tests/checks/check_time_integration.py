@@ -107,8 +107,11 @@ def integrators(program):
             name = study.variations[0].names[base.index[0]]
             yield from expect(f"{name}, {result.quantity.name}: order", against, ORDERS[name])
             yield from expect(f"{name}, {result.quantity.name}: own order", own, ORDERS[name])
-            if ORDERS[name] == 2 and not result.errors[base] < 0.001:
-                yield f"{name}, {result.quantity.name}: error {result.errors[base]:.2e}"
+            errors = [result.errors[base.with_value(1, step)] for step in (1, 2)]
+            yield from expect(f"{name}, {result.quantity.name}: order from 1/1024 to 1/2048 s", convergence.order_to_limit(
+                [2, 1], errors), ORDERS[name])
+            if ORDERS[name] == 2 and not errors[-1] < 0.001:
+                yield f"{name}, {result.quantity.name}: error {errors[-1]:.2e}"
     for case, each in found.results.items():
         if not each.get("Newton iterations", 0) >= END / study.variations[1].lengths[case.index[1]]:
             yield f"{case.name(study)} has cost nothing"
