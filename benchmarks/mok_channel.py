@@ -12,51 +12,43 @@ python3-matplotlib). --check: exit code 1 if a figure is farther from that of th
 rank; a minute with the scene's own grid and step.
 """
 import argparse
-import csv
 import os
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path[:0] = [os.path.join(ROOT, "tests", "checks"), os.path.join(ROOT, "benchmarks")]
-import scene_tools  # noqa: E402
-import time_integration  # noqa: E402
+import numpy
 
-SCENE = os.path.join(ROOT, "prm", "mok_channel.prm")
-REFERENCE = os.path.join(ROOT, "tests", "reference", "mok_channel_wall.csv")
-FITTED = os.path.join(ROOT, "tests", "reference", "mok_channel_fitted.csv")
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, ROOT)
+from study import columns as of_run, references, runs, tables  # noqa: E402
+
+REFERENCE = os.path.join(ROOT, "tests", "reference")
 TIMES = {"ux_cm_at_3s": 3, "ux_cm_at_5s": 5, "ux_cm_at_15s": 15, "ux_cm_at_25s": 25}
-FRICTION = {"ground_friction_N_at_3s": 3}
 # Of the value on the fitted mesh: what grids of 120 by 53 and 150 by 66 cells are off by, and a little more.
 MARGINS = {"peak_cm": 0.04, "ux_cm_at_3s": 0.02, "ux_cm_at_5s": 0.02, "ux_cm_at_15s": 0.04, "ux_cm_at_25s": 0.03,
            "ground_friction_N_at_3s": 0.03}
 
 
-def columns_of(folder):
-    names, _, rows = scene_tools.parse(scene_tools.statistics(folder))
-    return dict(zip(names, zip(*rows)))
-
-
-def at(times, values, time):
-    """Linear between steps."""
-    for t0, t1, a, b in zip(times, times[1:], values, values[1:]):
-        if t1 >= time * (1 - 1e-12):
-            return a + (b - a) * (time - t0) / (t1 - t0)
-    sys.exit(f"mok_channel.py: the run ends at {times[-1]} s")
+def measure(options):
+    """Columns of a run, or of results that are there."""
+    if options.results:
+        return of_run.read(os.path.join(options.results, "statistics"))
+    result, columns = runs.single(options.program, os.path.join(ROOT, "prm", "mok_channel.prm"),
+                                  {"Domain/Cells": options.cells, "Time/Step": options.step})
+    if result["failure"]:
+        sys.exit(f"mok_channel.py: {result['failure']}")
+    print(f"{result['core seconds']:.0f} core seconds")
+    return columns
 
 
 def figures(columns):
     """{name: value}, named as in the reference."""
     times, way = columns["Time"], columns["A displacement x"]
-    ground = [side + slope for side, slope in zip(columns["Viscous force on floor, x"], columns["viscous force floor x"])]
-    result = {"peak_cm": 100 * max(way), "t_peak_s": times[way.index(max(way))]}
-    result.update({name: 100 * at(times, way, time) for name, time in TIMES.items()})
-    result.update({name: at(times, ground, time) for name, time in FRICTION.items()})
-    return result
-
-
-def rows(file):
-    with open(file) as lines:
-        return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    if times[-1] < max(TIMES.values()) * (1 - 1e-12):
+        sys.exit(f"mok_channel.py: the run ends at {times[-1]} s")
+    ground = columns["Viscous force on floor, x"] + columns["viscous force floor x"]
+    return {"peak_cm": 100 * way.max(), "t_peak_s": times[way.argmax()],
+            **{name: 100 * numpy.interp(time, times, way) for name, time in TIMES.items()},
+            "ground_friction_N_at_3s": numpy.interp(3, times, ground)}
 
 
 def draw(columns, published, file):
@@ -64,7 +56,7 @@ def draw(columns, published, file):
     matplotlib.use("Agg")
     from matplotlib import pyplot
     pyplot.figure(figsize=(7, 4))
-    pyplot.plot(columns["Time"], [100 * x for x in columns["A displacement x"]], label="Undine")
+    pyplot.plot(columns["Time"], 100 * columns["A displacement x"], label="Undine")
     for mark, line in zip("osd", published):
         places = [(float(line["t_peak_s"]), float(line["peak_cm"]))]
         places += [(time, float(line[name])) for name, time in TIMES.items() if name in line]
@@ -85,29 +77,20 @@ def main():
     parser.add_argument("--picture")
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
-    if options.results:
-        columns = columns_of(options.results)
-    else:
-        run = time_integration.once(options.program, SCENE, [
-            f"Domain/Cells={options.cells}", f"Time/Step={options.step}", "Output/Parts=statistics", "Output/Interval=0"])
-        if run.complaint:
-            sys.exit(f"mok_channel.py: {run.complaint}")
-        columns = run.columns
-        print(f"{run.seconds:.0f} core seconds")
-    published = rows(REFERENCE)
-    fitted = {line["quantity"]: float(line["value"]) for line in rows(FITTED)}
-    failed = False
-    print("| figure | computed | fitted mesh | difference | allowed | published |\n|---|---|---|---|---|---|")
+    columns = measure(options)
+    published = references.table(os.path.join(REFERENCE, "mok_channel_wall.csv"))
+    fitted = {line["quantity"]: float(line["value"])
+              for line in references.table(os.path.join(REFERENCE, "mok_channel_fitted.csv"))}
+    rows, failed = [], False
     for name, value in figures(columns).items():
         others = [float(line[name]) for line in published if name in line]
-        line = f"| {name} | {value:.3g} | "
+        cells = ["", "", ""]
         if name in MARGINS:
             error = value / fitted[name] - 1
             failed = failed or not abs(error) <= MARGINS[name]
-            line += f"{fitted[name]:.3g} | {100 * error:+.1f} % | {100 * MARGINS[name]:.0f} %"
-        else:
-            line += "| |"
-        print(line + (f" | {min(others):.2f} to {max(others):.2f} |" if others else " | |"))
+            cells = [f"{fitted[name]:.3g}", f"{100 * error:+.1f} %", f"{100 * MARGINS[name]:.0f} %"]
+        rows.append([name, f"{value:.3g}", *cells, f"{min(others):.2f} to {max(others):.2f}" if others else ""])
+    print("\n".join(tables.table(["figure", "computed", "fitted mesh", "difference", "allowed", "published"], rows)))
     if options.picture:
         draw(columns, published, options.picture)
     sys.exit(1 if options.check and failed else 0)

@@ -12,80 +12,66 @@ the largest force, and the momentum that the fluid does not get of what the cyli
 proportion to what is exchanged. --check: exit code 1 if fluxes lose more than a hundredth. One rank; a minute with 12
 cells across the cylinder, ten with 24.
 """
-import math
+import argparse
+import itertools
 import os
 import sys
 
+import numpy
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path[:0] = [os.path.join(ROOT, "tests", "checks"), os.path.join(ROOT, "benchmarks")]
-import convection_arguments  # noqa: E402
-import time_integration  # noqa: E402
+sys.path.insert(0, ROOT)
+from study import runs, tables  # noqa: E402
+from study.convergence import norm  # noqa: E402
 
 SCENE = os.path.join(ROOT, "prm", "oscillating_cylinder.prm")
 DIAMETER, LENGTH, HEIGHT = 0.2, 2.0, 1.0  # [m]
-PARABOLA = [-2, 3, 6, 7, 6, 3, -2]  # of 21: the value in the middle of that fitted to seven points
+PARABOLA = numpy.array([-2, 3, 6, 7, 6, 3, -2]) / 21  # the value in the middle of that fitted to seven points
+AT_REST = {"Obstacles/cylinder/Displacement": "0; 0", "Effects/body force/Fluid/Acceleration": "-2*pi*cos(2*pi*t); 0"}
 BOUND = 0.01
 
 
-def run(program, across, step, form, moves):
-    settings = [f"Domain/Cells={round(LENGTH / DIAMETER * across)}, {round(HEIGHT / DIAMETER * across)}",
-                f"Time/Step={step}", f"Effects/convection/Form={form}", "Output/Parts=statistics",
-                "Output/Budget=true"]
-    if not moves:
-        settings += ["Obstacles/cylinder/Displacement=0; 0",
-                     "Effects/body force/Fluid/Acceleration=-2*pi*cos(2*pi*t); 0"]
-    result = time_integration.once(program, SCENE, settings)
-    if result.complaint:
-        sys.exit(f"oscillating_cylinder.py: {result.complaint}")
-    return result
+def run(program, across, step, form, changes):
+    """The result of a run, its columns, and the force along the motion."""
+    result, columns = runs.single(program, SCENE, {
+        "Domain/Cells": f"{round(LENGTH / DIAMETER * across)}, {round(HEIGHT / DIAMETER * across)}", "Time/Step": step,
+        "Effects/convection/Form": form, "Output/Budget": "true", **changes})
+    if result["failure"]:
+        sys.exit(f"oscillating_cylinder.py: {result['failure']}")
+    return result, columns, columns["pressure force cylinder x"] + columns["viscous force cylinder x"]
 
 
-def force(columns):
-    return [sum(values) for values in zip(columns["pressure force cylinder x"], columns["viscous force cylinder x"])]
-
-
-def root_mean_square(values):
-    return math.sqrt(sum(value * value for value in values) / len(values))
-
-
-def spikes(forces):
-    return [forces[i] - sum(a * b for a, b in zip(PARABOLA, forces[i - 3:i + 4])) / 21
-            for i in range(3, len(forces) - 3)]
-
-
-def momentum_lost(columns):
+def momentum_lost(columns, force):
     """The difference of an impulse by the trapezoidal rule, and of what the fluid gains."""
-    times, forces, lost, exchanged = columns["Time"], force(columns), 0, 0
-    for i in range(1, len(times)):
-        if 0.5 + 1e-9 < times[i] < 1.5 + 1e-9:
-            given = -(forces[i] + forces[i - 1]) / 2 * (times[i] - times[i - 1])
-            # The fluid gives back in the first half of this period what it gets in the second one.
-            sign = 1 if times[i] > 1 + 1e-9 else -1
-            lost += sign * (given - columns["momentum gain x"][i])
-            exchanged += sign * given
-    return lost / exchanged
+    times = columns["Time"][1:]
+    given = -(force[1:] + force[:-1]) / 2 * numpy.diff(columns["Time"])
+    # The fluid gives back in the first half of this period what it gets in the second one.
+    sign = numpy.where(times > 1 + 1e-9, 1, -1) * ((times > 0.5 + 1e-9) & (times < 1.5 + 1e-9))
+    return numpy.sum(sign * (given - columns["momentum gain x"][1:])) / numpy.sum(sign * given)
 
 
 def main():
-    options = convection_arguments.parser(__doc__).parse_args()
-    failed = False
-    print("| cells across | step [s] | form | largest force [N/m] | differs by | spikes | momentum lost | core seconds |")
-    print("|---|---|---|---|---|---|---|---|")
-    for across in options.across or [6, 12]:
-        for step in options.step or ["1/50", "1/100"]:
-            for form in options.form or ["along paths", "flux"]:
-                moving = run(options.program, across, step, form, True)
-                fixed = run(options.program, across, step, form, False)
-                late = [i for i, time in enumerate(moving.columns["Time"]) if time > 0.2 - 1e-9]
-                forces = [force(moving.columns)[i] for i in late]
-                others = [force(fixed.columns)[i] for i in late]
-                largest = max(abs(value) for value in forces)
-                differs = root_mean_square([a - b for a, b in zip(forces, others)]) / largest
-                lost = momentum_lost(moving.columns)
-                failed = failed or (form == "flux" and abs(lost) > BOUND)
-                print(f"| {across} | {step} | {form} | {largest:.4f} | {100 * differs:.1f} % | "
-                      f"{100 * root_mean_square(spikes(forces)) / largest:.1f} % | {100 * lost:+.1f} % | "
-                      f"{moving.seconds:.0f} |", flush=True)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", default=os.path.join(ROOT, "build", "undine"))
+    parser.add_argument("--across", action="append", type=int)
+    parser.add_argument("--step", action="append")
+    parser.add_argument("--form", action="append", choices=("along paths", "flux"))
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args()
+    rows, failed = [], False
+    for across, step, form in itertools.product(options.across or [6, 12], options.step or ["1/50", "1/100"],
+                                                options.form or ["along paths", "flux"]):
+        result, columns, moving = run(options.program, across, step, form, {})
+        _, _, fixed = run(options.program, across, step, form, AT_REST)
+        late = columns["Time"] > 0.2 - 1e-9
+        largest = numpy.abs(moving[late]).max()
+        spikes = moving[late][3:-3] - numpy.convolve(moving[late], PARABOLA, "valid")
+        lost = momentum_lost(columns, moving)
+        failed = failed or (form == "flux" and abs(lost) > BOUND)
+        rows.append([across, step, form, f"{largest:.4f}", f"{100 * norm(moving[late] - fixed[late]) / largest:.1f} %",
+                     f"{100 * norm(spikes) / largest:.1f} %", f"{100 * lost:+.1f} %", f"{result['core seconds']:.0f}"])
+    print("\n".join(tables.table(["cells across", "step [s]", "form", "largest force [N/m]", "differs by", "spikes",
+                                  "momentum lost", "core seconds"], rows)))
     sys.exit(1 if options.check and failed else 0)
 
 

@@ -8,7 +8,7 @@ import os
 import re
 import sys
 
-from study import analysis, campaign, cases, description, report
+from study import analysis, campaign, report
 
 UNITS = {"": 1, "s": 1, "min": 60, "h": 3600}
 
@@ -37,14 +37,10 @@ def arguments():
 
 def main():
     options = arguments()
-    study = description.read(options.program, options.study)
     name = os.path.splitext(os.path.basename(options.study))[0]
     folder = options.out or os.path.join("output", "studies", name)
-    os.makedirs(folder, exist_ok=True)
-    runs = campaign.Campaign(options.program, study, cases.make_cases(study), folder, options.jobs,
-                             0 if options.results_only else options.within)
-    results = runs.carry_out()
-    found = analysis.Analysis(options.program, study, results, runs.folders)
+    found = analysis.Analysis(options.program, *campaign.of_file(options.program, options.study, folder, options.jobs,
+                                                                 0 if options.results_only else options.within))
     files = report.write(found, folder)
     print(report.text(found))
     print("written: " + ", ".join(files))

@@ -36,6 +36,7 @@ class QuantityResults:
     reference: object
     scale: float
     errors: dict = field(default_factory=dict)  # relative
+    largest: dict = field(default_factory=dict)  # differences, relative to the reference's largest value
 
     def uncertainty(self):
         """Relative, of the reference."""
@@ -49,7 +50,7 @@ class Analysis:
     """Of the results of a study's campaign."""
 
     def __init__(self, program, study, results, folders):
-        self.study, self.results = study, results
+        self.study, self.results, self.folders = study, results, folders
         self.quantities, self.unevaluated = [], {}
         data = {case: self.read(folders[case]) for case in sorted(results, key=lambda case: case.index)
                 if not results[case]["failure"]}
@@ -67,7 +68,7 @@ class Analysis:
         evaluated, missing = {}, {}
         for case in data:
             try:
-                evaluated[case] = quantities.evaluate(quantity, data[case])
+                evaluated[case] = quantities.evaluate(quantity.in_case(case.settings(self.study)), data[case])
             except columns.NotEvaluated as reason:
                 missing[case] = str(reason)
         if not evaluated:
@@ -79,6 +80,8 @@ class Analysis:
             raise references.NoReference("the reference is zero: give a 'Scale'")
         result = QuantityResults(quantity, values, missing, reference, scale)
         result.errors = {case: convergence.norm(value - reference.values) / scale for case, value in values.items()}
+        top = numpy.abs(reference.values).max() or scale
+        result.largest = {case: numpy.abs(value - reference.values).max() / top for case, value in values.items()}
         return result
 
     def cost(self, case):
@@ -136,6 +139,11 @@ class Analysis:
             case = min(cases, key=self.cost, default=None)
             rows.append(Advice(level, case, self.budget(result, case) if case else []))
         return rows
+
+    def cheapest(self, result, key, level):
+        """The cheapest case of a variant that is as accurate as the level, as are all finer ones; None without any."""
+        cases = [case for case in result.errors if variant(self.study, case) == key and self.keeps(result, case, level)]
+        return min(cases, key=self.cost, default=None)
 
     def price_of_a_digit(self, result):
         """Factor of cost for a tenth of the error, along the advice; nan if it has fewer than two settings."""

@@ -6,7 +6,8 @@ import threading
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 
-from study import runs
+from study import description, runs
+from study.cases import make_cases, ranks
 from study.predictions import Predictions
 
 LATER = {"failure": "left out: would not end within the time allowed", "left out": True}
@@ -18,11 +19,20 @@ def readable(seconds):
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 
+def of_file(program, file, folder, jobs, within=None):
+    """The study of a file, and the results and folders of its cases, of which those are run that are not there."""
+    study = description.read(program, file)
+    os.makedirs(folder, exist_ok=True)
+    campaign = Campaign(program, study, make_cases(study), folder, jobs, within)
+    return study, campaign.carry_out(), campaign.folders
+
+
 class Campaign:
     """Makes the runs of a study, or takes them from the folder of an earlier time. `within`: seconds, or None."""
 
     def __init__(self, program, study, cases, folder, jobs, within):
-        self.program, self.study, self.cases, self.jobs = program, study, cases, max(1, jobs // study.ranks)
+        self.program, self.study, self.cases = program, study, cases
+        self.jobs = max(1, jobs // max(ranks(study, case) for case in cases))
         digest = runs.digest_of_file(program)
         self.folders = {case: os.path.join(folder, "cases", runs.identity(study, case, digest)) for case in cases}
         self.end = None if within is None else time.monotonic() + within

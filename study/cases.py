@@ -3,6 +3,9 @@
 import itertools
 from dataclasses import dataclass
 
+AS_IS = "as is"  # a value of a variation that leaves its key to the other ones
+RANKS, QUANTITIES = "Ranks", "Quantities/"  # keys of the study itself, which may be varied, too
+
 
 @dataclass(frozen=True)
 class Case:
@@ -10,10 +13,10 @@ class Case:
     index: tuple
 
     def settings(self, study):
-        """{"Section/Key": value} for the scene."""
+        """{"Section/Key": value}; an empty value: the scene has no such key. Later variations override earlier ones."""
         result = dict(study.settings)
         for variation, position in zip(study.variations, self.index):
-            result.update(variation.settings[position])
+            result.update({key: value for key, value in variation.settings[position].items() if value != AS_IS})
         return result
 
     def name(self, study):
@@ -23,6 +26,15 @@ class Case:
     def with_value(self, axis, position):
         """The same case but for one variation."""
         return Case(self.index[:axis] + (position,) + self.index[axis + 1:])
+
+
+def of_scene(settings):
+    """Without the keys of the study itself."""
+    return {key: value for key, value in settings.items() if key != RANKS and not key.startswith(QUANTITIES)}
+
+
+def ranks(study, case):
+    return int(case.settings(study).get(RANKS, study.ranks))
 
 
 def make_cases(study):

@@ -1,27 +1,34 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The numbers that a run leaves in its file `statistics`."""
+"""The numbers that a run leaves in its files `statistics` and `timing`."""
 import difflib
 import re
-
-import numpy
 
 
 class NotEvaluated(Exception):
     """Why a quantity has no value in a run."""
 
 
+def parse(text):
+    """Names of columns, their units, and the rows of numbers of a file `statistics`."""
+    names, units, rows = [], [], []
+    for line in text.splitlines():
+        header = re.match(r"# *\d+: (.*) \[(.*)\]$", line)
+        if header:
+            names.append(header[1])
+            units.append(header[2])
+        elif line.strip() and not line.startswith("#"):
+            rows.append([float(word) for word in line.split()])
+    return names, units, rows
+
+
 def read(path):
     """{name: values of all rows} of a file `statistics`."""
-    names = []
+    import numpy  # checks that only parse do without it
     with open(path) as file:
-        for line in file:
-            header = re.match(r"# *\d+: (.*) \[.*\]$", line)
-            if header:
-                names.append(header[1])
-    rows = numpy.loadtxt(path, ndmin=2)
-    if rows.shape[1:] != (len(names),):
+        names, _, rows = parse(file.read())
+    if any(len(row) != len(names) for row in rows):
         raise NotEvaluated(f"'{path}' has rows of other lengths than its header")
-    return dict(zip(names, rows.T))
+    return dict(zip(names, numpy.array(rows).T))
 
 
 def column(columns, name):
@@ -30,3 +37,19 @@ def column(columns, name):
         raise NotEvaluated(f"there is no column '{name}' in 'statistics'" +
                            (f"; similar: {', '.join(near)}" if near else ""))
     return columns[name]
+
+
+def phases(path):
+    """{phase: seconds} of a file `timing`, names of nested phases joined by ' / '; nothing without the file."""
+    result, above = {}, []
+    try:
+        with open(path) as file:
+            lines = file.readlines()
+    except OSError:
+        return result
+    for line in lines:
+        row = re.match(r"( *)(\S.*?) +(\d+) +([\d.]+) +([\d.]+)$", line.rstrip())
+        if row:
+            above = above[:len(row[1]) // 2] + [row[2]]
+            result[" / ".join(above)] = float(row[4])
+    return result

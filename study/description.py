@@ -6,7 +6,11 @@ import subprocess
 import sys
 from dataclasses import dataclass, field
 
+from study.cases import AS_IS, QUANTITIES, RANKS
+
 AXES = "xyz"
+# Keys of a quantity that variations may change.
+VARIABLE = ("Columns", "Factor", "Evaluate", "Share of step", "From", "Until", "Periods", "Period of")
 FIELD_COLUMNS = {"velocity": "velocity", "pressure": "pressure", "displacement": "displacement",
                  "body velocity": "velocity"}
 
@@ -49,9 +53,17 @@ class Quantity:
     reference_times: str
     reference_factor: float
     scale: float
+    section: dict = field(default_factory=dict)  # that all of this is from
+    folder: str = ""
 
     def has_reference(self):
         return bool(self.reference or self.reference_file)
+
+    def in_case(self, settings):
+        """What it is with the settings of a case, which may change some of its keys."""
+        prefix = f"{QUANTITIES}{self.name}/"
+        changed = {key[len(prefix):]: value for key, value in settings.items() if key.startswith(prefix)}
+        return quantity(self.name, {**self.section, **changed}, self.folder) if changed else self
 
     def points(self):
         """Of a field, evenly distributed in its box."""
@@ -141,7 +153,22 @@ def quantity(name, section, folder):
         "" if text("Field") == "none" else text("Field"), text("Body"), numbers(text("Lower corner")),
         numbers(text("Upper corner")), numbers(text("Points")), split(text("Reference"), ";"), file,
         text("Reference column"), dict(split(part, "=") for part in split(text("Reference row"), ",")),
-        text("Reference times"), float(text("Reference factor")), float(text("Scale")))
+        text("Reference times"), float(text("Reference factor")), float(text("Scale")), section, folder)
+
+
+def check_own_keys(study):
+    """What the program cannot check, since it knows neither cases nor which keys are the study's own; ends the program."""
+    allowed = {f"{QUANTITIES}{each.name}/{key}" for each in study.quantities for key in VARIABLE}
+    for settings in [study.settings] + [each for variation in study.variations for each in variation.settings]:
+        for key in settings:
+            if key.startswith(QUANTITIES) and key not in allowed:
+                sys.exit(f"Error: {study.file}: 'Settings' must not change '{key}'; allowed: {', '.join(sorted(allowed))}")
+        try:
+            int(settings.get(RANKS, 1))
+            for each in study.quantities:
+                each.in_case({key: value for key, value in settings.items() if value != AS_IS})
+        except ValueError as error:
+            sys.exit(f"Error: {study.file}: 'Settings' of {', '.join(settings)}: {error}")
 
 
 def from_json(text, file):
@@ -154,6 +181,7 @@ def from_json(text, file):
                   [quantity(*item, folder) for item in top["Quantities"].items()])
     for each in study.quantities:
         study.settings.update(each.settings())
+    check_own_keys(study)
     return study
 
 

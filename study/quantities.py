@@ -88,6 +88,7 @@ REDUCTIONS = {
     "smallest": lambda times, values: values.min(axis=0),
     "middle": lambda times, values: (values.max(axis=0) + values.min(axis=0)) / 2,
     "amplitude": lambda times, values: (values.max(axis=0) - values.min(axis=0)) / 2,
+    "time of largest": lambda times, values: times[values.argmax(axis=0)],
 }
 
 

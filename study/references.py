@@ -41,10 +41,16 @@ def by_expression(program, quantity, times):
     return Reference(values, 0.0, "expression of the study")
 
 
+def table(path, **wanted):
+    """The rows of a CSV file, each by the names in its first line that is no comment: those with the wanted values."""
+    with open(path) as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return [row for row in rows if all(row.get(name) == value for name, value in wanted.items())]
+
+
 def rows_of(quantity):
     try:
-        with open(quantity.reference_file) as file:
-            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        rows = table(quantity.reference_file)
     except OSError as error:
         raise NoReference(str(error)) from error
     chosen = [row for row in rows if all(row.get(name) == value for name, value in quantity.reference_row.items())]
@@ -140,4 +146,4 @@ def make(program, study, quantity, times, values):
     return by_finest(study, values)
 
 
-__all__ = ["NoReference", "Reference", "Values", "along", "base_cases", "limit_of_all", "make", "on_common_times"]
+__all__ = ["NoReference", "Reference", "Values", "along", "base_cases", "limit_of_all", "make", "on_common_times", "table"]

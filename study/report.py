@@ -4,6 +4,7 @@ import json
 import os
 
 from study import page, plots, tables
+from study.cases import ranks
 
 
 def write(found, folder):
@@ -27,12 +28,13 @@ def write(found, folder):
 def heading(found):
     study = found.study
     done = sum(1 for result in found.results.values() if not result["failure"])
+    counts = " or ".join(map(str, sorted({ranks(study, case) for case in found.results})))
     lines = [f"# {study.title}", "",
              f"Scene `{os.path.basename(study.scene)}`, study `{os.path.basename(study.file)}`: {done} of "
-             f"{len(found.results)} runs have succeeded, on {study.ranks} rank(s) each."]
+             f"{len(found.results)} runs have succeeded, on {counts} rank(s) each."]
     if study.settings:
-        lines += ["", "In all runs: " + ", ".join(f"`{key} = {value}`" for key, value in study.settings.items()
-                                                  if not key.startswith("Probes/")) + "."]
+        lines += ["", "In all runs: " + ", ".join(f"`{key} = {value}`" if value else f"no `{key}`" for key, value in
+                                                  study.settings.items() if not key.startswith("Probes/")) + "."]
     return lines + [""]
 
 
@@ -43,7 +45,7 @@ def text(found, pictures=False):
         lines += tables.section(found, result)
         if pictures:
             lines += [f"![error of {result.quantity.name} over {found.study.cost}](work_precision_{k + 1}.png)", ""]
-    lines += tables.costs(found)
+    lines += tables.costs(found) + tables.phases(found)
     for name, reason in found.unevaluated.items():
         lines += [f"**{name}** was not evaluated: {reason}", ""]
     lines += tables.failures(found)

@@ -9,31 +9,21 @@ import shutil
 import signal
 import statistics
 import subprocess
+import tempfile
 import time
 
+from study import columns, scene_files
+from study.cases import Case, of_scene, ranks
+from study.description import Study
+
 REPETITIONS = 3
-KEPT_FILES = ("statistics", "summary.json")
+KEPT_FILES = ("statistics", "summary.json", "timing")
 
 
 def environment():
     """MPI allowed for root and on few cores; one thread a rank."""
     return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                 OMPI_MCA_rmaps_base_oversubscribe="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
-
-
-def text_of_scene(file, seen=()):
-    """The text of a scene with the files that it includes and names."""
-    try:
-        with open(file, errors="replace") as stream:
-            text = stream.read()
-    except OSError:
-        return ""
-    folder = os.path.dirname(file)
-    for name in re.findall(r"^\s*include\s+(\S+)|=\s*(\S+\.(?:msh|stl|csv))\s*$", text, re.M):
-        other = os.path.join(folder, name[0] or name[1])
-        if other not in seen:
-            text += text_of_scene(other, (*seen, file))
-    return text
 
 
 def digest_of_file(path):
@@ -43,7 +33,7 @@ def digest_of_file(path):
 
 def identity(study, case, program_digest):
     """A name for the folder of a case: the same only for the same scene, settings and program."""
-    parts = [text_of_scene(study.scene), json.dumps(case.settings(study), sort_keys=True), str(study.ranks),
+    parts = [scene_files.all_text(study.scene), json.dumps(case.settings(study), sort_keys=True), str(study.ranks),
              program_digest]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
@@ -54,11 +44,25 @@ def message_of(text):
     return error[1].strip() if error else (text.strip().splitlines() or ["no message"])[-1]
 
 
+def scene_without(study, keys, folder):
+    """The path of a copy of the scene without some keys, and what it needs to find other files."""
+    path = os.path.join(folder, os.path.basename(study.scene))
+    with open(path, "w") as file:
+        file.write(scene_files.without(study.scene, keys))
+    return path, {"Folder of files": os.path.dirname(os.path.abspath(study.scene))}
+
+
 def command(program, study, case, folder):
-    words = (["mpirun", "-n", str(study.ranks)] if study.ranks > 1 else []) + [program, study.scene, "--output", folder]
-    settings = {"Output/Interval": "0", "Output/Parts": "statistics", **case.settings(study)}
-    for key, value in settings.items():
-        words += ["--set", f"{key}={value}"]
+    """To run a case in a folder, with the results in another one within it."""
+    settings = of_scene(case.settings(study))
+    left_out = {key for key, value in settings.items() if not value}
+    scene, own = scene_without(study, left_out, folder) if left_out else (study.scene, {})
+    count = ranks(study, case)
+    words = ["mpirun", "-n", str(count)] if count > 1 else []
+    words += [program, scene, "--output", os.path.join(folder, "run")]
+    for key, value in {"Output/Interval": "0", "Output/Parts": "statistics", **own, **settings}.items():
+        if key not in left_out:
+            words += ["--set", f"{key}={value}"]
     return words
 
 
@@ -98,8 +102,18 @@ def once(program, study, case, folder, limit):
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     with open(os.path.join(folder, "printed"), "w+") as printed:
-        result = execute(command(program, study, case, os.path.join(folder, "run")), limit, printed)
+        result = execute(command(program, study, case, folder), limit, printed)
     return {**result, **summary_of(os.path.join(folder, "run", "summary.json"))}
+
+
+def single(program, scene, settings, ranks_of_run=1):
+    """The result of one run of a scene with other settings, {"Section/Key": value}, and its columns: for scripts that
+    measure more than a study does. What has failed has columns as far as it came."""
+    study = Study("", "", os.path.abspath(scene), ranks_of_run, 0.0, 0.0, "core seconds", "all", [], settings, [])
+    with tempfile.TemporaryDirectory() as folder:
+        result = once(program, study, Case(()), folder, 0)
+        path = os.path.join(folder, "run", "statistics")
+        return result, columns.read(path) if os.path.exists(path) else {}
 
 
 def summary_of(path):

@@ -3,10 +3,17 @@
 import csv
 import io
 import math
+import os
+import re
 
 import numpy
 
+from study import columns
 from study.cases import variant, variant_name
+
+
+MOST_COLUMNS = 12  # of runs, in a table of phases
+LEAST_SECONDS = 0.001  # of a phase that is listed
 
 
 def row(cells):
@@ -48,16 +55,28 @@ def errors(found, result):
         cells = settings(found, case)
         if case in result.errors:
             error = percent(result.errors[case])
-            cells += ([value_of(result, case)] if result.is_scalar() else []) + [
-                f"**{error}**" if case in front else error, f"{found.cost(case):.3g}"]
+            bold = f"**{error}**" if case in front else error
+            cells += [value_of(result, case), bold] if result.is_scalar() else [bold, percent(result.largest[case])]
+            cells.append(f"{found.cost(case):.3g}")
         else:
-            why = found.results[case]["failure"] or result.missing.get(case, "")
-            cells += ([""] if result.is_scalar() else []) + [why, ""]
+            cells += ["", brief(found.results[case]) or result.missing.get(case, ""), ""]
         rows.append(cells)
     unit = f" [{result.quantity.unit}]" if result.quantity.unit else ""
-    head = [variation.name for variation in found.study.variations] + (["value" + unit] if result.is_scalar() else []) + [
-        "error", found.study.cost]
-    return table(head, rows)
+    measures = ["value" + unit, "error"] if result.is_scalar() else ["error", "largest difference"]
+    return table([variation.name for variation in found.study.variations] + measures + [found.study.cost], rows)
+
+
+def reason(result):
+    """Why a run has failed, without which step it was and what else is said of it."""
+    step = re.match(r"step \d+, which begins at \S+ s: (?:a step of \S+ s failed, the last one of \S+ s: )?"
+                    r"(?:\S+\.prm: at \S+ s )?(?:body .*?the point that rests at .*?: )?(.*)", result["failure"], re.S)
+    return re.split(r"[:;] |\.(?: |$)", step[1])[0] if step else result["failure"]
+
+
+def brief(result):
+    """Where a run has stopped, or why; "" if it has not failed."""
+    stopped = result["failure"] and reason(result) != result["failure"] and "reached" in result
+    return f"stops at {result['reached']:.3g} s" if stopped else result["failure"]
 
 
 def orders(found, result):
@@ -95,6 +114,23 @@ def advice(found, result):
     return lines
 
 
+def variants(found, result):
+    """What each variant costs for each level."""
+    keys = list(dict.fromkeys(variant(found.study, case) for case in found.results))
+    if found.study.combine != "all" or len(keys) < 2:
+        return []
+    levels, rows = sorted(found.study.levels, reverse=True), []
+    for key in keys:
+        cells = []
+        for level in levels:
+            case = found.cheapest(result, key, level)
+            names = [settings(found, case)[axis] for axis in found.study.refinements()] if case else []
+            cells.append(f"{found.cost(case):.3g} ({', '.join(names)})" if case else "")
+        rows.append([variant_name(found.study, key), *cells])
+    return [f"{found.study.cost.capitalize()} of each for an error that all finer settings keep, too, and its settings:",
+            ""] + table(["", *map(percent, levels)], rows)
+
+
 def budget(found, result):
     """How much of the error of the first values comes from what, if one thing at a time was refined."""
     if found.study.combine == "all":
@@ -117,7 +153,8 @@ def section(found, result):
     sure = f", uncertain by {percent(result.uncertainty())}" if reference.uncertainty else ""
     lines += [f"Reference: {value}{reference.source}{sure}. Bold: no other run is both cheaper and more accurate.", ""]
     lines += [f"Warning: {warning}." for warning in reference.warnings] + ([""] if reference.warnings else [])
-    return lines + errors(found, result) + orders(found, result) + budget(found, result) + advice(found, result)
+    return lines + errors(found, result) + orders(found, result) + budget(found, result) + variants(found, result) + advice(
+        found, result)
 
 
 def costs(found):
@@ -134,11 +171,31 @@ def costs(found):
     return ["## Costs", ""] + table(head, rows) if rows else []
 
 
+def phases(found):
+    """Seconds of a step, or of the start, on each rank by phase, if not too many runs are to be compared."""
+    cases = [case for case in sorted(found.results, key=lambda case: case.index) if found.results[case].get("steps")]
+    seconds = [columns.phases(os.path.join(found.folders[case], "timing")) for case in cases]
+    if not any(seconds) or len(cases) > MOST_COLUMNS:
+        return []
+    rows = []
+    for name in dict.fromkeys(name for each in seconds for name in each):
+        cells = [each.get(name, 0) / (1 if name.startswith("initialise") else found.results[case]["steps"])
+                 for case, each in zip(cases, seconds)]
+        if max(cells) >= LEAST_SECONDS:
+            rows.append([name, *(f"{cell:.3f}" for cell in cells)])
+    steps = [sum(value for name, value in each.items() if " / " not in name and name != "initialise") /
+             found.results[case]["steps"] for case, each in zip(cases, seconds)]
+    return ["## Wall seconds of a step by phase", "", "`initialise`: once.", ""] + table(
+        ["phase", *(", ".join(settings(found, case)) for case in cases)],
+        rows + [["**a step**", *(f"{cell:.3f}" for cell in steps)]])
+
+
 def failures(found):
     """Each reason once, with the runs that it holds for."""
     reasons = {}
-    for case, why in found.failures().items():
-        reasons.setdefault(why, []).append(case.name(found.study))
+    for case in found.failures():
+        at = brief(found.results[case]) if reason(found.results[case]) != found.results[case]["failure"] else ""
+        reasons.setdefault(reason(found.results[case]), []).append(case.name(found.study) + (f" ({at})" if at else ""))
     lines = [f"- {'all runs' if len(names) == len(found.results) else '; '.join(names)}: {why}"
              for why, names in reasons.items()]
     return ["## Runs without a result", "", *lines, ""] if lines else []

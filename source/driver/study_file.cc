@@ -133,7 +133,12 @@ namespace undine
       const auto  settings = read_settings(options,
                                           path,
                                           "Values of a key of the scene, with '|' between them. "
-                                           "Several keys of one variation change together.");
+                                           "Several keys of one variation change together. An empty "
+                                           "value: the scene is taken without the key; 'as is': "
+                                           "other variations say what it is, of which later ones "
+                                           "override earlier ones. Keys of the study itself: "
+                                           "'Ranks', and how a quantity is evaluated, such as "
+                                           "'Quantities/drag/Factor'.");
       std::size_t n_values = 0;
       for (const auto &setting : settings)
         {
@@ -331,11 +336,12 @@ namespace undine
                          "amplitude",
                          "frequency",
                          "period",
+                         "time of largest",
                          "over time"}),
         "The value at the end, the mean over time, the largest or smallest value, the "
         "middle between these two or half of their difference, the frequency or period of "
-        "upward passages of the middle, or all values over time, compared in the norm "
-        "over time.");
+        "upward passages of the middle, when the value is largest, or all values over time, "
+        "compared in the norm over time.");
       options.add("Share of step",
                   share,
                   "1",
@@ -397,7 +403,10 @@ namespace undine
                 "1",
                 Allowed::positive(),
                 "Relative errors for each of which the cheapest settings are recommended.");
-    read_settings(options, "", "Value of a key of the scene in all runs.");
+    read_settings(options,
+                  "",
+                  "Value of a key of the scene in all runs; empty: the scene is taken without the "
+                  "key, which another integrator may not know, for example.");
 
     const auto variations = options.section("Vary");
     const auto names      = variations.named_sections("variation");

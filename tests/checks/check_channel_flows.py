@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Steady flows around obstacles in a channel against published forces.
 
@@ -7,12 +7,12 @@ usage: check_channel_flows.py PROGRAM PRM_FOLDER REFERENCE_FOLDER
 DFG 2D-1 (cylinder, Reynolds number 20): drag within 1 %, lift and pressure difference within 5 %.
 Turek-Hron CFD1 (cylinder with a rigid flag, Reynolds number 20): drag within 1 %, lift within 5 %.
 """
-import csv
 import os
 import sys
 import tempfile
 
-import scene_tools
+import scene_tools  # which finds the library of studies, too
+from study import references
 
 DRAG, LIFT, PRESSURE = 0.01, 0.05, 0.05  # allowed relative errors
 
@@ -35,9 +35,8 @@ def check(what, value, wanted, allowed):
     return abs(error) <= allowed
 
 
-def rows(folder, name):
-    with open(os.path.join(folder, name)) as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+def rows(folder, name, **wanted):
+    return references.table(os.path.join(folder, name), **wanted)
 
 
 def main():
@@ -52,8 +51,7 @@ def main():
               float(published["cl"]), LIFT),
         check("pressure difference [Pa]", row["front pressure"] - row["back pressure"],
               float(published["dp_Pa"]), PRESSURE)]
-    published = next(line for line in rows(folder, "turek_hron_cfd.csv")
-                     if line["case"] == "CFD1" and line["source"] == "Turek-Hron2006")
+    published, = rows(folder, "turek_hron_cfd.csv", case="CFD1", source="Turek-Hron2006")
     row = last_row(program, os.path.join(scenes, "turek_hron_cfd1.prm"))
     good += [check(f"CFD1 {name} [N]", force(row, "obstacle", axis),
                    float(published[f"{name}_mean"]), allowed)

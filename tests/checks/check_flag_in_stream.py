@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Short stretches of the flows of Turek and Hron around a cylinder with a flag, on coarse grids.
 
@@ -10,11 +10,11 @@ and 15 %. FSI2 (elastic flag) from rest until 0.5 s, while the inflow grows: the
 61 and 180 by 92 cells and steps of 1/50 and 1/100 s agree on, what flows in flows out but for what the flag is
 compressed by, and the budgets of energy and momentum close.
 """
-import csv
 import os
 import sys
 
-import scene_tools
+import scene_tools  # which finds the library of studies, too
+from study import references
 
 RIGID = {"drag": (137.18, 0.005), "lift": (9.232, 0.02)}  # forces at 2 s [N/m], relative change allowed
 PUBLISHED = {"drag": 0.01, "lift": 0.15}  # relative errors allowed on this grid
@@ -24,9 +24,7 @@ SWEPT = 1e-4  # volume, of what has flown in: the end of the flag inside the cyl
 
 
 def published(folder):
-    with open(os.path.join(folder, "turek_hron_cfd.csv")) as file:
-        return next(line for line in csv.DictReader(line for line in file if not line.startswith("#"))
-                    if line["case"] == "CFD2" and line["source"] == "Turek-Hron2006")
+    return references.table(os.path.join(folder, "turek_hron_cfd.csv"), case="CFD2", source="Turek-Hron2006")[0]
 
 
 def force(columns, axis):

@@ -2,19 +2,18 @@
 """What the checks of whole runs share: starting the program and comparing `statistics`."""
 import math
 import os
-import re
 import subprocess
+import sys
 import tempfile
 import time
 
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.append(ROOT)
+from study.columns import parse  # noqa: E402
+from study.runs import environment  # noqa: E402
+
 SLACK = 2  # iterations
 ROUNDING = 1e-13  # in any unit: what rounding leaves of numbers around one
-
-
-def environment():
-    """MPI allowed for root and on few cores; one thread a rank."""
-    return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                OMPI_MCA_rmaps_base_oversubscribe="1", OMP_NUM_THREADS="1")
 
 
 def command(program, arguments, ranks):
@@ -41,19 +40,6 @@ def run(program, arguments, ranks=1):
 def statistics(folder):
     with open(os.path.join(folder, "statistics")) as file:
         return file.read()
-
-
-def parse(text):
-    """Column names, their units, and the rows of numbers."""
-    names, units, rows = [], [], []
-    for line in text.splitlines():
-        header = re.match(r"# *\d+: (.*) \[(.*)\]$", line)
-        if header:
-            names.append(header[1])
-            units.append(header[2])
-        elif line.strip() and not line.startswith("#"):
-            rows.append([float(word) for word in line.split()])
-    return names, units, rows
 
 
 def timed_columns(program, scene, settings):

@@ -4,17 +4,18 @@
 import math
 import os
 import sys
+import tempfile
 import unittest
 
 import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-from study import accuracy, convergence, error_model, predictions, quantities  # noqa: E402
-from study.cases import make_cases  # noqa: E402
+from study import accuracy, columns, convergence, error_model, predictions, quantities, scene_files, tables  # noqa: E402
+from study.cases import make_cases, of_scene, ranks  # noqa: E402
 from study.columns import NotEvaluated  # noqa: E402
+from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of, snapped  # noqa: E402
 from study.pilot import Refused  # noqa: E402
-from study.description import Quantity, Study, Variation, flat, numbers, split  # noqa: E402
 
 
 def quantity(**keys):
@@ -87,6 +88,10 @@ class Quantities(unittest.TestCase):
     def test_columns_are_added_and_multiplied(self):
         self.assertAlmostEqual(self.value(columns=["b", "b"], factor=500), 1000)
 
+    def test_when_the_largest_value_is_reached(self):
+        found = {"Time": numpy.array([0.0, 0.5, 2]), "a": numpy.array([-9.0, 4, 3])}
+        self.assertEqual(quantities.evaluate(quantity(evaluate="time of largest"), found).values, [[0.5]])
+
     def test_values_in_the_middle_of_steps(self):
         columns = {"Time": numpy.array([0.0, 1, 3]), "a": numpy.array([7.0, 1, 2])}
         found = quantities.evaluate(quantity(evaluate="over time", share_of_step=0.5), columns)
@@ -107,6 +112,41 @@ class Cases(unittest.TestCase):
         self.assertEqual({case.index for case in make_cases(study(*two, combine="one at a time"))},
                          {(0, 0), (1, 0), (2, 0), (0, 1)})
 
+    def variants(self):
+        """Two ways to choose steps, over a refinement of both."""
+        ways = Variation("way", "variant", ["constant", "tolerance"], [
+            {"Time/Tolerance": "", "Time/Step": "as is", "Ranks": "1"},
+            {"Time/Tolerance": "as is", "Time/Step": "0.1", "Ranks": "2", "Quantities/q/Share of step": "0.5"}], [])
+        both = Variation("both", "refinement", ["1", "2"], [{"Time/Step": "1/20", "Time/Tolerance": "0.1"},
+                                                            {"Time/Step": "1/40", "Time/Tolerance": "0.03"}], [2, 1])
+        return study(both, ways)
+
+    def test_later_variations_override_earlier_ones_and_leave_as_it_is_what_they_do_not_change(self):
+        several = self.variants()
+        found = {case.index: case for case in make_cases(several)}
+        self.assertEqual(of_scene(found[1, 0].settings(several)), {"Time/Step": "1/40", "Time/Tolerance": ""})
+        self.assertEqual(of_scene(found[1, 1].settings(several)), {"Time/Step": "0.1", "Time/Tolerance": "0.03"})
+        self.assertEqual([ranks(several, found[0, k]) for k in (0, 1)], [1, 2])
+
+    def test_variations_change_how_quantities_are_evaluated(self):
+        several = self.variants()
+        section = {key: "" for key in ("Columns", "Unit", "Evaluate", "Period of", "Field", "Body", "Lower corner",
+                                       "Upper corner", "Points", "Reference", "Reference file", "Reference column",
+                                       "Reference row", "Reference times")}
+        section.update(dict.fromkeys(("Factor", "Share of step", "From", "Until", "Periods", "Reference factor", "Scale"),
+                                     "1"))
+        found = quantity(name="q", section=section, folder="")
+        several.quantities.append(found)
+        check_own_keys(several)
+        shares = [found.in_case(case.settings(several)).share_of_step for case in make_cases(several)]
+        self.assertEqual(shares, [1, 0.5, 1, 0.5])
+        several.settings["Quantities/p/Factor"] = "2"
+        with self.assertRaisesRegex(SystemExit, "must not change 'Quantities/p/Factor'"):
+            check_own_keys(several)
+        several.settings = {"Quantities/q/Factor": "two"}
+        with self.assertRaisesRegex(SystemExit, "two"):
+            check_own_keys(several)
+
     def test_points_fill_their_box_evenly(self):
         field = quantity(columns=[], field="velocity", lower=[0, 0], upper=[1, 2], n_points=[2, 1])
         self.assertEqual(field.points(), [[0.25, 1.0], [0.75, 1.0]])
@@ -115,6 +155,34 @@ class Cases(unittest.TestCase):
     def test_texts(self):
         self.assertEqual(flat({"A": {"b": "1"}, "c": "2"}), {"A/b": "1", "c": "2"})
         self.assertEqual((split("", ";"), split("a; b", ";"), numbers("1, 2e3")), ([], ["a", "b"], [1, 2000]))
+
+    def test_scenes_without_keys(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def write(name, text):
+                with open(os.path.join(folder, name), "w") as file:
+                    file.write(text)
+            write("part.inc", "subsection B # set\n  set Theta = 1\nend\nset Theta = 2 # kept\n")
+            write("scene.prm", "set Gamma = 3\nsubsection Time\n  set Gamma = 1 + \\\n  2\n  set Theta= 4\n"
+                               "  include part.inc\nend")
+            self.assertEqual(scene_files.without(os.path.join(folder, "scene.prm"), {"Time/Gamma", "Time/B/Theta"}),
+                             "set Gamma = 3\nsubsection Time\n  set Theta= 4\nsubsection B # set\nend\n"
+                             "set Theta = 2 # kept\nend\n")
+
+    def test_phases_of_a_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "timing")
+            self.assertEqual(columns.phases(path), {})
+            with open(path, "w") as file:
+                file.write("phase  calls  seconds  share\nsolid         3   1.50  75.0\n  solve it    6   0.50  25.0\n")
+            self.assertEqual(columns.phases(path), {"solid": 1.5, "solid / solve it": 0.5})
+
+    def test_reasons_are_told_without_the_step(self):
+        step = "step 6, which begins at 0.01 s: a step of 0.002 s failed, the last one of 0.002 s: "
+        self.assertEqual(tables.reason({"failure": step + "Newton's method does not converge. Norms: 1 2"}),
+                         "Newton's method does not converge")
+        self.assertEqual(tables.brief({"failure": step + "it is wrong", "reached": 0.01}), "stops at 0.01 s")
+        self.assertEqual(tables.brief({"failure": "no such key. Did you mean another?"}),
+                         "no such key. Did you mean another?")
 
     def test_predictions_follow_a_power_law(self):
         several = study(refinement("h", [1, 0.5, 0.25, 0.125], "Domain/Cells"), refinement("dt", [1, 0.5, 0.25]))

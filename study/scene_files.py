@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Scenes as texts: what they consist of, and what is left of one without some of its keys."""
+import os
+import re
+
+
+def blocks(file):
+    """Lines of a parameter file, each with those that continue it."""
+    block = ""
+    with open(file, errors="replace") as stream:
+        for line in stream:
+            block += line
+            if not line.split("#")[0].rstrip().endswith("\\"):
+                yield block.rstrip("\n") + "\n"
+                block = ""
+
+
+def without(file, keys, sections=()):
+    """The text of a scene without some keys, each "Section/Key": those of an integrator that another one does not know,
+    for example. What the scene includes stands in it; names of other files remain as they are."""
+    text, sections = "", list(sections)
+    for block in blocks(file):
+        found = re.match(r"\s*(subsection|set|include|end)\b([^=#\n]*)", block)
+        word, rest = (found[1], found[2].strip()) if found else ("", "")
+        if word == "subsection":
+            sections.append(rest)
+        elif word == "end":
+            sections.pop()
+        if word == "include":
+            text += without(os.path.join(os.path.dirname(file), rest), keys, sections)
+        elif word != "set" or "/".join([*sections, rest]) not in keys:
+            text += block
+    return text
+
+
+def all_text(file, seen=()):
+    """The text of a scene with the files that it includes and names."""
+    try:
+        with open(file, errors="replace") as stream:
+            text = stream.read()
+    except OSError:
+        return ""
+    folder = os.path.dirname(file)
+    for name in re.findall(r"^\s*include\s+(\S+)|=\s*(\S+\.(?:msh|stl|csv))\s*$", text, re.M):
+        other = os.path.join(folder, name[0] or name[1])
+        if other not in seen:
+            text += all_text(other, (*seen, file))
+    return text
