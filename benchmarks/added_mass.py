@@ -17,9 +17,9 @@ import os
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path[:0] = [os.path.join(ROOT, "benchmarks")]
-import time_integration  # noqa: E402
+sys.path[:0] = [ROOT, os.path.join(ROOT, "benchmarks")]
 from oscillating_cylinder import DIAMETER, HEIGHT, LENGTH, SCENE  # noqa: E402
+from study import runs  # noqa: E402
 
 ACROSS = 0.18  # of a cell, from a plane of the grid to the centre: no symmetry
 DIFFERENCE = {6: 0.02, 12: 0.005, 24: 0.001}  # by cells across the cylinder
@@ -38,13 +38,13 @@ def added_mass(program, across, place):
     """With the centre `place` of a cell's width beyond a plane of the grid, by the mass of the displaced fluid."""
     width = DIAMETER / across
     centre = [LENGTH / 2 + place * width, HEIGHT / 2 + ACROSS * width]
-    result = time_integration.once(program, SCENE, [
-        f"Domain/Cells={round(LENGTH / width)}, {round(HEIGHT / width)}", "Time/Step=1e-6", "Time/End=1e-6",
-        f"Obstacles/cylinder/Centre={centre[0]}, {centre[1]}", "Obstacles/cylinder/Displacement=t; 0",
-        "Obstacles/cylinder/Refinements=7", "Output/Parts=statistics"])
-    if result.complaint:
-        sys.exit(f"added_mass.py: {result.complaint}")
-    return 2 * result.columns["Fluid kinetic energy"][0] / (math.pi * DIAMETER ** 2 / 4)
+    result, columns = runs.single(program, SCENE, {
+        "Domain/Cells": f"{round(LENGTH / width)}, {round(HEIGHT / width)}", "Time/Step": "1e-6", "Time/End": "1e-6",
+        "Obstacles/cylinder/Centre": f"{centre[0]}, {centre[1]}", "Obstacles/cylinder/Displacement": "t; 0",
+        "Obstacles/cylinder/Refinements": "7"})
+    if result["failure"]:
+        sys.exit(f"added_mass.py: {result['failure']}")
+    return 2 * columns["Fluid kinetic energy"][0] / (math.pi * DIAMETER ** 2 / 4)
 
 
 def main():
