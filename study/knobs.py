@@ -2,6 +2,7 @@
 """What makes a scene more accurate: its step, cells, elements and spacings, each of which can be refined by a factor."""
 import json
 import math
+import re
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -80,11 +81,20 @@ def common_length(lengths):
     return result
 
 
+def lengths_in(found, unit):
+    """Numbers in the region of the fluid and the corners of bodies and obstacles that are whole numbers of a unit."""
+    texts = [text for key, text in found.items() if key == "Fluid/Region" or key.endswith(" corner")]
+    values = [float(word) for text in texts for word in re.findall(r"(?<![\w.])\d+\.?\d*(?:e-?\d+)?", text)]
+    return [value for value in values if value > 0 and abs(value / unit - round(value / unit)) < 1e-6]
+
+
 def spacing(found, dimension):
-    """Of particles: it divides the sides of the domain."""
+    """Of particles: it divides the sides of the domain, and what is a whole number of the scene's own spacings, so that
+    there is as much fluid with every spacing."""
+    own = numbers(found["Particles/Spacing"])
     sides = [upper - lower for lower, upper in zip(numbers(found["Domain/Lower corner"]), numbers(found["Domain/Upper corner"]))]
-    return Knob("spacing of particles", {"Particles/Spacing": numbers(found["Particles/Spacing"])}, 1.0, dimension + 1, False,
-                common_length(sides))
+    return Knob("spacing of particles", {"Particles/Spacing": own}, 1.0, dimension + 1, False,
+                common_length(sides + lengths_in(found, own[0])))
 
 
 def knobs_of(found):
