@@ -307,6 +307,15 @@ TEST_CASE("lines that make no sense are refused with their number", "[options]")
 }
 
 
+TEST_CASE("keys of settings of a study may be paths, others not", "[options]")
+{
+  const auto options = read("subsection Settings\n set Time/Step = 1 | 2\nend\n");
+  CHECK(options.file().at("Settings/Time/Step").value == "1 | 2");
+  CHECK_THAT(message([] { read("subsection Time\n set Fast/Step = 1\nend\n"); }),
+             Catch::Contains("scene_under_test.prm:2") && Catch::Contains("must not contain '/'"));
+}
+
+
 TEST_CASE("expressions are functions of place and time", "[options]")
 {
   const Expression<2> wave("sin(pi*x)*t + if(y>1, 10, 0)");
