@@ -165,8 +165,9 @@ namespace undine
         for_each_cell_link(grid, before.get(), [&](const CellLink<dim> &link) {
           if (value_at(levels, link.from) == level - 1 && value_at(levels, link.to) == level &&
               link.area(grid, before.get()) > 0)
-            value_at(collected, link.from) +=
-              link.area(grid, before.get()) / value_at(ways, link.to) * value_at(collected, link.to);
+            value_at(collected, link.from) += link.area(grid, before.get()) /
+                                              value_at(ways, link.to) *
+                                              value_at(collected, link.to);
         });
       }
     Field<dim>  result(grid.cells(), now);

@@ -46,8 +46,7 @@ namespace undine
       double       sum    = 0;
       for (int k = 0; k < n; ++k)
         {
-          const auto trace =
-            n == 1 ? middle : tracer.trace(place, -(k + .5) / n * tracer.dt());
+          const auto trace = n == 1 ? middle : tracer.trace(place, -(k + .5) / n * tracer.dt());
           if (trace.near_body)
             return none;
           sum += interpolate_cubic(source, trace.foot.point, Overshoot::kept) / n;

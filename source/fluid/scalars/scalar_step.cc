@@ -133,8 +133,7 @@ namespace undine
     Field<dim>   result(flow.model().grid().cells(), flow.topology());
     if (source)
       {
-        add_amounts(
-          result, (1 - gamma) * h, flow.volumes(gamma), source(flow.begin() + gamma * h));
+        add_amounts(result, (1 - gamma) * h, flow.volumes(gamma), source(flow.begin() + gamma * h));
         add_amounts(result, gamma * h, flow.volumes(1), source(flow.begin() + h));
       }
     return result;
@@ -149,8 +148,9 @@ namespace undine
                              const Field<dim>        &gains)
   {
     const double h = flow.duration();
-    Equations    equations{h, flow.volumes(0), Field<dim>(begin.shared_lattice(), begin.topology()), {}, {}};
-    auto        &leaving = equations.shares;
+    Equations    equations{
+      h, flow.volumes(0), Field<dim>(begin.shared_lattice(), begin.topology()), {}, {}};
+    auto &leaving = equations.shares;
     fluxes.for_each([&](const CellLink<dim> &link, const auto &flux) {
       value_at(leaving, link.from) += h * flux.upwind().own;
     });
@@ -160,7 +160,8 @@ namespace undine
     auto explicit_part = begin;
     int  is_implicit   = 0;
     for_each_cell_place(begin, [&](const PressurePlace<dim> &place) {
-      double &share = value_at(equations.shares, place), &volume = value_at(equations.retained, place);
+      double &share       = value_at(equations.shares, place),
+             &volume      = value_at(equations.retained, place);
       const double amount = share;
       share               = amount > volume ? 1 - volume / amount : 0.;
       volume              = std::max(0., volume - amount);
@@ -186,9 +187,8 @@ namespace undine
         });
         return {load, explicit_part};
       }
-    assemble(equations, fluxes, Matrices::with_convection, [](const auto &flux) {
-      return flux.upwind();
-    });
+    assemble(
+      equations, fluxes, Matrices::with_convection, [](const auto &flux) { return flux.upwind(); });
     Low result{solve(equations, load, begin), explicit_part};
     add_amounts(result.carried, 1., equations.shares, result.end);
     result.carried.exchange(1);
@@ -201,27 +201,28 @@ namespace undine
   Field<dim>
   ScalarStep<dim>::after_half(const ScalarFluxes<dim> &fluxes,
                               const Field<dim>        &begin,
-                              const Field<dim>        &gains)
+                              const Low               &low,
+                              const Field<dim>        &gains) const
   {
-    const double h       = flow.duration() / 2;
+    const double h       = flow.duration();
     const auto   volumes = flow.volumes(1);
-    auto         result  = begin;
-    for_each_cell_place(result, [&](const PressurePlace<dim> &place) {
-      value_at(result, place) += value_at(gains, place) / (2 * value_at(volumes, place));
-    });
+    auto         change  = gains;
     if (fluxes.has_diffusion())
       {
-        Equations  equations{h, volumes, ones(begin), {}, {}};
-        Field<dim> load(begin.shared_lattice(), begin.topology());
-        add_amounts(load, 1., volumes, result);
-        fluxes.for_each_side(flow.begin() + h, [&](const auto &place, const auto &flux) {
-          value_at(load, place) += h * flux.conductance * flux.beyond;
+        fluxes.for_each([&](const CellLink<dim> &link, const auto &flux) {
+          value_at(change, link.from) -=
+            h * flux.conductance *
+            (value_at(low.carried, link.from) - value_at(low.carried, link.to));
         });
-        assemble(equations, fluxes, Matrices::symmetric, [](const auto &flux) {
-          return typename ScalarFluxes<dim>::Coefficients{flux.conductance, -flux.conductance};
+        fluxes.for_each_side(flow.begin() + h / 2, [&](const auto &place, const auto &flux) {
+          value_at(change, place) -=
+            h * flux.conductance * (value_at(low.carried, place) - flux.beyond);
         });
-        result = solve(equations, load, result);
       }
+    auto result = begin;
+    for_each_cell_place(result, [&](const PressurePlace<dim> &place) {
+      value_at(result, place) += value_at(change, place) / (2 * value_at(volumes, place));
+    });
     result.exchange(1);
     return result;
   }
@@ -238,14 +239,13 @@ namespace undine
                                    const Low               &low,
                                    ScalarBounds<dim>       &bounds) const
   {
-    auto result = face_means(fluxes, half, bounds);
-    auto mean = begin, fullness = flow.volumes(0);
+    auto       result = face_means(fluxes, half, bounds);
+    auto       mean = begin, fullness = flow.volumes(0);
     const auto volumes = flow.volumes(1);
     for_each_cell_place(mean, [&](const PressurePlace<dim> &place) {
       value_at(mean, place) += (value_at(low.end, place) - value_at(mean, place)) / 2;
-      value_at(fullness, place) =
-        std::min(value_at(fullness, place), value_at(volumes, place)) /
-        flow.model().grid().cell_volume(place.cell);
+      value_at(fullness, place) = std::min(value_at(fullness, place), value_at(volumes, place)) /
+                                  flow.model().grid().cell_volume(place.cell);
     });
     mean.exchange(1);
     fullness.exchange(1);
@@ -254,8 +254,8 @@ namespace undine
       if (!std::isnan(value))
         return;
       const double from = value_at(mean, link.from), to = value_at(mean, link.to);
-      const double central = std::min(
-        {1., 2 * value_at(fullness, link.from), 2 * value_at(fullness, link.to)});
+      const double central =
+        std::min({1., 2 * value_at(fullness, link.from), 2 * value_at(fullness, link.to)});
       value = central * (from + to) / 2 + (1 - central) * (flux.rate > 0 ? from : to);
     });
     fluxes.for_each_side(flow.begin(), [&](const PressurePlace<dim> &place, const auto &flux) {
@@ -284,9 +284,7 @@ namespace undine
       value_at(change, place) -=
         h * flux.rate * (flux.rate > 0 ? value_at(on_faces[flux.axis], flux.face) : flux.beyond);
     });
-    const auto step = [&](const double        end,
-                          const Field<dim>   &load,
-                          const Field<dim>   &guess) {
+    const auto step = [&](const double end, const Field<dim> &load, const Field<dim> &guess) {
       Equations equations{gamma * h, flow.volumes(end), ones(begin), {}, {}};
       auto      full_load = load;
       fluxes.for_each_side(flow.begin() + end * h, [&](const auto &place, const auto &flux) {
@@ -325,11 +323,11 @@ namespace undine
                              const ScalarBounds<dim> &bounds) const
   {
     const int           n_rounds = 4 * bounds.reached - 1;
-    const double        h       = flow.duration();
-    const auto          volumes = flow.volumes(1);
-    auto                result  = low.end;
+    const double        h        = flow.duration();
+    const auto          volumes  = flow.volumes(1);
+    auto                result   = low.end;
     std::vector<double> amounts; // that are left, of links and then of sides
-    const auto &carried = low.carried;
+    const auto         &carried = low.carried;
     fluxes.for_each([&](const CellLink<dim> &link, const auto &flux) {
       const auto   upwind = flux.upwind();
       const double high =
@@ -340,16 +338,15 @@ namespace undine
     });
     fluxes.for_each_side(flow.begin(), [&](const auto &place, const auto &flux) {
       const double value = value_at(carried, place);
-      amounts.push_back(h * (std::max(0., flux.rate) *
-                               (value_at(on_faces[flux.axis], flux.face) - value) +
-                             flux.conductance * (value_at(diffused, place) - value)));
+      amounts.push_back(
+        h * (std::max(0., flux.rate) * (value_at(on_faces[flux.axis], flux.face) - value) +
+             flux.conductance * (value_at(diffused, place) - value)));
     });
     for (int round = 0; round < n_rounds; ++round)
       {
         FluxLimiter<dim> limiter(result, bounds.lower, bounds.upper, volumes);
         auto             next = amounts.begin();
-        fluxes.for_each(
-          [&](const auto &link, const auto &) { limiter.count(link.from, *next++); });
+        fluxes.for_each([&](const auto &link, const auto &) { limiter.count(link.from, *next++); });
         fluxes.for_each_side(
           flow.begin(), [&](const auto &place, const auto &) { limiter.count(place, *next++); });
         limiter.finish();
@@ -358,9 +355,8 @@ namespace undine
           value_at(result, place) -= share * *next / value_at(volumes, place);
           *next++ *= 1 - share;
         };
-        fluxes.for_each([&](const auto &link, const auto &) {
-          take(link.from, limiter.share(link, *next));
-        });
+        fluxes.for_each(
+          [&](const auto &link, const auto &) { take(link.from, limiter.share(link, *next)); });
         fluxes.for_each_side(flow.begin(), [&](const auto &place, const auto &) {
           take(place, limiter.share(place, *next));
         });
@@ -383,16 +379,15 @@ namespace undine
       {
         const auto volumes = flow.volumes(1);
         for_each_cell_place(gained, [&](const PressurePlace<dim> &place) {
-          bounds.include(place,
-                         value_at(scalar, place) +
-                           value_at(gained, place) / value_at(volumes, place));
+          bounds.include(
+            place, value_at(scalar, place) + value_at(gained, place) / value_at(volumes, place));
         });
       }
     auto low = low_order(fluxes, scalar, gained);
     bounds.spread(fluxes);
     bounds.include_neighbours(fluxes, low.end);
     const auto on_faces =
-      values_on_faces(fluxes, scalar, after_half(fluxes, scalar, gained), low, bounds);
+      values_on_faces(fluxes, scalar, after_half(fluxes, scalar, low, gained), low, bounds);
     const auto diffusing =
       fluxes.has_diffusion() ? diffused(fluxes, scalar, on_faces, gained) : low.end;
     return corrected(fluxes, low, on_faces, diffusing, bounds);

@@ -22,8 +22,8 @@ namespace undine
     double
     area(const MacGrid<dim> &grid, const FluidTopology<dim> *topology) const
     {
-      return face.part < 0 ? grid.face_area(axis, face.face) :
-                             topology->faces[axis].all()[face.part].measure;
+      return face.part < 0 ? grid.face_area(axis, face.face)
+                           : topology->faces[axis].all()[face.part].measure;
     }
   };
 

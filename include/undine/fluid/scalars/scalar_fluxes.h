@@ -95,20 +95,20 @@ namespace undine
       const auto *open  = flow.topology().get();
       for_each_side_face(
         grid, open, [&](const SideFace<dim> &face, const dealii::Point<dim> &place) {
-          const auto        &boundary = model.boundaries().at(face.side, face.cell);
-          const bool         is_given = condition.is_dirichlet(boundary);
-          const unsigned int axis     = face.side.axis;
-          const double       rate     = outward_flux(grid, flow.velocity(), face);
-          const double       conductance =
-            is_given ? diffusivity * std::abs(signed_area(grid, open, face)) /
-                         grid.dual_width(axis, face.face[axis]) :
-                       0.;
+          const auto        &boundary    = model.boundaries().at(face.side, face.cell);
+          const bool         is_given    = condition.is_dirichlet(boundary);
+          const unsigned int axis        = face.side.axis;
+          const double       rate        = outward_flux(grid, flow.velocity(), face);
+          const double       conductance = is_given
+                                             ? diffusivity * std::abs(signed_area(grid, open, face)) /
+                                           grid.dual_width(axis, face.face[axis])
+                                             : 0.;
           if (rate == 0 && conductance == 0)
             return;
           const bool   counts = rate < 0 || conductance > 0;
-          const double beyond = !counts  ? 0. :
-                                is_given ? condition.dirichlet_value(boundary, axis, place, time) :
-                                           condition.entering_value(place, time);
+          const double beyond = !counts    ? 0.
+                                : is_given ? condition.dirichlet_value(boundary, axis, place, time)
+                                           : condition.entering_value(place, time);
           action(place_inside(open, face),
                  SideFlux{{rate, conductance}, {face.face, face.piece}, axis, beyond});
         });

@@ -90,7 +90,10 @@ namespace undine
     Low
     low_order(const ScalarFluxes<dim> &fluxes, const Field<dim> &begin, const Field<dim> &gains);
     Field<dim>
-    after_half(const ScalarFluxes<dim> &fluxes, const Field<dim> &begin, const Field<dim> &gains);
+    after_half(const ScalarFluxes<dim> &fluxes,
+               const Field<dim>        &begin,
+               const Low               &low,
+               const Field<dim>        &gains) const;
     Velocity<dim>
     values_on_faces(const ScalarFluxes<dim> &fluxes,
                     const Field<dim>        &begin,
@@ -113,10 +116,10 @@ namespace undine
     number();
     template <class Coefficients>
     void
-    assemble(Equations                       &equations,
-             const ScalarFluxes<dim>         &fluxes,
-             const DiffusionSolver::Matrices  matrices,
-             const Coefficients              &coefficients);
+    assemble(Equations                      &equations,
+             const ScalarFluxes<dim>        &fluxes,
+             const DiffusionSolver::Matrices matrices,
+             const Coefficients             &coefficients);
     Field<dim>
     solve(const Equations &equations, const Field<dim> &load, const Field<dim> &guess);
 

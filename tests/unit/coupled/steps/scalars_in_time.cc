@@ -23,11 +23,11 @@ namespace
                    section("gravity", "set Acceleration = 0, -1") + convection() +
                      section("scalar transport",
                              "set Form = " + form + "\n" +
-                             section("heat",
-                                     "set Initial value = cos(pi*x)\n"
-                                     "set Source = 9*sin(5*t)*cos(pi*x)*(1+cos(pi*y))\n"
-                                     "set Diffusivity = .2\nset Dirichlet boundaries = hot\n"
-                                     "set Dirichlet value = cos(4*t)")) +
+                               section("heat",
+                                       "set Initial value = cos(pi*x)\n"
+                                       "set Source = 9*sin(5*t)*cos(pi*x)*(1+cos(pi*y))\n"
+                                       "set Diffusivity = .2\nset Dirichlet boundaries = hot\n"
+                                       "set Dirichlet value = cos(4*t)")) +
                      section("buoyancy",
                              section("heat",
                                      "set Expansion coefficient = " + expansion +
@@ -61,8 +61,9 @@ namespace
   check_order(const std::string &expansion, const unsigned int n_fields, const std::string &form)
   {
     const double dt     = .04;
-    const auto   coarse = fields_after(dt, expansion, form), middle = fields_after(dt / 2, expansion, form),
-               fine = fields_after(dt / 4, expansion, form);
+    const auto   coarse = fields_after(dt, expansion, form),
+               middle   = fields_after(dt / 2, expansion, form),
+               fine     = fields_after(dt / 4, expansion, form);
     for (unsigned int k = 0; k < n_fields; ++k)
       {
         const double first  = difference(coarse[k], middle[k]),
