@@ -242,7 +242,7 @@ namespace undine
           throw options.section(field->name)
             .error("Diffusivity",
                    "diffusion around bodies and obstacles needs transport in flux form",
-                   "Set 'Form = flux' in 'scalar transport', or remove the key.");
+                   "Remove the key, or set 'Form = flux' in 'scalar transport'.");
       for (const auto &field : fields)
         check_field(options, *field, around.fluid->boundaries().all());
     }
