@@ -29,10 +29,23 @@ namespace undine
     , levels(grid.cells(), before)
   {
     for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-      if (!is_whole(levels.divided(), cell) || !is_whole(now ? &now->cells : nullptr, cell))
+      if (!is_kept(cell))
         find_routes(cell);
     });
     find_levels();
+  }
+
+
+  /// Is a cell open all over, before and now, and has no surface passed over it in between?
+  template <int dim>
+  bool
+  CellTransfer<dim>::is_kept(const GridIndex<dim> &cell) const
+  {
+    if (!is_whole(before ? &before->cells : nullptr, cell) ||
+        !is_whole(now ? &now->cells : nullptr, cell))
+      return false;
+    const auto centre = vicinity.place(grid.cells()->point(cell));
+    return !vicinity.is_next_to_body(centre) || !vicinity.is_swept(centre);
   }
 
 
@@ -170,10 +183,9 @@ namespace undine
                                               value_at(collected, link.to);
         });
       }
-    Field<dim>  result(grid.cells(), now);
-    const auto *divided = result.divided();
+    Field<dim> result(grid.cells(), now);
     for_each(result.owned(), [&](const GridIndex<dim> &cell) {
-      if (is_whole(divided, cell) && is_whole(collected.divided(), cell))
+      if (is_kept(cell))
         result(cell) = collected(cell);
     });
     for (const auto &route : routes) // of all other cells

@@ -133,8 +133,9 @@ TEMPLATE_TEST_CASE_SIG("Nothing leaks by fluxes through a thin sheet that moves"
                        2,
                        3)
 {
-  // It closes the box from wall to wall, and pushes the fluid there and back.
-  for (const double dt : {.01, .05})
+  // It closes the box from wall to wall, and pushes the fluid there and back, by up to three cells
+  // in a step.
+  for (const double dt : {.01, .05, .15})
     {
       ObstacleRun<dim> run(
         section("Domain", plane_or_space<dim>("set Cells = 16, 10", "set Cells = 12, 6, 5")) +
@@ -150,7 +151,7 @@ TEMPLATE_TEST_CASE_SIG("Nothing leaks by fluxes through a thin sheet that moves"
         smoke_by_fluxes("set Initial value = if(x < .30005, 1, 0)\n"
                         "set Inflow value = if(x < .5, 1, 0)"),
         dt);
-      for (unsigned int n = 0; n < 16; ++n)
+      while (run.state.clock.time < .75)
         {
           // Where it is in the fluid's grid: at the begin of the step.
           const double at = .30005 + .4 * std::sin(3 * run.state.clock.time);

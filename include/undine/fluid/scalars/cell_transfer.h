@@ -50,6 +50,8 @@ namespace undine
       double             share; ///< [1]
     };
 
+    bool
+    is_kept(const GridIndex<dim> &cell) const;
     Openings
     openings(const SubLattice<dim> *divided, const GridIndex<dim> &cell) const;
     void
