@@ -11,8 +11,8 @@ namespace undine
   /// The shares of fluxes that can be added to values without leaving given bounds, whichever of
   /// them come together: flux-corrected transport (Zalesak 1979),
   ///
-  ///     R+ = min(1, V (max - s) / sum of what enters),   R- = min(1, V (s - min) / sum of what
-  ///     leaves)
+  ///     R+ = min(1, V (max - s) / sum of what enters)
+  ///     R- = min(1, V (s - min) / sum of what leaves)
   ///
   /// of which a flux has the smaller one, R- of where it leaves and R+ of where it enters.
   template <int dim>
