@@ -67,7 +67,7 @@ TEMPLATE_TEST_CASE_SIG("Fluxes conserve a scalar and keep it in its bounds, what
                        2,
                        3)
 {
-  for (const double cells : {.5, 2., 10.})
+  for (const double cells : {.5, 2., 10., 50.})
     {
       FlowRun<dim> run(graded_box<dim>(),
                        smoke_by_fluxes("set Initial value = if((x-.4)^2 + (y-.5)^2 < .06, 3, 1)"));
