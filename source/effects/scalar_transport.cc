@@ -1,182 +1,27 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
+#include <undine/effects/transported_scalar.h>
 #include <undine/fluid/advection/advection.h>
+#include <undine/fluid/advection/fill_unknown.h>
 #include <undine/fluid/grid/field_algebra.h>
 #include <undine/fluid/model/fluid_quantities.h>
-#include <undine/fluid/viscosity/implicit_diffusion.h>
+#include <undine/fluid/scalars/scalar_step.h>
 
 #include <algorithm>
-#include <optional>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace undine
 {
-  namespace
-  {
-    /// An advected field, prescribed at inflows and where the scene says so, without flux
-    /// elsewhere.
-    template <int dim>
-    class TransportedScalar : public BoundaryCondition<dim>
-    {
-    public:
-      explicit TransportedScalar(const std::string &name_)
-        : name(name_)
-      {
-      }
-
-      void
-      add_options(const Options &options)
-      {
-        options.add("Initial value", initial, "", Allowed::constant_in_time(), "At the start.");
-        options.add("Source",
-                    source,
-                    "1/s",
-                    Allowed::anything(),
-                    "Rate at which the value grows, besides transport.");
-        options.add("Inflow value",
-                    inflow,
-                    "",
-                    Allowed::anything(),
-                    "Of fluid that comes in through inflows and openings; the initial value if not "
-                    "given.");
-        if (!options.given("Inflow value"))
-          inflow = initial;
-        options.add(
-          "Neglected variation",
-          neglected,
-          "1",
-          Allowed::between(0, 0.01),
-          "Where within reach of the flow values differ by no more than this share of the "
-          "field's range, nothing is advected: what holds no smoke costs nothing. 0: "
-          "everything is advected.");
-        options.add("Diffusivity", diffusivity, "m^2/s", Allowed::not_negative(), "Its own.");
-        options.add("Dirichlet boundaries",
-                    dirichlet_boundaries,
-                    "",
-                    Allowed::anything(),
-                    "Names of boundaries on which the value is prescribed, such as heated walls.");
-        options.add("Dirichlet value",
-                    prescribed,
-                    "",
-                    Allowed::anything(),
-                    "On the boundaries where it is prescribed.");
-        if (!options.is_reference() && options.given("Dirichlet value") &&
-            dirichlet_boundaries.empty())
-          throw options.error("Dirichlet value",
-                              "is given, but no boundary to hold it",
-                              "Name boundaries of the fluid in 'Dirichlet boundaries'.");
-      }
-
-      bool
-      is_dirichlet(const Boundary<dim> &boundary) const override
-      {
-        return boundary.kind == BoundaryKind::inflow || is_listed(boundary);
-      }
-
-      double
-      dirichlet_value(const Boundary<dim> &boundary,
-                      const unsigned int,
-                      const dealii::Point<dim> &place,
-                      const double              time) const override
-      {
-        return is_listed(boundary) ? prescribed.value(place, time) : inflow.value(place, time);
-      }
-
-      double
-      entering_value(const dealii::Point<dim> &place, const double time) const override
-      {
-        return inflow.value(place, time);
-      }
-
-      bool
-      obeys_maximum_principle() const override
-      {
-        return true;
-      }
-
-      double
-      neglected_variation() const override
-      {
-        return neglected;
-      }
-
-      /// What the source at `time` adds in `length` [s].
-      void
-      add_source(Field<dim> &values, const double time, const double length) const
-      {
-        const auto *divided = values.divided();
-        for (const auto &[index, rate] : sources(values, time))
-          if (!divided || divided->kind(index) == SubLattice<dim>::Kind::whole)
-            values(index) += length * rate;
-        for (std::size_t k = 0; k < values.parts().size(); ++k)
-          if (divided->owns(k))
-            values.parts()[k] += length * source.value(divided->all()[k].place, time);
-      }
-
-      /// [bytes]
-      std::size_t
-      memory_of_sources() const
-      {
-        return known_sources ? known_sources->capacity() * sizeof(known_sources->front()) : 0;
-      }
-
-      /// Does anything change it besides the flow?
-      bool
-      changes() const
-      {
-        return diffusivity > 0 || !source.is_zero();
-      }
-
-      std::string              name;
-      Expression<dim>          initial, source, inflow, prescribed;
-      std::vector<std::string> dirichlet_boundaries;
-      double                   diffusivity = 0;
-      double                   neglected   = 1e-6;
-
-      /// Matrix of the last step size: a cache.
-      mutable std::unique_ptr<ImplicitDiffusion<dim>> equation;
-
-    private:
-      using Sources = std::vector<std::pair<GridIndex<dim>, double>>;
-
-      /// The source in the middle of owned cells, where it is not zero. Found once if the time does
-      /// not matter.
-      const Sources &
-      sources(const Field<dim> &values, const double time) const
-      {
-        if (!known_sources || source.names_time())
-          {
-            known_sources.emplace();
-            for_each(values.owned(), [&](const GridIndex<dim> &index) {
-              const double rate = source.value(values.lattice().point(index), time);
-              if (rate != 0)
-                known_sources->emplace_back(index, rate);
-            });
-          }
-        return *known_sources;
-      }
-
-      mutable std::optional<Sources> known_sources; ///< a cache
-
-      bool
-      is_listed(const Boundary<dim> &boundary) const
-      {
-        return std::find(dirichlet_boundaries.begin(), dirichlet_boundaries.end(), boundary.name) !=
-               dirichlet_boundaries.end();
-      }
-    };
-  } // namespace
-
-
   /// Fields that the flow advects, such as smoke or temperature:
   ///
   ///     ds/dt + v.grad s = D Laplace(s) + q                                               (E4)
   ///
-  /// along the flow by the stages of the step (T10) with ds/dt = D Laplace(s) + q as the rate, of
-  /// second order in time; in steps of one stage with the source in the middle and implicit
-  /// diffusion, of first order. Advection is not conservative: the integral of s drifts with the
-  /// error of the interpolation.
+  /// either by fluxes from cell to cell, which conserve the integral of s (ScalarStep), or along
+  /// the flow by the stages of the step (T10) with ds/dt = D Laplace(s) + q as the rate, of second
+  /// order in time; in steps of one stage with the source in the middle and implicit diffusion, of
+  /// first order. Along paths the integral of s drifts with the error of the interpolation.
   template <int dim>
   class ScalarTransport : public Effect<dim>
   {
@@ -184,13 +29,42 @@ namespace undine
     void
     add_options(const Options &options) override
     {
-      method =
-        options.template choose<Advection<dim>>("Method", "cubic", "How the fields are advected.");
+      options.add(
+        "Form",
+        form,
+        "",
+        Allowed::one_of({"automatic", "along paths", "flux"}),
+        "'flux': what there is of a field flows through the faces of cells, with no limit on the "
+        "step, of second order as far as bounds allow: its integral is conserved, no value leaves "
+        "the range of those around it, and diffusion works around bodies, too. 'along paths': "
+        "values are brought along the paths of the fluid, by 'Method', which costs less. "
+        "'automatic': 'flux' with the effect viscosity, if no 'Method' is given and there is no "
+        "vorticity confinement, as for convection, else 'along paths'.");
+      method = options.template choose<Advection<dim>>(
+        "Method", "cubic", "How the fields are advected along paths.");
       for (const auto &name : options.named_sections("field"))
         {
           fields.push_back(std::make_unique<TransportedScalar<dim>>(name));
           fields.back()->add_options(options.section(name));
         }
+      if (options.is_reference())
+        return;
+      if (form == "automatic" && options.given("Method"))
+        form = "along paths";
+      if (form == "flux" && options.given("Method"))
+        throw options.error("Method",
+                            "is for transport along paths, and the form is 'flux'",
+                            "Remove the key, or set 'Form = along paths'.");
+    }
+
+    void
+    adapt_to(const std::vector<std::string> &effects) override
+    {
+      const auto is_among = [&](const std::string &other) {
+        return std::count(effects.begin(), effects.end(), other) > 0;
+      };
+      if (form == "automatic")
+        form = is_among("viscosity") && !is_among("vorticity confinement") ? "flux" : "along paths";
     }
 
     void
@@ -205,11 +79,11 @@ namespace undine
                             "names no field to advect",
                             "Add a subsection with the field's name, such as 'subsection smoke'.");
       for (const auto &field : fields)
-        if (around.has_immersed_surfaces && field->diffusivity > 0)
+        if (around.has_immersed_surfaces && field->diffusivity > 0 && !has_flux_form())
           throw options.section(field->name)
             .error("Diffusivity",
-                   "diffusion around bodies and obstacles is not part of this version",
-                   "Remove the key, or the sections 'Bodies' and 'Obstacles'.");
+                   "diffusion around bodies and obstacles needs transport in flux form",
+                   "Remove the key, or set 'Form = flux' in 'scalar transport'.");
       for (const auto &field : fields)
         check_field(options, *field, around.fluid->boundaries().all());
     }
@@ -243,7 +117,7 @@ namespace undine
           });
           set_means(values, model.grid());
           state.scalars[field->name] = values;
-          if (field->changes())
+          if (field->changes() && !has_flux_form())
             state.scalar_rates[field->name] =
               Field<dim>(model.grid().cells(), state.velocity[0].topology());
         }
@@ -254,29 +128,10 @@ namespace undine
     transport(FluidStage<dim> &step) const override
     {
       const auto timed = step.timing.section(this->name);
-      for (const auto &field : fields)
-        {
-          auto                   &values = step.state.scalars.at(field->name);
-          std::vector<Field<dim>> fields_to_advect;
-          if (field->changes() && step.keeps_mean())
-            fields_to_advect = {values, values};
-          else
-            fields_to_advect.push_back(std::move(values));
-          if (field->changes() && step.stage.going_on() != 0)
-            add(fields_to_advect.front(),
-                step.stage.going_on(),
-                step.state.scalar_rates.at(field->name));
-          step.timing.memory.hold_briefly(
-            this->name, fields_to_advect.size() * fields_to_advect.front().memory_consumption());
-          auto advected = method->advect(step.tracer, std::move(fields_to_advect), *field);
-          if (!field->changes())
-            {
-              values = std::move(advected.front());
-              continue;
-            }
-          values = advected.front();
-          change(*field, advected, step);
-        }
+      if (has_flux_form())
+        transport_by_fluxes(step);
+      else
+        transport_along_paths(step);
     }
 
     typename Effect<dim>::Work
@@ -284,8 +139,8 @@ namespace undine
     {
       unsigned int implicit = 0;
       for (const auto &field : fields)
-        implicit += field->diffusivity > 0 ? 1 : 0;
-      return {static_cast<unsigned int>(fields.size()), implicit};
+        implicit += has_flux_form() ? 3 : field->diffusivity > 0 ? 1 : 0;
+      return {has_flux_form() ? 0 : static_cast<unsigned int>(fields.size()), implicit};
     }
 
     std::size_t
@@ -319,6 +174,69 @@ namespace undine
     }
 
   private:
+    bool
+    has_flux_form() const
+    {
+      return form == "flux";
+    }
+
+    /// From the begin of the stage to its end, whatever the integrator.
+    void
+    transport_by_fluxes(FluidStage<dim> &step) const
+    {
+      if (!projection)
+        projection = std::make_unique<Projection<dim>>(step.model);
+      const ScalarFlow<dim> flow(step.tracer, *projection);
+      ScalarStep<dim>       fluxes(flow);
+      for (const auto &field : fields)
+        {
+          auto &values = step.state.scalars.at(field->name);
+          values       = flow.at_start(values);
+          if (flow.has_moved())
+            fill_unknown(values, step.model, *field, step.time);
+          typename ScalarStep<dim>::Source source;
+          if (!field->source.is_zero())
+            source = [&](const double time) {
+              Field<dim> rate(values.shared_lattice(), values.topology());
+              field->add_source(rate, time, 1.);
+              return rate;
+            };
+          values = fluxes.advance(values, *field, field->diffusivity, source);
+          set_means(values, step.model.grid());
+        }
+      step.linear_iterations += flow.iterations() + fluxes.iterations();
+      step.timing.memory.hold_briefly(this->name,
+                                      flow.memory_consumption() + fluxes.memory_consumption());
+    }
+
+    void
+    transport_along_paths(FluidStage<dim> &step) const
+    {
+      for (const auto &field : fields)
+        {
+          auto                   &values = step.state.scalars.at(field->name);
+          std::vector<Field<dim>> fields_to_advect;
+          if (field->changes() && step.keeps_mean())
+            fields_to_advect = {values, values};
+          else
+            fields_to_advect.push_back(std::move(values));
+          if (field->changes() && step.stage.going_on() != 0)
+            add(fields_to_advect.front(),
+                step.stage.going_on(),
+                step.state.scalar_rates.at(field->name));
+          step.timing.memory.hold_briefly(
+            this->name, fields_to_advect.size() * fields_to_advect.front().memory_consumption());
+          auto advected = method->advect(step.tracer, std::move(fields_to_advect), *field);
+          if (!field->changes())
+            {
+              values = std::move(advected.front());
+              continue;
+            }
+          values = advected.front();
+          change(*field, advected, step);
+        }
+    }
+
     /// Sources and diffusion, and the rate that is kept. `advected`: s^0 where the stage keeps
     /// rates, and then s^b if that rate is a mean.
     void
@@ -370,7 +288,9 @@ namespace undine
                    "Allowed: " + known);
     }
 
+    std::string                                          form = "automatic";
     std::unique_ptr<Advection<dim>>                      method;
+    mutable std::unique_ptr<Projection<dim>>             projection; ///< of the flow: a cache
     std::vector<std::unique_ptr<TransportedScalar<dim>>> fields;
   };
 

@@ -35,6 +35,8 @@ SEES = {
     "fluid/convection": BASE | {"fluid/grid", "fluid/boundary", "fluid/model", "fluid/visibility"},
     "fluid/viscosity": BASE | {"fluid/grid", "fluid/boundary", "fluid/model", "fluid/convection"},
     "fluid/pressure": BASE | {"fluid/grid", "fluid/boundary", "fluid/model"},
+    "fluid/scalars": BASE | {"fluid/grid", "fluid/boundary", "fluid/model", "fluid/visibility", "fluid/advection",
+                             "fluid/viscosity", "fluid/pressure"},
     "fluid": BASE | {"fluid/grid", "fluid/boundary", "fluid/model", "fluid/advection", "fluid/convection",
                      "fluid/viscosity", "fluid/pressure"},
 

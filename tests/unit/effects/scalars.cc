@@ -112,14 +112,19 @@ TEST_CASE("light fluid below rises, with the acceleration of the Boussinesq forc
 TEST_CASE("heated and cooled walls drive a circulation", "[scalars]")
 {
   // Rayleigh number 1000 in the square: Nu = 1.118 (de Vahl Davis 1983).
+  const std::string form = GENERATE("along paths", "flux");
+  INFO(form);
   const double rayleigh = 1000, prandtl = 0.71;
   FlowRun<2>   run(
     FluidText{"24, 24",
               boundary("hot", "left", "no-slip wall") + boundary("cold", "right", "no-slip wall") +
                 boundary("floor", "bottom, top", "no-slip wall")},
     section("gravity", "set Acceleration = 0, -1") + convection() + viscosity(prandtl) +
-      heat("set Diffusivity = 1\nset Dirichlet boundaries = hot, cold\nset Dirichlet value = 1-x"
-             "\nset Initial value = 1-x") +
+      section("scalar transport",
+              "set Form = " + form + "\n" +
+                section("heat",
+                        "set Diffusivity = 1\nset Dirichlet boundaries = hot, cold\n"
+                          "set Dirichlet value = 1-x\nset Initial value = 1-x")) +
       section("buoyancy",
               section("heat",
                       fmt::format("set Expansion coefficient = {}\nset Reference value = 0.5",

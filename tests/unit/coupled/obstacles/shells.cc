@@ -166,7 +166,7 @@ namespace
       convection_by(method) +
         section(
           "scalar transport",
-          "set Method = " + (method == "flux" ? "cubic" : method) + "\n" +
+          (method == "flux" ? "set Form = flux\n" : "set Method = " + method + "\n") +
             section("smoke", "set Initial value = if(" + inside + ", 1, 0)") +
             section("clean", "set Initial value = if(" + inside + ", 0, 1)\nset Inflow value = 1")),
       .02);

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/advection/advection.h>
+#include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/grid/interpolation.h>
+#include <undine/fluid/scalars/face_means.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace undine
+{
+  namespace
+  {
+    constexpr double none     = std::numeric_limits<double>::quiet_NaN();
+    constexpr double rounding = 1e-6; ///< lest it decide, in cells
+
+
+    /// How many cells there are between the ends of a path.
+    template <int dim>
+    double
+    cells_between(const MacGrid<dim>       &grid,
+                  const dealii::Point<dim> &place,
+                  const dealii::Point<dim> &foot)
+    {
+      const auto cell   = grid.cell_at(place);
+      double     result = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        result = std::max(result, std::abs(place[d] - foot[d]) / grid.cell_width(d, cell[d]));
+      return result;
+    }
+
+
+    /// At one face.
+    template <int dim>
+    double
+    mean_at(const CharacteristicTracer<dim> &tracer,
+            const Field<dim>                &source,
+            const dealii::Point<dim>        &place)
+    {
+      const auto   middle = tracer.trace(place, -tracer.dt() / 2);
+      const double cells  = 2 * cells_between(tracer.model().grid(), place, middle.foot.point);
+      const int    n      = std::max(1, static_cast<int>(std::ceil(cells - rounding)));
+      double       sum    = 0;
+      for (int k = 0; k < n; ++k)
+        {
+          const auto trace = n == 1 ? middle : tracer.trace(place, -(k + .5) / n * tracer.dt());
+          if (trace.near_body)
+            return none;
+          sum += interpolate_cubic(source, trace.foot.point, Overshoot::kept) / n;
+        }
+      return sum;
+    }
+
+
+    /// The difference of bounds that may be neglected. Collective.
+    template <int dim>
+    double
+    negligible(const ScalarFluxes<dim> &fluxes, const ScalarBounds<dim> &bounds)
+    {
+      double least = std::numeric_limits<double>::max(), most = -least;
+      for_each_cell_place(bounds.lower, [&](const PressurePlace<dim> &place) {
+        least = std::min(least, value_at(bounds.lower, place));
+        most  = std::max(most, value_at(bounds.upper, place));
+      });
+      const auto communicator = fluxes.flow.model().grid().communicator();
+      return fluxes.condition.neglected_variation() *
+             (dealii::Utilities::MPI::max(most, communicator) -
+              dealii::Utilities::MPI::min(least, communicator));
+    }
+  } // namespace
+
+
+  template <int dim>
+  Velocity<dim>
+  face_means(const ScalarFluxes<dim> &fluxes, const Field<dim> &half, ScalarBounds<dim> &bounds)
+  {
+    const auto  &flow     = fluxes.flow;
+    const auto  &tracer   = flow.paths();
+    const auto  &grid     = flow.model().grid();
+    const auto   source   = completed(tracer, half, fluxes.condition);
+    const double neglect  = negligible(fluxes, bounds);
+    const auto   is_fixed = [&](const GridIndex<dim> &cell) {
+      return bounds.upper(cell) - bounds.lower(cell) <= neglect;
+    };
+    bounds.lower.exchange(1);
+    bounds.upper.exchange(1);
+    Velocity<dim> result;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        auto &means = result[axis] = Field<dim>(grid.faces(axis), flow.topology());
+        std::fill(means.parts().begin(), means.parts().end(), none);
+        for_each(means.owned(), [&](const GridIndex<dim> &face) {
+          const auto below = moved<dim>(face, axis, -1);
+          if (!is_whole(means.divided(), face))
+            means(face) = none;
+          else if (!grid.at_boundary(axis, face) && is_fixed(below) && is_fixed(face))
+            means(face) = (half(below) + half(face)) / 2;
+          else
+            means(face) = mean_at(tracer, source, means.lattice().point(face));
+        });
+      }
+    exchange(result);
+    return result;
+  }
+
+
+  template Velocity<2>
+  face_means(const ScalarFluxes<2> &, const Field<2> &, ScalarBounds<2> &);
+  template Velocity<3>
+  face_means(const ScalarFluxes<3> &, const Field<3> &, ScalarBounds<3> &);
+} // namespace undine

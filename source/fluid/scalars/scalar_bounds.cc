@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/scalars/scalar_bounds.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace undine
+{
+  template <int dim>
+  ScalarBounds<dim>::ScalarBounds(const Field<dim> &value)
+    : lower(value)
+    , upper(value)
+  {
+  }
+
+
+  template <int dim>
+  void
+  ScalarBounds<dim>::include(const PressurePlace<dim> &place, const double value)
+  {
+    double &least = value_at(lower, place), &most = value_at(upper, place);
+    least = std::min(least, value);
+    most  = std::max(most, value);
+  }
+
+
+  template <int dim>
+  void
+  ScalarBounds<dim>::include_neighbours(const ScalarFluxes<dim> &fluxes, Field<dim> &values)
+  {
+    values.exchange(1);
+    fluxes.for_each([&](const CellLink<dim> &link, const auto &) {
+      include(link.from, value_at(values, link.from));
+      include(link.from, value_at(values, link.to));
+    });
+  }
+
+
+  template <int dim>
+  void
+  ScalarBounds<dim>::spread(const ScalarFluxes<dim> &fluxes)
+  {
+    const auto &flow  = fluxes.flow;
+    const auto &grid  = flow.model().grid();
+    const auto  reach = [&](const CellLink<dim> &link, const auto &flux) {
+      return flow.duration() * std::abs(flux.rate) / grid.cell_volume(link.from.cell);
+    };
+    double farthest = 0;
+    fluxes.for_each([&](const CellLink<dim> &link, const auto &flux) {
+      farthest = std::max(farthest, reach(link, flux));
+    });
+    constexpr double rounding = 1e-6; // lest it decide
+    farthest                  = dealii::Utilities::MPI::max(farthest, grid.communicator());
+    reached                   = std::max(1, static_cast<int>(std::ceil(farthest - rounding)));
+    fluxes.for_each_side(flow.begin() + flow.duration() / 2,
+                         [&](const PressurePlace<dim> &place, const auto &flux) {
+                           if (flux.upwind().other != 0)
+                             include(place, flux.beyond);
+                         });
+    for (int round = 0; round < reached; ++round)
+      {
+        lower.exchange(1);
+        upper.exchange(1);
+        const auto before = *this;
+        fluxes.for_each([&](const CellLink<dim> &link, const auto &flux) {
+          if (round > 0 && reach(link, flux) <= round)
+            return;
+          include(link.from, value_at(before.lower, link.to));
+          include(link.from, value_at(before.upper, link.to));
+        });
+      }
+  }
+
+
+  template struct ScalarBounds<2>;
+  template struct ScalarBounds<3>;
+} // namespace undine
