@@ -22,8 +22,8 @@ from study.pilot import COARSER, NoCoarserRun, Pilot, Refused, Setting, estimate
 from study.tables import percent, table
 
 FIRST = 0.25  # factor of the first settings, of those of the scene
-AIM = 0.7  # of the error asked for: the parts are estimates
-LARGEST_JUMP, CAREFUL_JUMP = 40.0, 8.0  # of cost, from one setting to the next
+AIM = 0.85  # of the error asked for: the parts are estimates
+LARGEST_JUMP, CAREFUL_JUMP = 10.0, 8.0  # of cost, from one setting to the next
 ROUNDS = 8
 KNOWN = 0.3  # a greater error says nothing about smaller ones
 MEASURES = ("over time", "end", "mean", "largest", "smallest", "middle", "amplitude", "frequency", "period")
