@@ -127,8 +127,9 @@ def flat(section, path=""):
 
 def variation(name, section):
     values = {key: split(text, "|") for key, text in flat(section["Settings"]).items()}
-    settings = [dict(zip(values, combination)) for combination in zip(*values.values())]
-    names = split(section["Names"], ",") or [next(iter(each.values())) for each in settings]
+    settings = [{key: value for key, value in zip(values, combination) if value}  # an empty one: as the scene has it
+                for combination in zip(*values.values())]
+    names = split(section["Names"], ",") or [next(iter(each.values()), "the scene's") for each in settings]
     return Variation(name, section["Kind"], names, settings, numbers(section["Lengths"]))
 
 

@@ -132,8 +132,9 @@ namespace undine
                   "ways of computing the same, each a curve of its own.");
       const auto  settings = read_settings(options,
                                           path,
-                                          "Values of a key of the scene, with '|' between them. "
-                                           "Several keys of one variation change together.");
+                                          "Values of a key of the scene, with '|' between them; where one "
+                                           "is empty, the key is not set. Several keys of one "
+                                           "variation change together.");
       std::size_t n_values = 0;
       for (const auto &setting : settings)
         {

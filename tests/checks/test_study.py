@@ -12,7 +12,7 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspa
 from study import convergence, predictions, quantities  # noqa: E402
 from study.cases import make_cases  # noqa: E402
 from study.columns import NotEvaluated  # noqa: E402
-from study.description import Quantity, Study, Variation, flat, numbers, split  # noqa: E402
+from study.description import Quantity, Study, Variation, flat, numbers, split, variation  # noqa: E402
 
 
 def quantity(**keys):
@@ -109,6 +109,11 @@ class Cases(unittest.TestCase):
         field = quantity(columns=[], field="velocity", lower=[0, 0], upper=[1, 2], n_points=[2, 1])
         self.assertEqual(field.points(), [[0.25, 1.0], [0.75, 1.0]])
         self.assertEqual(field.components(), [[" 0 velocity x"], [" 1 velocity x"], [" 0 velocity y"], [" 1 velocity y"]])
+
+    def test_an_empty_value_leaves_a_key_as_the_scene_has_it(self):
+        found = variation("scheme", {"Kind": "variant", "Names": "", "Lengths": "",
+                                     "Settings": {"Scheme": "a | b", "Coupling": {"Fluid driven by": " | velocity"}}})
+        self.assertEqual(found.settings, [{"Scheme": "a"}, {"Scheme": "b", "Coupling/Fluid driven by": "velocity"}])
 
     def test_texts(self):
         self.assertEqual(flat({"A": {"b": "1"}, "c": "2"}), {"A/b": "1", "c": "2"})
