@@ -82,6 +82,16 @@ class Quantities(unittest.TestCase):
         self.assertAlmostEqual(self.value(evaluate="mean", periods=3), 2, 3)
         self.assertAlmostEqual(self.value(columns=["b"], evaluate="mean", periods=2, period_of="a"), 1, 12)
 
+    def test_peaks_between_rows_do_not_depend_on_the_rows(self):
+        for shift in (0, 0.03, 0.07):  # of rows that are 0.1 s apart or, later, 0.05 s
+            times = shift + numpy.concatenate([numpy.arange(0, 1, 0.1), numpy.arange(1, 3, 0.05)])
+            columns = {"Time": times, "a": 1 + 2 * numpy.sin(3 * times)}
+            for evaluate, exact in (("largest", 3), ("smallest", -1), ("amplitude", 2), ("middle", 1)):
+                found = quantities.evaluate(quantity(evaluate=evaluate), columns).values[0, 0]
+                self.assertAlmostEqual(found, exact, 3)
+        rising = {"Time": numpy.arange(3.0), "a": numpy.array([0.0, 1, 4])}
+        self.assertEqual(quantities.evaluate(quantity(evaluate="largest"), rising).values[0, 0], 4)
+
     def test_columns_are_added_and_multiplied(self):
         self.assertAlmostEqual(self.value(columns=["b", "b"], factor=500), 1000)
 
