@@ -54,6 +54,14 @@ class Convergence(unittest.TestCase):
         self.assertGreaterEqual(turning.uncertainty, 0.2)
         self.assertTrue(math.isnan(away.order))
 
+    def test_errors_at_points_that_have_nothing_to_do_with_each_other_have_an_order(self):
+        errors = numpy.array([[[1.0, 1, 1, 1]], [[1.0, -1, 1, -1]], [[1.0, 1, -1, -1]], [[1.0, -1, -1, 1]]])
+        lengths = [1, 0.5, 0.25, 0.125]
+        values = [7 + h ** 2 * error for h, error in zip(lengths, errors)]
+        found = convergence.limit(lengths, values)
+        self.assertAlmostEqual(found.order, 2, 1)
+        self.assertLessEqual(convergence.norm(found.value - 7), found.uncertainty)
+
     def test_a_value_that_nothing_changes_is_sure(self):
         found = convergence.limit([1, 0.5], [numpy.ones((1, 1))] * 2)
         self.assertEqual((found.uncertainty, found.remark), (0, ""))
