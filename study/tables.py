@@ -3,6 +3,9 @@
 import csv
 import io
 import math
+import os
+import re
+import textwrap
 
 import numpy
 
@@ -51,7 +54,9 @@ def errors(found, result):
             cells += ([value_of(result, case)] if result.is_scalar() else []) + [
                 f"**{error}**" if case in front else error, f"{found.cost(case):.3g}"]
         else:
-            why = found.results[case]["failure"] or result.missing.get(case, "")
+            why = result.missing.get(case, "")
+            if found.results[case]["failure"]:  # the reasons have a list of their own
+                why = "left out" if found.results[case].get("left out") else "failed"
             cells += ([""] if result.is_scalar() else []) + [why, ""]
         rows.append(cells)
     unit = f" [{result.quantity.unit}]" if result.quantity.unit else ""
@@ -134,11 +139,18 @@ def costs(found):
     return ["## Costs", ""] + table(head, rows) if rows else []
 
 
+def reason(found, case):
+    """Why a run has failed, without numbers and folders that say nothing in a table."""
+    text = found.results[case]["failure"].replace(os.path.dirname(found.study.scene) + "/", "")
+    text = re.split(r" Norms of the residual: | Try |\. Last refused: ", text)[0]
+    return textwrap.shorten(text, 300, placeholder=" …")
+
+
 def failures(found):
     """Each reason once, with the runs that it holds for."""
     reasons = {}
-    for case, why in found.failures().items():
-        reasons.setdefault(why, []).append(case.name(found.study))
+    for case in found.failures():
+        reasons.setdefault(reason(found, case), []).append(case.name(found.study))
     lines = [f"- {'all runs' if len(names) == len(found.results) else '; '.join(names)}: {why}"
              for why, names in reasons.items()]
     return ["## Runs without a result", "", *lines, ""] if lines else []
@@ -154,8 +166,8 @@ def records(found):
                 cells[result.quantity.name] = result.values[case].flat[0] if case in result.values else ""
             cells[f"error of {result.quantity.name}"] = result.errors.get(case, "")
         cells.update({key: outcome.get(key, "") for key in (
-            "core seconds", "wall seconds", "memory", "unknowns", "steps", "Newton iterations", "linear iterations",
-            "failure")})
+            "core seconds", "wall seconds", "memory", "unknowns", "steps", "Newton iterations", "linear iterations")})
+        cells["failure"] = reason(found, case)
         rows.append(cells)
     return rows
 
