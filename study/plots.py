@@ -68,7 +68,7 @@ def minor_labels(axis, text):
 def style(axes):
     axes.set_xscale("log")
     axes.set_yscale("log")
-    for axis, text in ((axes.xaxis, lambda value: f"{value:g}"), (axes.yaxis, lambda value: f"{100 * value:.3g} %")):
+    for axis, text in ((axes.xaxis, lambda value: f"{value:g}"), (axes.yaxis, lambda value: f"{100 * value:g} %")):
         axis.set_minor_formatter(minor_labels(axis, text))
         axis.set_major_formatter(ticker.FuncFormatter(lambda value, _, text=text: text(value)))
     axes.grid(alpha=0.3, which="both", linewidth=0.4)
