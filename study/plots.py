@@ -61,7 +61,7 @@ def minor_labels(axis, text):
     low, high = axis.get_view_interval()
     if high >= 50 * low:
         return ticker.NullFormatter()
-    shown = "123456789" if high < 5 * low else "25"
+    shown = "123456789" if high < 5 * low else "235"
     return ticker.FuncFormatter(lambda value, _: text(value) if f"{value:e}"[0] in shown else "")
 
 
