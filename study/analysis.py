@@ -153,9 +153,11 @@ class Analysis:
             lengths = [self.study.variations[axis].lengths[other.index[axis]] for other in cases]
             found = convergence.limit(lengths, [result.values[other] for other in cases])
             uncertainty = found.uncertainty if math.isfinite(found.uncertainty) else math.nan
-            rows.append(Share(self.study.variations[axis].name,
-                              convergence.norm(found.value - result.values[case]) / result.scale,
-                              uncertainty / result.scale, found.remark))
+            moved = convergence.norm(found.value - result.values[case])
+            if uncertainty > 0:  # the finest value would move, too, where its limit is not foretold
+                moved = max(moved, uncertainty / convergence.UNSURE)
+            rows.append(Share(self.study.variations[axis].name, moved / result.scale, uncertainty / result.scale,
+                              found.remark))
         return sorted(rows, key=lambda share: -share.size)
 
     def failures(self):
