@@ -41,6 +41,10 @@ class QuantityResults:
         """Relative, of the reference."""
         return self.reference.uncertainty / self.scale
 
+    def made_reference(self, case):
+        """Whether a run's own values are the reference, so that nothing is known of its error but the uncertainty."""
+        return self.errors[case] == 0 and self.reference.uncertainty > 0
+
     def is_scalar(self):
         return next(iter(self.values.values())).size == 1
 
@@ -114,7 +118,7 @@ class Analysis:
         """Cases that no other one beats in both cost and error, cheap ones first."""
         best, chosen = math.inf, []
         for case in sorted(result.errors, key=lambda case: (self.cost(case), result.errors[case])):
-            if result.errors[case] < best:
+            if result.errors[case] < best and not result.made_reference(case):
                 best = result.errors[case]
                 chosen.append(case)
         return chosen

@@ -16,7 +16,7 @@ def curves(found, result):
     refinements = found.study.refinements()
     last = refinements[-1:]
     groups = {}
-    for case in sorted(result.errors, key=lambda case: case.index):
+    for case in sorted((case for case in result.errors if not result.made_reference(case)), key=lambda case: case.index):
         others = tuple(case.index[axis] for axis in refinements if axis not in last)
         groups.setdefault((variant(found.study, case), others), []).append(case)
     return [(key, others, group) for (key, others), group in groups.items()]

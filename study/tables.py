@@ -50,7 +50,7 @@ def errors(found, result):
     for case in sorted(found.results, key=lambda case: case.index):
         cells = settings(found, case)
         if case in result.errors:
-            error = percent(result.errors[case])
+            error = "is the reference" if result.made_reference(case) else percent(result.errors[case])
             cells += ([value_of(result, case)] if result.is_scalar() else []) + [
                 f"**{error}**" if case in front else error, f"{found.cost(case):.3g}"]
         else:
