@@ -42,6 +42,10 @@ class QuantityResults:
         """Relative, of the reference."""
         return self.reference.uncertainty / self.scale
 
+    def made_reference(self, case):
+        """Whether a run's own values are the reference, so that nothing is known of its error but the uncertainty."""
+        return self.errors[case] == 0 and self.reference.uncertainty > 0
+
     def is_scalar(self):
         return next(iter(self.values.values())).size == 1
 
@@ -117,7 +121,7 @@ class Analysis:
         """Cases that no other one beats in both cost and error, cheap ones first."""
         best, chosen = math.inf, []
         for case in sorted(result.errors, key=lambda case: (self.cost(case), result.errors[case])):
-            if result.errors[case] < best:
+            if result.errors[case] < best and not result.made_reference(case):
                 best = result.errors[case]
                 chosen.append(case)
         return chosen
@@ -161,9 +165,11 @@ class Analysis:
             lengths = [self.study.variations[axis].lengths[other.index[axis]] for other in cases]
             found = convergence.limit(lengths, [result.values[other] for other in cases])
             uncertainty = found.uncertainty if math.isfinite(found.uncertainty) else math.nan
-            rows.append(Share(self.study.variations[axis].name,
-                              convergence.norm(found.value - result.values[case]) / result.scale,
-                              uncertainty / result.scale, found.remark))
+            moved = convergence.norm(found.value - result.values[case])
+            if uncertainty > 0:  # the finest value would move, too, where its limit is not foretold
+                moved = max(moved, uncertainty / convergence.UNSURE)
+            rows.append(Share(self.study.variations[axis].name, moved / result.scale, uncertainty / result.scale,
+                              found.remark))
         return sorted(rows, key=lambda share: -share.size)
 
     def failures(self):

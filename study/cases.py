@@ -55,7 +55,13 @@ def variant(study, case):
                  if not variation.is_refinement())
 
 
+def called(variation, position):
+    """The name of a value; a number alone says nothing."""
+    name = variation.names[position]
+    return f"{variation.name} {name}" if name[:1].isdigit() else name
+
+
 def variant_name(study, key):
-    names = [variation.names[position] for variation, position in zip(
+    names = [called(variation, position) for variation, position in zip(
         (each for each in study.variations if not each.is_refinement()), key)]
     return ", ".join(names) or "the scene"

@@ -8,6 +8,7 @@ import numpy
 
 LARGEST_ORDER = 4  # a greater one is chance
 SMALLEST_ORDER = 0.5  # with a smaller one, the limit is far from all that was computed
+ALIGNED = 0.5  # of two differences, for one to be foretold by the other
 SURE, UNSURE = 1.25, 3.0  # factors of safety: the order is seen twice, or once
 
 
@@ -52,14 +53,21 @@ class Limit:
     remark: str
 
 
+def alignment(values):
+    """Of the last two differences, 1 if they point the same way, -1 if the last one leads back, which is all there is for a
+    single number; differences at the points of a field may have little to do with each other and fall nevertheless."""
+    first, second = values[-2] - values[-3], values[-1] - values[-2]
+    lengths = norm(first) * norm(second)
+    return numpy.mean(first * second) / lengths if lengths > 0 else 0.0
+
+
 def observed_order(lengths, values):
     """From the differences of the last three values; nan if they do not fall, or turn back."""
     if len(values) < 3:
         return math.nan
-    first, second = values[-2] - values[-3], values[-1] - values[-2]
-    if numpy.sum(first * second) < 0:
+    if alignment(values) < -ALIGNED:
         return math.nan
-    return order(lengths[-3:], norm(first), norm(second))
+    return order(lengths[-3:], norm(values[-2] - values[-3]), norm(values[-1] - values[-2]))
 
 
 def limit(lengths, values):
@@ -75,7 +83,7 @@ def limit(lengths, values):
         return Limit(finest, UNSURE * last / (ratio - 1), math.nan, "has two values only: no order is known")
     p = observed_order(lengths, values)
     if math.isnan(p):
-        turns = numpy.sum((values[-2] - values[-3]) * (values[-1] - values[-2])) < 0
+        turns = alignment(values) < -ALIGNED
         largest = max(last, norm(values[-2] - values[-3])) if turns else last
         return Limit(finest, UNSURE * largest, math.nan,
                      "goes up and down" if turns else "does not come closer")
@@ -83,5 +91,7 @@ def limit(lengths, values):
     share = 1 / ((lengths[-2] / lengths[-1]) ** used - 1)
     seen_twice = len(values) > 3 and abs(observed_order(lengths[:-1], values[:-1]) - p) < 0.5
     slow = p < SMALLEST_ORDER
-    return Limit(finest + share * (values[-1] - values[-2]), (SURE if seen_twice and not slow else UNSURE) * share * last,
-                 p, "converges slowly" if slow else "")
+    leads_on = alignment(values) > ALIGNED
+    factor = SURE if seen_twice and leads_on and not slow else UNSURE
+    return Limit(finest + share * (values[-1] - values[-2]) if leads_on else finest, factor * share * last, p,
+                 "converges slowly" if slow else "")

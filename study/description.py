@@ -140,7 +140,7 @@ def flat(section, path=""):
 def variation(name, section):
     values = {key: split(text, "|") for key, text in flat(section["Settings"]).items()}
     settings = [dict(zip(values, combination)) for combination in zip(*values.values())]
-    names = split(section["Names"], ",") or [next(iter(each.values())) for each in settings]
+    names = split(section["Names"], ",") or [next(iter(each.values())) or "none" for each in settings]
     return Variation(name, section["Kind"], names, settings, numbers(section["Lengths"]))
 
 

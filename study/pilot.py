@@ -86,8 +86,7 @@ class Pilot:
 
     def run_with_outputs(self, setting, words, folder):
         """The same with all outputs that the scene asks for, in the user's folder; None if the run has failed."""
-        for key, value in setting.settings(self.study).items():
-            words += ["--set", f"{key}={value}"]
+        words = words + runs.assignments(setting.settings(self.study))
         with open(os.path.join(self.folder, "printed"), "w+") as printed:
             result = runs.execute(words, self.limit(), printed)
         self.take(setting, {**result, **runs.summary_of(os.path.join(folder, "summary.json"))}, folder)

@@ -16,7 +16,7 @@ def curves(found, result):
     refinements = found.study.refinements()
     last = refinements[-1:]
     groups = {}
-    for case in sorted(result.errors, key=lambda case: case.index):
+    for case in sorted((case for case in result.errors if not result.made_reference(case)), key=lambda case: case.index):
         others = tuple(case.index[axis] for axis in refinements if axis not in last)
         groups.setdefault((variant(found.study, case), others), []).append(case)
     return [(key, others, group) for (key, others), group in groups.items()]
@@ -56,19 +56,21 @@ def draw_front(axes, found, result):
                      label="uncertainty of the reference")
 
 
+def minor_labels(axis, text):
+    """Numbers between powers of ten where there are few of these, thinned out so that they do not meet."""
+    low, high = axis.get_view_interval()
+    if high >= 50 * low:
+        return ticker.NullFormatter()
+    shown = "123456789" if high < 5 * low else "235"
+    return ticker.FuncFormatter(lambda value, _: text(value) if f"{value:e}"[0] in shown else "")
+
+
 def style(axes):
     axes.set_xscale("log")
     axes.set_yscale("log")
-    for axis in (axes.xaxis, axes.yaxis):
-        low, high = axis.get_view_interval()
-        if high < 50 * low:  # less than two powers of ten: numbers between them, too
-            axis.set_minor_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
-        else:
-            axis.set_minor_formatter(ticker.NullFormatter())
-    axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.yaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{100 * value:g} %"))
-    if axes.yaxis.get_view_interval()[1] < 50 * axes.yaxis.get_view_interval()[0]:
-        axes.yaxis.set_minor_formatter(ticker.FuncFormatter(lambda value, _: f"{100 * value:.3g} %"))
+    for axis, text in ((axes.xaxis, lambda value: f"{value:g}"), (axes.yaxis, lambda value: f"{100 * value:g} %")):
+        axis.set_minor_formatter(minor_labels(axis, text))
+        axis.set_major_formatter(ticker.FuncFormatter(lambda value, _, text=text: text(value)))
     axes.grid(alpha=0.3, which="both", linewidth=0.4)
 
 

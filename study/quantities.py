@@ -81,13 +81,34 @@ def mean(times, values):
     return numpy.trapz(values, times, axis=0) / (times[-1] - times[0])
 
 
+def top(times, values):
+    """The peak of the parabola through the largest of some values and its neighbours: which value comes closest to a peak
+    depends on the step, and would look like an error of it."""
+    k = int(values.argmax())
+    if not 0 < k < len(values) - 1:
+        return values[k]
+    before, after = times[k] - times[k - 1], times[k + 1] - times[k]
+    left, right = (values[k] - values[k - 1]) / before, (values[k + 1] - values[k]) / after
+    curvature = (right - left) / (before + after)
+    slope = (left * after + right * before) / (before + after)
+    return values[k] - slope ** 2 / (4 * curvature) if curvature < 0 else values[k]
+
+
+def largest(times, values):
+    return numpy.array([top(times, each) for each in values.T])
+
+
+def smallest(times, values):
+    return -largest(times, -values)
+
+
 REDUCTIONS = {
     "end": lambda times, values: values[-1],
     "mean": mean,
-    "largest": lambda times, values: values.max(axis=0),
-    "smallest": lambda times, values: values.min(axis=0),
-    "middle": lambda times, values: (values.max(axis=0) + values.min(axis=0)) / 2,
-    "amplitude": lambda times, values: (values.max(axis=0) - values.min(axis=0)) / 2,
+    "largest": largest,
+    "smallest": smallest,
+    "middle": lambda times, values: (largest(times, values) + smallest(times, values)) / 2,
+    "amplitude": lambda times, values: (largest(times, values) - smallest(times, values)) / 2,
     "time of largest": lambda times, values: times[values.argmax(axis=0)],
 }
 

@@ -32,9 +32,10 @@ def heading(found):
     lines = [f"# {study.title}", "",
              f"Scene `{os.path.basename(study.scene)}`, study `{os.path.basename(study.file)}`: {done} of "
              f"{len(found.results)} runs have succeeded, on {counts} rank(s) each."]
-    if study.settings:
-        lines += ["", "In all runs: " + ", ".join(f"`{key} = {value}`" if value else f"no `{key}`" for key, value in
-                                                  study.settings.items() if not key.startswith("Probes/")) + "."]
+    settings = [f"`{key} = {value}`" if value else f"no `{key}`" for key, value in study.settings.items()
+                if not key.startswith("Probes/")]
+    if settings:
+        lines += ["", "In all runs: " + ", ".join(settings) + "."]
     return lines + [""]
 
 

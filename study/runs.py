@@ -52,18 +52,25 @@ def scene_without(study, keys, folder):
     return path, {"Folder of files": os.path.dirname(os.path.abspath(study.scene))}
 
 
-def command(program, study, case, folder):
-    """To run a case in a folder, with the results in another one within it."""
+def scene_and_settings(study, case, folder):
+    """The scene of a case, in the folder if it lacks keys of the study's scene, and {"Section/Key": value} to set in it."""
     settings = of_scene(case.settings(study))
     left_out = {key for key, value in settings.items() if not value}
     scene, own = scene_without(study, left_out, folder) if left_out else (study.scene, {})
+    return scene, {**own, **{key: value for key, value in settings.items() if value}}
+
+
+def assignments(settings):
+    return [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+
+
+def command(program, study, case, folder):
+    """To run a case in a folder, with the results in another one within it."""
+    scene, settings = scene_and_settings(study, case, folder)
     count = ranks(study, case)
     words = ["mpirun", "-n", str(count)] if count > 1 else []
-    words += [program, scene, "--output", os.path.join(folder, "run")]
-    for key, value in {"Output/Interval": "0", "Output/Parts": "statistics", **own, **settings}.items():
-        if key not in left_out:
-            words += ["--set", f"{key}={value}"]
-    return words
+    return words + [program, scene, "--output", os.path.join(folder, "run")] + assignments(
+        {"Output/Interval": "0", "Output/Parts": "statistics", **settings})
 
 
 def end_with_parent():

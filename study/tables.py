@@ -54,12 +54,13 @@ def errors(found, result):
     for case in sorted(found.results, key=lambda case: case.index):
         cells = settings(found, case)
         if case in result.errors:
-            error = percent(result.errors[case])
+            error = "is the reference" if result.made_reference(case) else percent(result.errors[case])
             bold = f"**{error}**" if case in front else error
             cells += [value_of(result, case), bold] if result.is_scalar() else [bold, percent(result.largest[case])]
             cells.append(f"{found.cost(case):.3g}")
         else:
-            cells += ["", brief(found.results[case]) or result.missing.get(case, ""), ""]
+            why = "left out" if found.results[case].get("left out") else brief(found.results[case])
+            cells += ["", why or result.missing.get(case, ""), ""]
         rows.append(cells)
     unit = f" [{result.quantity.unit}]" if result.quantity.unit else ""
     measures = ["value" + unit, "error"] if result.is_scalar() else ["error", "largest difference"]
@@ -211,8 +212,8 @@ def records(found):
                 cells[result.quantity.name] = result.values[case].flat[0] if case in result.values else ""
             cells[f"error of {result.quantity.name}"] = result.errors.get(case, "")
         cells.update({key: outcome.get(key, "") for key in (
-            "core seconds", "wall seconds", "memory", "unknowns", "steps", "Newton iterations", "linear iterations",
-            "failure")})
+            "core seconds", "wall seconds", "memory", "unknowns", "steps", "Newton iterations", "linear iterations")})
+        cells["failure"] = reason(found, case)
         rows.append(cells)
     return rows
 

@@ -6,6 +6,7 @@ time, and what is said of mistakes.
 usage: check_study.py PROGRAM STUDIES
 """
 import csv
+import glob
 import json
 import os
 import signal
@@ -180,10 +181,29 @@ def check_mistakes(program, studies, folder):
                 f"'{said}' is not said, exit code {done.returncode}:\n{done.stdout}\n{done.stderr}")
 
 
+def check_shipped(program, _, folder):
+    """That the program reads all shipped studies, and their scenes with the settings of the coarsest and the finest run;
+    that the rows of reference files are there."""
+    sys.path.insert(0, ROOT)
+    from study import cases, description, references, runs
+    files = sorted(glob.glob(os.path.join(ROOT, "prm", "studies", "*.prm")))
+    require(files, "no studies are shipped")
+    for file in files:
+        study = description.read(program, file)
+        every = cases.make_cases(study)
+        for case in (every[0], every[-1]):
+            scene, settings = runs.scene_and_settings(study, case, folder)
+            done = subprocess.run([program, "read-scene", scene, *runs.assignments(settings)], capture_output=True, text=True)
+            require(done.returncode == 0, f"{file}, {case.name(study)}: {done.stderr}")
+        for quantity in study.quantities:
+            if quantity.reference_file:
+                references.rows_of(quantity)
+
+
 def main():
     program, studies = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
-        for check in (check_kinds, check_budgets, check_kill, check_limit, check_mistakes):
+        for check in (check_kinds, check_budgets, check_kill, check_limit, check_mistakes, check_shipped):
             check(program, studies, folder)
 
 

@@ -11,9 +11,9 @@ import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 from study import accuracy, columns, convergence, error_model, predictions, quantities, scene_files, tables  # noqa: E402
-from study.cases import make_cases, of_scene, ranks  # noqa: E402
+from study.cases import Case, make_cases, of_scene, ranks  # noqa: E402
 from study.columns import NotEvaluated  # noqa: E402
-from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split  # noqa: E402
+from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of, snapped  # noqa: E402
 from study.pilot import Refused  # noqa: E402
 
@@ -57,6 +57,14 @@ class Convergence(unittest.TestCase):
         self.assertGreaterEqual(turning.uncertainty, 0.2)
         self.assertTrue(math.isnan(away.order))
 
+    def test_errors_at_points_that_have_nothing_to_do_with_each_other_have_an_order(self):
+        errors = numpy.array([[[1.0, 1, 1, 1]], [[1.0, -1, 1, -1]], [[1.0, 1, -1, -1]], [[1.0, -1, -1, 1]]])
+        lengths = [1, 0.5, 0.25, 0.125]
+        values = [7 + h ** 2 * error for h, error in zip(lengths, errors)]
+        found = convergence.limit(lengths, values)
+        self.assertAlmostEqual(found.order, 2, 1)
+        self.assertLessEqual(convergence.norm(found.value - 7), found.uncertainty)
+
     def test_a_value_that_nothing_changes_is_sure(self):
         found = convergence.limit([1, 0.5], [numpy.ones((1, 1))] * 2)
         self.assertEqual((found.uncertainty, found.remark), (0, ""))
@@ -84,6 +92,16 @@ class Quantities(unittest.TestCase):
         self.assertAlmostEqual(self.value(evaluate="middle", periods=3), 2, 2)
         self.assertAlmostEqual(self.value(evaluate="mean", periods=3), 2, 3)
         self.assertAlmostEqual(self.value(columns=["b"], evaluate="mean", periods=2, period_of="a"), 1, 12)
+
+    def test_peaks_between_rows_do_not_depend_on_the_rows(self):
+        for shift in (0, 0.03, 0.07):  # of rows that are 0.1 s apart or, later, 0.05 s
+            times = shift + numpy.concatenate([numpy.arange(0, 1, 0.1), numpy.arange(1, 3, 0.05)])
+            columns = {"Time": times, "a": 1 + 2 * numpy.sin(3 * times)}
+            for evaluate, exact in (("largest", 3), ("smallest", -1), ("amplitude", 2), ("middle", 1)):
+                found = quantities.evaluate(quantity(evaluate=evaluate), columns).values[0, 0]
+                self.assertAlmostEqual(found, exact, 3)
+        rising = {"Time": numpy.arange(3.0), "a": numpy.array([0.0, 1, 4])}
+        self.assertEqual(quantities.evaluate(quantity(evaluate="largest"), rising).values[0, 0], 4)
 
     def test_columns_are_added_and_multiplied(self):
         self.assertAlmostEqual(self.value(columns=["b", "b"], factor=500), 1000)
@@ -151,6 +169,13 @@ class Cases(unittest.TestCase):
         field = quantity(columns=[], field="velocity", lower=[0, 0], upper=[1, 2], n_points=[2, 1])
         self.assertEqual(field.points(), [[0.25, 1.0], [0.75, 1.0]])
         self.assertEqual(field.components(), [[" 0 velocity x"], [" 1 velocity x"], [" 0 velocity y"], [" 1 velocity y"]])
+
+    def test_values_that_are_empty_or_as_is(self):
+        found = variation("scheme", {"Kind": "variant", "Names": "", "Lengths": "",
+                                     "Settings": {"Scheme": "as is | b", "Coupling": {"Fluid driven by": " | velocity"}}})
+        first, second = (Case((k,)).settings(study(found)) for k in (0, 1))
+        self.assertEqual(first, {"Coupling/Fluid driven by": ""})
+        self.assertEqual(second, {"Scheme": "b", "Coupling/Fluid driven by": "velocity"})
 
     def test_texts(self):
         self.assertEqual(flat({"A": {"b": "1"}, "c": "2"}), {"A/b": "1", "c": "2"})
