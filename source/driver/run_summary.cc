@@ -63,8 +63,8 @@ namespace undine
     if (scene.models.solid)
       {
         auto &error =
-          largest("Newton", "residual that Newton's method leaves, of that which it began with");
-        error.value = std::max(error.value, report.newton_reduction);
+          largest("Newton", "forces that Newton's method leaves unbalanced, of all that it sums");
+        error.value = std::max(error.value, report.newton_residual);
       }
     observe_column(report.columns,
                    "Fluid divergence",

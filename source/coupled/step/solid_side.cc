@@ -4,6 +4,8 @@
 #include <undine/solid/assembly/loads.h>
 #include <undine/solid/step/solid_columns.h>
 
+#include <algorithm>
+
 namespace undine
 {
   template <int dim>
@@ -160,6 +162,9 @@ namespace undine
     report.newton_iterations += solid.newton.iterations;
     report.linear_iterations += solid.newton.linear_iterations;
     report.newton_reduction = reduction(solid.newton);
+    if (solid.newton.scale > 0)
+      report.newton_residual =
+        std::max(report.newton_residual, solid.newton.residuals.back() / solid.newton.scale);
     report.warn("linear solver", solid.note);
     if (!stage.is_last)
       return;

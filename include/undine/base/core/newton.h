@@ -29,6 +29,7 @@ namespace undine
     unsigned int        cuts              = 0; ///< halvings in the line search
     unsigned int        linear_iterations = 0;
     std::vector<double> residuals; ///< norm before the first and after every correction
+    double              scale = 0; ///< size of the terms whose sum the last residual is
 
     /// `later` went on from here. The linear iterations are counted through.
     void
@@ -37,6 +38,7 @@ namespace undine
       iterations += later.iterations;
       cuts += later.cuts;
       linear_iterations = later.linear_iterations;
+      scale             = later.scale;
       residuals.insert(residuals.end(), later.residuals.begin(), later.residuals.end());
     }
   };
@@ -153,6 +155,7 @@ namespace undine
         report.residuals.push_back(residual);
       }
     report.linear_iterations = problem.linear_iterations();
+    report.scale             = problem.scale();
 
     // Rounding may stop the descent somewhat above the estimate of its size.
     const double stagnation = 100 * problem.rounding();

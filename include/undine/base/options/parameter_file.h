@@ -13,8 +13,8 @@ namespace undine
   /// of deal.II's ParameterHandler (`subsection NAME`, `set KEY = VALUE`, `end`, `include FILE`,
   /// `#` comments, `\` at a line's end continues it), but, since named bodies and chosen parts
   /// decide which keys exist, the text is read before any key is declared. In values, `\#` stands
-  /// for '#' and `\\` for a backslash. In a subsection `Settings`, which studies have, a key may be a path
-  /// `Section/Key`. A line that makes no sense is left out and noted.
+  /// for '#' and `\\` for a backslash. In a subsection `Settings`, which studies have, a key may be
+  /// a path `Section/Key`. A line that makes no sense is left out and noted.
   class ParameterFile
   {
   public:

@@ -23,6 +23,7 @@ namespace undine
     unsigned int rejections        = 0; ///< those of the cuts that the error in time asked for
     unsigned int stages_again      = 0; ///< solved again: bodies were elsewhere or faster
     double       newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
+    double       newton_residual  = 0; ///< the same over the size of the forces that it sums [1]
     std::string  note;                 ///< what the user may want to know; empty if nothing
 
     /// Something unusual. Users are told once, as long as each step has one of the same subject.
