@@ -151,7 +151,7 @@ class Analysis:
 
     def price_of_a_digit(self, result):
         """Factor of cost for a tenth of the error, along the advice; nan if it has fewer than two settings."""
-        points = {self.cost(row.case): row.level for row in self.advice(result) if row.case}
+        points = {self.cost(row.case): result.errors[row.case] for row in self.advice(result) if row.case}
         if len(points) < 2:
             return math.nan
         slope = numpy.polyfit(numpy.log10(list(points.values())), numpy.log10(list(points)), 1)[0]

@@ -28,20 +28,24 @@ def cells(line, tag):
 
 def body(text, figures):
     """HTML of the few forms of Markdown that studies use; figures by heading, behind the first paragraph."""
-    result, table, heading = [], [], ""
+    result, table, items, heading = [], [], [], ""
     for line in [*text.splitlines(), ""]:
         if line.startswith("|"):
             table.append(line)
             continue
+        if line.startswith("- "):
+            items.append(f"<li>{inline(line[2:])}</li>")
+            continue
         if table:
             result.append("<table>" + cells(table[0], "th") + "".join(cells(each, "td") for each in table[2:]) + "</table>")
             table = []
+        if items:
+            result.append("<ul>" + "".join(items) + "</ul>")
+            items = []
         level = len(line) - len(line.lstrip("#"))
         if level:
             heading = line[level:].strip()
             result.append(f"<h{level}>{inline(heading)}</h{level}>")
-        elif line.startswith("- "):
-            result.append(f"<li>{inline(line[2:])}</li>")
         elif line:
             result.append(f"<p>{inline(line)}</p>")
             if heading in figures:

@@ -71,13 +71,15 @@ def reason(result):
     """Why a run has failed, without which step it was and what else is said of it."""
     step = re.match(r"step \d+, which begins at \S+ s: (?:a step of \S+ s failed, the last one of \S+ s: )?"
                     r"(?:\S+\.prm: at \S+ s )?(?:body .*?the point that rests at .*?: )?(.*)", result["failure"], re.S)
-    return re.split(r"[:;] |\.(?: |$)", step[1])[0] if step else result["failure"]
+    if step:
+        return re.split(r"[:;] |\.(?: |$)", step[1])[0]
+    return re.sub(r"\S*/(?=\S+\.prm:)", "", result["failure"])  # whose folder the scene lies in does not matter
 
 
 def brief(result):
     """Where a run has stopped, or why; "" if it has not failed."""
-    stopped = result["failure"] and reason(result) != result["failure"] and "reached" in result
-    return f"stops at {result['reached']:.3g} s" if stopped else result["failure"]
+    stopped = result["failure"] and "reached" in result
+    return f"stops at {result['reached']:.3g} s" if stopped else reason(result)
 
 
 def orders(found, result):
@@ -195,7 +197,7 @@ def failures(found):
     """Each reason once, with the runs that it holds for."""
     reasons = {}
     for case in found.failures():
-        at = brief(found.results[case]) if reason(found.results[case]) != found.results[case]["failure"] else ""
+        at = brief(found.results[case]) if "reached" in found.results[case] else ""
         reasons.setdefault(reason(found.results[case]), []).append(case.name(found.study) + (f" ({at})" if at else ""))
     lines = [f"- {'all runs' if len(names) == len(found.results) else '; '.join(names)}: {why}"
              for why, names in reasons.items()]
@@ -213,7 +215,7 @@ def records(found):
             cells[f"error of {result.quantity.name}"] = result.errors.get(case, "")
         cells.update({key: outcome.get(key, "") for key in (
             "core seconds", "wall seconds", "memory", "unknowns", "steps", "Newton iterations", "linear iterations")})
-        cells["failure"] = reason(found, case)
+        cells["failure"] = reason(outcome)
         rows.append(cells)
     return rows
 
