@@ -39,8 +39,11 @@ def main():
     options = arguments()
     name = os.path.splitext(os.path.basename(options.study))[0]
     folder = options.out or os.path.join("output", "studies", name)
-    found = analysis.Analysis(options.program, *campaign.of_file(options.program, options.study, folder, options.jobs,
-                                                                 0 if options.results_only else options.within))
+    study, results, folders = campaign.of_file(options.program, options.study, folder, options.jobs,
+                                               0 if options.results_only else options.within)
+    if options.results_only and all(result.get("left out") for result in results.values()):
+        sys.exit(f"Error: '{folder}' has no runs of this study by this program. Call it without --results-only.")
+    found = analysis.Analysis(options.program, study, results, folders)
     files = report.write(found, folder)
     print(report.text(found))
     print("written: " + ", ".join(files))

@@ -18,7 +18,7 @@ from study import error_model, knobs
 from study.__main__ import duration
 from study.campaign import readable
 from study.description import Study
-from study.pilot import COARSER, NoCoarserRun, Pilot, Refused, Setting, estimate, predicted, quantity_of
+from study.pilot import COARSER, NoCoarserRun, Pilot, Refused, Setting, estimate, quantity_of
 from study.tables import percent, table
 
 FIRST = 0.25  # factor of the first settings, of those of the scene
@@ -83,7 +83,10 @@ def refuse_what_takes_too_long(pilot, history, setting, wanted):
 
 def refuse_what_does_not_converge(history):
     """Three settings, each finer than the one before, without a smaller error: a chaotic flow, for example."""
-    if len(history) >= 3 and history[-1].total() > 0.8 * history[-3].total():
+    finer = len(history) >= 3 and all(
+        late >= early for coarse, fine in ((history[-3], history[-2]), (history[-2], history[-1]))
+        for early, late in zip(coarse.setting.factors, fine.setting.factors))
+    if finer and history[-1].total() > 0.8 * history[-3].total():
         errors = ", ".join(percent(each.total()) for each in history[-3:])
         raise Refused(f"runs do not come closer to each other as they are refined: the estimates are {errors}. Flows that "
                       "are chaotic have no accurate values over time: ask for a mean with --as mean, or for a shorter time")
@@ -106,7 +109,7 @@ def search(pilot, all_knobs, wanted, run_with_outputs):
         refuse_what_takes_too_long(pilot, history, setting, wanted)
         if run_with_outputs(setting) is None:
             raise Refused(f"the run with {setting.name(pilot.study)} fails: {pilot.failures[setting]}")
-        history.append(estimate(pilot, setting, found.parts, 1) if found.total() > wanted else predicted(found, setting))
+        history.append(estimate(pilot, setting, found.parts, 1))
         say(history[-1])
         if history[-1].total() <= wanted:
             return history
@@ -170,6 +173,10 @@ def main(words):
     options = arguments(words)
     found = knobs.parameters(options.program, options.scene, options.assignments)
     settings = dict(assignment.split("=", 1) for assignment in options.assignments)
+    settings.setdefault("Output/Interval", found["Output/Interval"])  # steps land on its multiples
+    if float(found.get("Time/Tolerance", 0)) > 0:
+        print("note: 'Time/Tolerance' is left out of account: the step is chosen for the error", file=sys.stderr)
+        settings["Time/Tolerance"] = "0"
     study = Study("", options.scene, os.path.abspath(options.scene), 1, 0.0, 0.0, "core seconds", "all", [], settings, [])
     all_knobs = tuple(knobs.knobs_of(found))
     deadline = time.monotonic() + options.within if options.within else None
@@ -187,7 +194,12 @@ def main(words):
         try:
             history = search(pilot, all_knobs, options.accuracy, run_with_outputs)
         except Refused as reason:
-            sys.exit(f"\nError: an error of {percent(options.accuracy)} was not reached: {reason}.")
+            left = f" What is in '{output}' is less accurate." if tries else ""
+            sys.exit(f"\nError: an error of {percent(options.accuracy)} was not reached: {reason}.{left}")
+        except KeyboardInterrupt:
+            print(f"\nstopped; './undine resume {output}' goes on with the run that was under way" if tries else
+                  "\nstopped before the run", file=sys.stderr)
+            sys.exit(130)
         print(report(pilot, history, options.accuracy))
         print(f"results: {output}")
 

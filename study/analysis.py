@@ -80,7 +80,7 @@ class Analysis:
         times, values = references.on_common_times(quantity, evaluated)
         reference = references.make(program, self.study, quantity, times, values)
         scale = quantity.scale or convergence.norm(reference.values)
-        if scale == 0:
+        if not scale > 0:
             raise references.NoReference("the reference is zero: give a 'Scale'")
         result = QuantityResults(quantity, values, missing, reference, scale)
         result.errors = {case: convergence.norm(value - reference.values) / scale for case, value in values.items()}
@@ -99,21 +99,20 @@ class Analysis:
 
     def bases(self, result):
         """One case for each variant, from which refinements are looked at."""
-        return [case for case in references.base_cases(self.study, result.values).values() if case in result.values]
+        return list(references.base_cases(self.study, result.values).values())
 
     def orders(self, result):
         """[(case, axis, own order, order against the reference)]: the own one from the differences of the last three
-        values; the other one from the last two errors, without the finest if that has made the reference."""
+        values; the other one from the last two errors, nan if the reference is made of these very runs."""
         rows = []
         for base in self.bases(result):
             for axis in self.study.refinements():
                 cases = self.curve(result, base, axis)
                 lengths = [self.study.variations[axis].lengths[case.index[axis]] for case in cases]
                 own = convergence.observed_order(lengths, [result.values[case] for case in cases])
-                last = slice(-2, None) if result.quantity.has_reference() else slice(-3, -1)
-                pair = cases[last]
-                against = math.nan if len(pair) < 2 else convergence.order_to_limit(
-                    lengths[last], [result.errors[case] for case in pair])
+                against = math.nan
+                if len(cases) > 1 and result.quantity.has_reference():
+                    against = convergence.order_to_limit(lengths[-2:], [result.errors[case] for case in cases[-2:]])
                 rows.append((base, axis, own, against))
         return rows
 
@@ -132,7 +131,7 @@ class Analysis:
         refinements = self.study.refinements()
         finer = [other for other in result.errors if variant(self.study, other) == variant(self.study, case)
                  and all(other.index[axis] >= case.index[axis] for axis in refinements)]
-        return (result.errors[case] + result.uncertainty() <= level and
+        return (not result.made_reference(case) and result.errors[case] + result.uncertainty() <= level and
                 all(result.errors[other] <= level for other in finer))
 
     def advice(self, result):
@@ -151,8 +150,9 @@ class Analysis:
 
     def price_of_a_digit(self, result):
         """Factor of cost for a tenth of the error, along the advice; nan if it has fewer than two settings."""
-        points = {self.cost(row.case): result.errors[row.case] for row in self.advice(result) if row.case}
-        if len(points) < 2:
+        points = {self.cost(row.case): result.errors[row.case] for row in self.advice(result)
+                  if row.case and result.errors[row.case] > 0}
+        if len(points) < 2 or len(set(points.values())) < 2:
             return math.nan
         slope = numpy.polyfit(numpy.log10(list(points.values())), numpy.log10(list(points)), 1)[0]
         return 10 ** -slope
@@ -164,13 +164,19 @@ class Analysis:
             cases = self.curve(result, case, axis)
             lengths = [self.study.variations[axis].lengths[other.index[axis]] for other in cases]
             found = convergence.limit(lengths, [result.values[other] for other in cases])
-            uncertainty = found.uncertainty if math.isfinite(found.uncertainty) else math.nan
             moved = convergence.norm(found.value - result.values[case])
-            if uncertainty > 0:  # the finest value would move, too, where its limit is not foretold
-                moved = max(moved, uncertainty / convergence.UNSURE)
-            rows.append(Share(self.study.variations[axis].name, moved / result.scale, uncertainty / result.scale,
+            if found.uncertainty > 0:  # the finest value would move, too; infinity: it was not refined, nothing tells
+                moved = max(moved, found.uncertainty / convergence.UNSURE)
+            rows.append(Share(self.study.variations[axis].name, moved / result.scale, found.uncertainty / result.scale,
                               found.remark))
         return sorted(rows, key=lambda share: -share.size)
+
+    def n_missing_finer(self, result, case):
+        """Of the finer cases of a variant that have no value."""
+        refinements = self.study.refinements()
+        return sum(1 for other in self.results if other not in result.values
+                   and variant(self.study, other) == variant(self.study, case)
+                   and all(other.index[axis] >= case.index[axis] for axis in refinements))
 
     def failures(self):
         return {case: result["failure"] for case, result in self.results.items() if result["failure"]}

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """All runs of a study: in parallel, resumable, within a limit of time."""
+import contextlib
+import fcntl
 import os
 import sys
-import threading
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 
@@ -22,9 +23,21 @@ def readable(seconds):
 def of_file(program, file, folder, jobs, within=None):
     """The study of a file, and the results and folders of its cases, of which those are run that are not there."""
     study = description.read(program, file)
-    os.makedirs(folder, exist_ok=True)
     campaign = Campaign(program, study, make_cases(study), folder, jobs, within)
-    return study, campaign.carry_out(), campaign.folders
+    with only_one(campaign.parent):
+        return study, campaign.carry_out(), campaign.folders
+
+
+@contextlib.contextmanager
+def only_one(folder):
+    """Two calls at once must not write into one folder."""
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, ".lock"), "w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            sys.exit(f"Error: another study writes into '{folder}'. Wait for its end, or choose another --out.")
+        yield
 
 
 class Campaign:
@@ -34,11 +47,10 @@ class Campaign:
         self.program, self.study, self.cases = program, study, cases
         self.jobs = max(1, jobs // max(ranks(study, case) for case in cases))
         digest = runs.digest_of_file(program)
-        self.folders = {case: os.path.join(folder, "cases", runs.identity(study, case, digest)) for case in cases}
+        self.parent = os.path.join(folder, "cases")
+        self.folders = {case: os.path.join(self.parent, runs.identity(study, case, digest)) for case in cases}
         self.end = None if within is None else time.monotonic() + within
-        self.predictions = Predictions(study)
-        self.results, self.begin = {}, time.monotonic()
-        self.lock = threading.Lock()
+        self.predictions, self.results = Predictions(study), {}
 
     def say(self, text):
         print(text, file=sys.stderr, flush=True)
@@ -46,12 +58,14 @@ class Campaign:
     def take_finished(self):
         """Results of an earlier time."""
         for case, folder in self.folders.items():
-            result = runs.finished(folder)
+            result = runs.finished(folder, self.study.limit)
             if result:
                 self.results[case] = result
                 self.predictions.add(case, result)
         if self.results:
             self.say(f"{len(self.results)} of {len(self.cases)} runs are there already")
+        elif os.path.isdir(self.parent) and any(entry.is_dir() for entry in os.scandir(self.parent)):
+            self.say("the runs that are there were made by another program, or with another scene or settings")
 
     def fits(self, case):
         """Whether a case is expected to end in time."""
@@ -82,7 +96,11 @@ class Campaign:
     def carry_out(self):
         """{case: result} of all cases, coarse ones first; those that do not fit into the time are left out."""
         self.take_finished()
-        waiting = [case for case in self.cases if case not in self.results]
+        same = {}  # cases that are the same run
+        for case in self.cases:
+            if case not in self.results:
+                same.setdefault(self.folders[case], []).append(case)
+        waiting = [cases[0] for cases in same.values()]
         with ThreadPoolExecutor(self.jobs) as pool:
             under_way = {}
             try:
@@ -103,4 +121,6 @@ class Campaign:
             except KeyboardInterrupt:
                 self.say("stopped; finished runs are kept, the same command goes on")
                 os._exit(130)
+        for case, *others in same.values():
+            self.results.update({other: self.results[case] for other in others})
         return self.results

@@ -138,7 +138,7 @@ def flat(section, path=""):
 
 
 def variation(name, section):
-    values = {key: split(text, "|") for key, text in flat(section["Settings"]).items()}
+    values = {key: [part.strip() for part in text.split("|")] for key, text in flat(section["Settings"]).items()}
     settings = [dict(zip(values, combination)) for combination in zip(*values.values())]
     names = split(section["Names"], ",") or [next(iter(each.values())) or "none" for each in settings]
     return Variation(name, section["Kind"], names, settings, numbers(section["Lengths"]))
@@ -163,10 +163,12 @@ def check_own_keys(study):
         for key in settings:
             if key.startswith(QUANTITIES) and key not in allowed:
                 sys.exit(f"Error: {study.file}: 'Settings' must not change '{key}'; allowed: {', '.join(sorted(allowed))}")
+        own = {key: value for key, value in settings.items() if value != AS_IS}
         try:
-            int(settings.get(RANKS, 1))
+            if int(own.get(RANKS, 1)) < 1:
+                raise ValueError(f"'{RANKS} = {own[RANKS]}' must be at least 1")
             for each in study.quantities:
-                each.in_case({key: value for key, value in settings.items() if value != AS_IS})
+                each.in_case(own)
         except ValueError as error:
             sys.exit(f"Error: {study.file}: 'Settings' of {', '.join(settings)}: {error}")
 

@@ -2,7 +2,7 @@
 """An error as a sum of parts, one for each thing that can be refined: part_k = size_k (factor_k)^-order_k; and the cheapest
 factors for an error that is asked for."""
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 
 @dataclass
@@ -24,10 +24,6 @@ class Part:
     def at(self, factor):
         """Its size with another factor."""
         return self.size * (factor / self.factor) ** -self.order
-
-    def moved_to(self, factor):
-        """What is expected with another factor."""
-        return replace(self, difference=self.difference * (factor / self.factor) ** -self.order, factor=factor)
 
 
 def total(parts, factors):

@@ -183,8 +183,3 @@ def estimate(pilot, setting, known, count):
         parts.append(part)
         remarks += [remark] if remark else []
     return Estimate(setting, parts, remarks)
-
-
-def predicted(found, setting):
-    """The estimate of a setting by one of another."""
-    return Estimate(setting, [part.moved_to(factor) for part, factor in zip(found.parts, setting.factors)], found.remarks)

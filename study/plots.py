@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Work-precision diagrams."""
+import math
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -51,7 +53,7 @@ def draw_front(axes, found, result):
     axes.plot([found.cost(case) for case in front], [max(result.errors[case], 1e-16) for case in front], "o",
               markersize=10, markerfacecolor="none", markeredgecolor="black", markeredgewidth=0.9,
               label="none is cheaper and more accurate")
-    if result.uncertainty() > 0:
+    if 0 < result.uncertainty() < math.inf:
         axes.axhline(result.uncertainty(), color="grey", linestyle="-.", linewidth=0.8,
                      label="uncertainty of the reference")
 

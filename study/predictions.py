@@ -36,7 +36,7 @@ class Predictions:
     def add(self, case, result):
         if not result["failure"]:
             self.rows.append(self.features(case))
-            self.seen.append(math.log(max(result["wall seconds"] * result.get("repetitions", 1), 1e-3)))
+            self.seen.append(math.log(max(result["elapsed"], 1e-3)))
 
     def wall_seconds(self, case):
         """Expected; None before anything was seen."""

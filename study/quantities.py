@@ -65,14 +65,16 @@ def passages(quantity, times, values, columns):
 
 
 def window(quantity, columns):
-    """The rows that count."""
+    """The values that count: of the rows between two times, and at these times themselves."""
     times, values = series(quantity, columns)
     slack = 1e-9 * max(times[-1], 1e-300)
-    until = quantity.until or times[-1]
-    chosen = (times >= quantity.start - slack) & (times <= until + slack)
-    if not chosen.any():
-        raise NotEvaluated(f"no row between {quantity.start:g} s and {until:g} s")
-    return times[chosen], values[chosen]
+    start, until = max(quantity.start, times[0]), min(quantity.until or times[-1], times[-1])
+    if start > until + slack:
+        raise NotEvaluated(f"no row between {quantity.start:g} s and {quantity.until or times[-1]:g} s")
+    inside = times[(times > start + slack) & (times < until - slack)]
+    ends = [start, until] if until > start + slack else [until]
+    whole = numpy.concatenate([ends[:1], inside, ends[1:]])
+    return whole, interpolate(times, values, whole)
 
 
 def mean(times, values):
@@ -81,21 +83,23 @@ def mean(times, values):
     return numpy.trapz(values, times, axis=0) / (times[-1] - times[0])
 
 
-def top(times, values):
-    """The peak of the parabola through the largest of some values and its neighbours: which value comes closest to a peak
-    depends on the step, and would look like an error of it."""
+def peak(times, values):
+    """Time and value of the peak of the parabola through the largest of some values and its neighbours: which value comes
+    closest to a peak depends on the step, and would look like an error of it."""
     k = int(values.argmax())
     if not 0 < k < len(values) - 1:
-        return values[k]
+        return times[k], values[k]
     before, after = times[k] - times[k - 1], times[k + 1] - times[k]
     left, right = (values[k] - values[k - 1]) / before, (values[k + 1] - values[k]) / after
     curvature = (right - left) / (before + after)
     slope = (left * after + right * before) / (before + after)
-    return values[k] - slope ** 2 / (4 * curvature) if curvature < 0 else values[k]
+    if curvature >= 0:
+        return times[k], values[k]
+    return times[k] - slope / (2 * curvature), values[k] - slope ** 2 / (4 * curvature)
 
 
 def largest(times, values):
-    return numpy.array([top(times, each) for each in values.T])
+    return numpy.array([peak(times, each)[1] for each in values.T])
 
 
 def smallest(times, values):
@@ -109,7 +113,7 @@ REDUCTIONS = {
     "smallest": smallest,
     "middle": lambda times, values: (largest(times, values) + smallest(times, values)) / 2,
     "amplitude": lambda times, values: (largest(times, values) - smallest(times, values)) / 2,
-    "time of largest": lambda times, values: times[values.argmax(axis=0)],
+    "time of largest": lambda times, values: numpy.array([peak(times, each)[0] for each in values.T]),
 }
 
 

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the quantities of a study are compared with."""
 import csv
-import math
 import subprocess
 from dataclasses import dataclass, field
 
 import numpy
 
 from study import convergence
-from study.cases import Case, variant, variant_name
+from study.cases import variant, variant_name
 from study.quantities import Values, interpolate
 
 
@@ -83,41 +82,56 @@ def along(study, values, base, axis):
     return [length for length, _ in found], [value for _, value in found]
 
 
+@dataclass
+class AllLimits:
+    """The limit by all refinements from one case: its value, how far it may be off (infinity: nothing tells), what is
+    wrong with it, and how many refinements have changed nothing."""
+    value: numpy.ndarray
+    uncertainty: float = 0.0
+    warnings: list = field(default_factory=list)
+    unmoved: int = 0
+
+    def rank(self):
+        """Less is surer. What refinements do not change is no better known for that: it may not depend on them."""
+        return self.unmoved, len(self.warnings), self.uncertainty
+
+
 def limit_of_all(study, values, base):
-    """The limit by all refinements from one case, its uncertainty and what is wrong with it: each refinement adds its
-    own correction, which holds for errors small enough to be a sum of terms of each length."""
-    total, uncertainty, warnings = values[base].copy(), 0.0, []
+    """From one case. Each refinement adds its own correction, which holds for errors small enough to be a sum of terms of
+    each length."""
+    result = AllLimits(values[base].copy())
     for axis in study.refinements():
         found = convergence.limit(*along(study, values, base, axis))
-        total += found.value - values[base]
-        if math.isfinite(found.uncertainty):
-            uncertainty += found.uncertainty
+        result.value += found.value - values[base]
+        result.uncertainty += found.uncertainty
+        result.unmoved += found.uncertainty == 0
         if found.remark:
-            warnings.append(f"{study.variations[axis].name}: the sequence {found.remark}")
-    return total, uncertainty, warnings
+            result.warnings.append(f"{study.variations[axis].name}: the sequence {found.remark}")
+    finest = study.combine == "all" and any(base.index[axis] < len(study.variations[axis].names) - 1
+                                            for axis in study.refinements())
+    if finest:
+        result.warnings.append(f"the finest run is missing; this is the limit from {base.name(study)}")
+    return result
 
 
 def base_cases(study, values):
-    """Where limits begin, one for each variant: the finest case, or the coarsest if only one value changes at a time."""
-    finest = {}
+    """Where limits begin, one for each variant: the finest case that there is, or, if only one value changes at a time,
+    the one in which nothing is refined."""
+    bases = {}
     for case in values:
-        finest.setdefault(variant(study, case), case)
-    for key, example in finest.items():
-        index = list(example.index)
-        for axis in study.refinements():
-            index[axis] = len(study.variations[axis].names) - 1 if study.combine == "all" else 0
-        finest[key] = Case(tuple(index))
-    return finest
+        refined = sum(case.index[axis] for axis in study.refinements())
+        best = bases.get(variant(study, case))
+        if best is None or (refined > best[0] if study.combine == "all" else refined < best[0]):
+            bases[variant(study, case)] = (refined, case)
+    return {key: case for key, (_, case) in bases.items()}
 
 
 def by_finest(study, values):
     """From the runs themselves: of the variant whose limit is surest."""
-    found = [(limit_of_all(study, values, base), key) for key, base in base_cases(study, values).items()
-             if base in values]
-    if not found:
-        raise NoReference("no finest run has succeeded")
-    (total, uncertainty, warnings), key = min(found, key=lambda each: (len(each[0][2]), each[0][1]))
-    return Reference(total, uncertainty, f"limit of the finest runs ({variant_name(study, key)})", warnings)
+    found = [(limit_of_all(study, values, base), key) for key, base in base_cases(study, values).items()]
+    limit, key = min(found, key=lambda each: each[0].rank())
+    return Reference(limit.value, limit.uncertainty, f"limit of the finest runs ({variant_name(study, key)})",
+                     limit.warnings)
 
 
 def common_times(evaluated):
@@ -140,10 +154,14 @@ def on_common_times(quantity, evaluated):
 def make(program, study, quantity, times, values):
     """The reference of a quantity at common times; raises NoReference."""
     if quantity.reference:
-        return by_expression(program, quantity, times)
-    if quantity.reference_file:
-        return by_file(quantity, times)
-    return by_finest(study, values)
+        found = by_expression(program, quantity, times)
+    elif quantity.reference_file:
+        found = by_file(quantity, times)
+    else:
+        found = by_finest(study, values)
+    if not numpy.isfinite(found.values).all():
+        raise NoReference("the reference is no finite number at all times")
+    return found
 
 
 __all__ = ["NoReference", "Reference", "Values", "along", "base_cases", "limit_of_all", "make", "on_common_times", "table"]

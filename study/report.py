@@ -10,7 +10,7 @@ from study.cases import ranks
 def write(found, folder):
     """All files; returns their paths."""
     files = {"study.md": text(found, pictures=True), "study.csv": tables.csv_of(found), "study.tex": tables.latex_of(found),
-             "study.json": json.dumps(tables.data_of(found), indent=1)}
+             "study.json": json.dumps(tables.data_of(found), indent=1, allow_nan=False)}
     pictures = {}
     for k, result in enumerate(found.quantities):
         name = f"work_precision_{k + 1}"

@@ -17,13 +17,15 @@ from study.cases import Case, of_scene, ranks
 from study.description import Study
 
 REPETITIONS = 3
+RESULTS = (0, 2, 3)  # exit codes that say something of the case: success, refused, not solved
 KEPT_FILES = ("statistics", "summary.json", "timing")
 
 
 def environment():
     """MPI allowed for root and on few cores; one thread a rank."""
     return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                OMPI_MCA_rmaps_base_oversubscribe="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+                OMPI_MCA_rmaps_base_oversubscribe="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
+                OMPI_MCA_hwloc_base_binding_policy="none")  # else runs at the same time would share processors
 
 
 def digest_of_file(path):
@@ -32,9 +34,10 @@ def digest_of_file(path):
 
 
 def identity(study, case, program_digest):
-    """A name for the folder of a case: the same only for the same scene, settings and program."""
-    parts = [scene_files.all_text(study.scene), json.dumps(case.settings(study), sort_keys=True), str(study.ranks),
-             program_digest]
+    """A name for the folder of a case: the same only for the same scene, settings, files that they name, and program."""
+    settings = json.dumps(case.settings(study), sort_keys=True)
+    parts = [scene_files.all_text(study.scene), settings, str(study.ranks), program_digest]
+    parts += scene_files.named_files(study.scene, [*case.settings(study).values()])
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
@@ -89,7 +92,12 @@ def wait(process, limit):
         if limit and not stopped and time.monotonic() - begin > limit:
             os.killpg(process.pid, signal.SIGKILL)
             stopped = True
-        time.sleep(0.02)
+        try:
+            time.sleep(0.02)
+        except KeyboardInterrupt:  # the run keeps its last state
+            os.killpg(process.pid, signal.SIGTERM)
+            process.wait()
+            raise
 
 
 def execute(words, limit, printed):
@@ -101,7 +109,7 @@ def execute(words, limit, printed):
     printed.seek(0)
     failure = "" if process.returncode == 0 else message_of(printed.read())
     return {"failure": f"took longer than {limit:.3g} s" if stopped else failure, "stopped": stopped,
-            "core seconds": seconds, "wall seconds": time.monotonic() - begin}
+            "core seconds": seconds, "wall seconds": time.monotonic() - begin, "exit code": process.returncode}
 
 
 def once(program, study, case, folder, limit):
@@ -152,28 +160,36 @@ def keep(folder, result):
     os.replace(path + ".new", path)
 
 
-def finished(folder):
-    """The result of a case, or None."""
+def finished(folder, limit):
+    """The result of a case, or None; a run that was stopped at another limit [s] has none."""
     try:
         with open(os.path.join(folder, "result.json")) as file:
-            return json.load(file)
+            result = json.load(file)
     except (OSError, ValueError):
         return None
+    return None if result["stopped"] and result["limit"] != limit else result
 
 
 def run(program, study, case, folder, limit):
-    """Make a run, three times if it is short: the medians count. One that is stopped at the limit [s] of the study is a
-    result, one that is stopped earlier is not kept."""
-    results = [once(program, study, case, folder, limit)]
-    while (not results[0]["failure"] and results[0]["core seconds"] < study.repeat_below
-           and len(results) < REPETITIONS):
-        results.append(once(program, study, case, folder, limit))
-    result = results[-1]
+    """Make a run, three times if it is short: the medians count. Kept are those that succeed, that the program refuses or
+    cannot solve, and that are stopped at the limit [s] of the study; not those that were stopped otherwise."""
+    begin, results = time.monotonic(), []
+    while not results or (not results[0]["failure"] and results[0]["core seconds"] < study.repeat_below
+                          and len(results) < REPETITIONS):
+        left = max(1.0, limit + begin - time.monotonic()) if limit else 0
+        again = once(program, study, case, folder + ".again" if results else folder, left)
+        if results and again["failure"]:
+            break
+        results.append(again)
+    shutil.rmtree(folder + ".again", ignore_errors=True)
+    result = results[0]
+    result["elapsed"], result["limit"] = time.monotonic() - begin, study.limit
     for cost in ("core seconds", "wall seconds"):
         result[cost] = statistics.median(each[cost] for each in results)
     result["repetitions"] = len(results)
     result["case"] = case.name(study)
     result["settings"] = case.settings(study)
-    if not result["stopped"] or limit == study.limit:
+    at_limit = result["stopped"] and limit == study.limit
+    if at_limit or (not result["stopped"] and result["exit code"] in RESULTS):
         keep(folder, result)
     return result

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Scenes as texts: what they consist of, and what is left of one without some of its keys."""
+import hashlib
 import os
 import re
 
@@ -31,6 +32,22 @@ def without(file, keys, sections=()):
         elif word != "set" or "/".join([*sections, rest]) not in keys:
             text += block
     return text
+
+
+def named_files(scene, values):
+    """Contents of all files that the scene or other values name, wherever such names may begin: digests."""
+    texts = [all_text(scene), *values]
+    folders = {os.path.dirname(os.path.abspath(scene))}
+    folders |= {os.path.join(os.path.dirname(os.path.abspath(scene)), name.strip())
+                for text in texts for name in re.findall(r"Folder of files\s*=([^#\n]*)", text)}
+    words = sorted({word.strip() for text in texts for part in re.split(r"[=\n#]", text) for word in (part, *part.split())
+                    if "." in word})
+    found = []
+    for path in (os.path.join(folder, word) for folder in sorted(folders) for word in words):
+        if len(path) < 4000 and os.path.isfile(path):
+            with open(path, "rb") as file:
+                found.append(hashlib.sha256(file.read()).hexdigest())
+    return found
 
 
 def all_text(file, seen=()):

@@ -8,7 +8,7 @@ import re
 
 import numpy
 
-from study import columns
+from study import columns, convergence
 from study.cases import variant, variant_name
 
 
@@ -28,6 +28,8 @@ def percent(value):
     """A relative error with two digits: "2.3 %"."""
     if math.isnan(value):
         return ""
+    if math.isinf(value):
+        return "unknown"
     if value != 0 and not 1e-7 < value < 100:
         return f"{100 * value:.1e} %"
     return f"{numpy.format_float_positional(100 * value, 2, fractional=False, trim='-')} %"
@@ -87,7 +89,9 @@ def orders(found, result):
     for base, axis, own, against in found.orders(result):
         others = [f"{variation.name} {variation.names[position]}" for k, (variation, position) in enumerate(
             zip(found.study.variations, base.index)) if k != axis]
-        rows.append([found.study.variations[axis].name, ", ".join(others), number(own), number(against)])
+        chance = own > convergence.LARGEST_ORDER
+        rows.append([found.study.variations[axis].name, ", ".join(others),
+                     f"> {convergence.LARGEST_ORDER}" if chance else number(own), number(against)])
     if not rows:
         return []
     return ["Observed orders of convergence (own: by differences of the last three values):", ""] + table(
@@ -111,6 +115,9 @@ def advice(found, result):
     lines = ["Cheapest settings for an error that all finer settings keep, too:", ""] + table(
         ["error at most", *(variation.name for variation in found.study.variations), "error", found.study.cost,
          "moved by refining"], rows)
+    missing = sum(found.n_missing_finer(result, each.case) > 0 for each in found.advice(result) if each.case)
+    if missing:
+        lines += ["Of these settings, some finer ones have no value: whether they keep the error is not known.", ""]
     price = found.price_of_a_digit(result)
     if not math.isnan(price):
         lines += [f"A tenth of the error costs about {price:.3g} times as much.", ""]
@@ -212,8 +219,9 @@ def records(found):
         for result in found.quantities:
             if result.is_scalar():
                 cells[result.quantity.name] = result.values[case].flat[0] if case in result.values else ""
-            cells[f"error of {result.quantity.name}"] = result.errors.get(case, "")
-        cells.update({key: outcome.get(key, "") for key in (
+            known = case in result.errors and not result.made_reference(case)
+            cells[f"error of {result.quantity.name}"] = result.errors[case] if known else ""
+        cells.update({f"run: {key}": outcome.get(key, "") for key in (
             "core seconds", "wall seconds", "memory", "unknowns", "steps", "Newton iterations", "linear iterations")})
         cells["failure"] = reason(outcome)
         rows.append(cells)
@@ -241,7 +249,8 @@ def latex_of(found):
         head = [variation.name for variation in found.study.variations] + ["relative error", found.study.cost]
         lines += [f"% {result.quantity.name}", "\\begin{tabular}{" + "l" * (len(head) - 2) + "rr}", "\\hline",
                   " & ".join(map(escaped, head)) + " \\\\", "\\hline"]
-        lines += [" & ".join([*map(escaped, settings(found, case)), f"{result.errors[case]:.2e}",
+        lines += [" & ".join([*map(escaped, settings(found, case)),
+                              "reference" if result.made_reference(case) else f"{result.errors[case]:.2e}",
                               f"{found.cost(case):.3g}"]) + " \\\\"
                   for case in sorted(result.errors, key=lambda case: case.index)]
         lines += ["\\hline", "\\end{tabular}", ""]
@@ -250,7 +259,7 @@ def latex_of(found):
 
 def finite(value):
     """For JSON."""
-    return None if math.isnan(value) else value
+    return value if math.isfinite(value) else None
 
 
 def data_of(found):
@@ -259,10 +268,10 @@ def data_of(found):
         {"name": result.quantity.name, "orders": [
             {"refined": found.study.variations[axis].name, "from": base.settings(found.study), "own": finite(own),
              "of the error": finite(against)} for base, axis, own, against in found.orders(result)],
-         "budget": [{"refined": share.name, "moves by": share.size, "remark": share.remark}
+         "budget": [{"refined": share.name, "moves by": finite(share.size), "remark": share.remark}
                     for base in found.bases(result)[:1] for share in found.budget(result, base)],
          "reference": result.reference.values.ravel().tolist(),
-         "from": result.reference.source, "uncertainty": result.uncertainty(), "warnings": result.reference.warnings,
+         "from": result.reference.source, "uncertainty": finite(result.uncertainty()), "warnings": result.reference.warnings,
          "advice": [{"error at most": each.level, "settings": each.case.settings(found.study),
                      "error": result.errors[each.case], "cost": found.cost(each.case)}
                     for each in found.advice(result) if each.case]}

@@ -334,9 +334,11 @@ namespace undine
       write_timing(folder, timing, log, communicator);
       const auto advice = adviser.advice();
       effects.print_end(log, advice);
-      summary.print(log);
+      if (summary.has_steps())
+        summary.print(log);
       write_whole_file(folder, "effects.json", effects.json(advice), communicator);
-      write_whole_file(folder, "summary.json", summary.json(state.clock, ""), communicator);
+      if (summary.has_steps())
+        write_whole_file(folder, "summary.json", summary.json(state.clock, ""), communicator);
       folder.finish();
     }
 

@@ -19,15 +19,19 @@ namespace undine
   }
 
 
+  /// A value that is no number is larger than any.
   template <int dim>
-  typename RunSummary<dim>::Largest &
-  RunSummary<dim>::largest(const std::string &kind, const std::string &meaning)
+  void
+  RunSummary<dim>::raise(const std::string &kind, const std::string &meaning, const double value)
   {
     for (auto &[name, error] : errors)
       if (name == kind)
-        return error;
-    errors.emplace_back(kind, Largest{meaning});
-    return errors.back().second;
+        {
+          if (!(value <= error.value))
+            error.value = value;
+          return;
+        }
+    errors.emplace_back(kind, Largest{meaning, value});
   }
 
 
@@ -41,10 +45,7 @@ namespace undine
   {
     for (const auto &column : columns)
       if (column.name == name)
-        {
-          auto &error = largest(kind, meaning);
-          error.value = std::max(error.value, std::abs(column.value));
-        }
+        raise(kind, meaning, std::abs(column.value));
   }
 
 
@@ -58,26 +59,21 @@ namespace undine
     cuts += report.cuts;
     time_is_estimated = report.error_in_time.has_value();
     if (report.error_in_time)
-      largest("time", "estimate, of all steps together, relative to how far the bodies have moved")
-        .value = *report.error_in_time;
+      raise("time",
+            "estimate, of all steps together, relative to how far the bodies have moved",
+            *report.error_in_time);
     if (scene.models.solid)
-      {
-        auto &error =
-          largest("Newton", "forces that Newton's method leaves unbalanced, of all that it sums");
-        error.value = std::max(error.value, report.newton_residual);
-      }
+      raise("Newton",
+            "forces that Newton's method leaves unbalanced, of all that it sums",
+            report.newton_residual);
     observe_column(report.columns,
                    "Fluid divergence",
                    "mass",
                    "|div v| dx in a cell, of the fluid's largest speed");
-    if (report.account)
-      {
-        auto       &error   = largest("energy created",
-                              "by all steps and not lost again, of the largest energy so far");
-        const auto &account = *report.account;
-        if (account.largest > 0)
-          error.value = std::max(error.value, account.created / account.largest);
-      }
+    if (report.account && report.account->largest > 0)
+      raise("energy created",
+            "by all steps and not lost again, of the largest energy so far",
+            report.account->created / report.account->largest);
     observe_column(
       report.columns, "energy closure", "energy", "what the terms of the energy balance leave");
     observe_column(
@@ -89,7 +85,8 @@ namespace undine
   void
   RunSummary<dim>::print(Log &log) const
   {
-    log.print("\nwhat the run knows of its own error, the largest in any step:");
+    log.print("\nwhat the run knows of its own error, the largest in any step{}:",
+              start.step > 0 ? fmt::format(" since step {}", start.step) : "");
     if (time_is_estimated && !*time_is_estimated)
       log.print("  {:<15} not estimated; shorter steps or 'Time / Tolerance' tell", "time");
     for (const auto &[kind, error] : errors)
@@ -151,9 +148,9 @@ namespace undine
   RunSummary<dim>::json(const Clock &clock, const std::string &failure) const
   {
     const auto known = json_list(errors, [](const auto &error) {
-      return fmt::format("{{\"kind\": {}, \"largest\": {:.6g}, \"meaning\": {}}}",
+      return fmt::format("{{\"kind\": {}, \"largest\": {}, \"meaning\": {}}}",
                          quoted(error.first),
-                         error.second.value,
+                         json_number(error.second.value),
                          quoted(error.second.meaning));
     });
     return fmt::format(

@@ -57,6 +57,13 @@ def check_resumption(program, folder):
     require(found["begin [s]"] == 0.05 and found["time [s]"] == 0.08 and found["steps"] >= 3, f"resumed: {found}")
 
 
+def check_nothing_left(program, folder):
+    """A run that has reached its end and is taken up again makes no step: its summary stays."""
+    before = summary(folder)
+    scene_tools.run(program, ["resume", folder])
+    require(summary(folder) == before, "a resumption without a step has changed the summary")
+
+
 def check_failure(program, scene, folder):
     code, _, said = scene_tools.ended(program, [scene, "--output", folder, *SHORT, "--set", "Time/End=0.05", "--set",
                                                 "Solid numerics/Newton maximum iterations=1"])
@@ -79,6 +86,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         place = lambda name: os.path.join(folder, name)  # noqa: E731
         check_end(program, beam, place("end"))
+        check_nothing_left(program, place("end"))
         check_resumption(program, place("end"))
         check_estimate(program, beam, place("estimate"))
         check_failure(program, beam, place("failure"))

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The arithmetic of studies by laws that it must obey: exact limits, orders and interpolation, honest uncertainty."""
+import json
 import math
 import os
 import sys
@@ -10,7 +11,8 @@ import unittest
 import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-from study import accuracy, columns, convergence, error_model, predictions, quantities, scene_files, tables  # noqa: E402
+from study import (accuracy, analysis, columns, convergence, error_model, predictions, quantities, report, scene_files,
+                   tables)  # noqa: E402
 from study.cases import Case, make_cases, of_scene, ranks  # noqa: E402
 from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
@@ -107,8 +109,18 @@ class Quantities(unittest.TestCase):
         self.assertAlmostEqual(self.value(columns=["b", "b"], factor=500), 1000)
 
     def test_when_the_largest_value_is_reached(self):
-        found = {"Time": numpy.array([0.0, 0.5, 2]), "a": numpy.array([-9.0, 4, 3])}
-        self.assertEqual(quantities.evaluate(quantity(evaluate="time of largest"), found).values, [[0.5]])
+        times = numpy.array([0, 0.4, 1.1, 1.5, 2.3])
+        found = {"Time": times, "a": 3 - 2 * (times - 1.2) ** 2}
+        for evaluate, exact in (("time of largest", 1.2), ("largest", 3)):  # of a parabola between rows
+            self.assertAlmostEqual(quantities.evaluate(quantity(evaluate=evaluate), found).values[0, 0], exact, 12)
+
+    def test_windows_begin_and_end_between_rows(self):
+        for step in (0.1, 0.07, 0.013):
+            times = numpy.arange(0, 1.2, step)
+            found = {"Time": times, "a": times ** 3}
+            mean = quantities.evaluate(quantity(evaluate="mean", start=0.33, until=1.0), found).values[0, 0]
+            self.assertAlmostEqual(mean, (1 - 0.33 ** 4) / 4 / 0.67, delta=step ** 2)
+            self.assertAlmostEqual(quantities.evaluate(quantity(until=0.77), found).values[0, 0], 0.77 ** 3, 9)
 
     def test_values_in_the_middle_of_steps(self):
         columns = {"Time": numpy.array([0.0, 1, 3]), "a": numpy.array([7.0, 1, 2])}
@@ -216,7 +228,7 @@ class Cases(unittest.TestCase):
         cases = make_cases(several)
         self.assertIsNone(known.wall_seconds(cases[0]))
         for case in cases[:6]:
-            known.add(case, {"failure": "", "wall seconds": seconds(case)})
+            known.add(case, {"failure": "", "elapsed": seconds(case)})
         self.assertLess(abs(math.log(known.wall_seconds(cases[-1]) / seconds(cases[-1]))), 0.2)
 
 
@@ -247,6 +259,65 @@ class FakePilot:
 
     def true_error(self, setting):
         return convergence.norm(self.error(setting)) / convergence.norm(self.exact())
+
+
+class Results(unittest.TestCase):
+    """What an analysis says of runs whose values are given."""
+
+    def analyse(self, values, *variations, missing=(), levels=(0.1, 0.05, 0.02, 0.01), **keys):
+        several = study(*variations)
+        several.levels = list(levels)
+        several.quantities.append(quantity(name="q", reference=[], field="", scale=0, **keys))
+        cases = make_cases(several)
+        results = {case: {"failure": "left out" if case.index in missing else "", "core seconds": 1.0 + sum(case.index),
+                          "left out": case.index in missing} for case in cases}
+        columns_of = {case: {"Time": numpy.array([0.0, 1]), "a": numpy.array([0.0, values(*case.index)])} for case in cases}
+        before, analysis.Analysis.read = analysis.Analysis.read, staticmethod(lambda case: columns_of[case])
+        try:
+            return analysis.Analysis("", several, results, {case: case for case in cases})
+        finally:
+            analysis.Analysis.read = before
+
+    def test_a_missing_finest_run_takes_away_no_more_than_itself(self):
+        value = lambda i, j: 1 + 0.04 / 4 ** i + 0.02 / 4 ** j  # noqa: E731
+        for missing in ([], [(2, 2)], [(2, 2), (2, 1)]):
+            found = self.analyse(value, refinement("h", [4, 2, 1]), refinement("dt", [4, 2, 1]), missing=missing)
+            (result,) = found.quantities
+            self.assertLessEqual(abs(result.reference.values[0, 0] - 1), result.reference.uncertainty + 1e-12)
+            self.assertEqual(any("is missing" in each for each in result.reference.warnings), bool(missing))
+            self.assertIn("missing" if missing else "q", "\n".join(tables.section(found, result)))
+
+    def test_what_a_refinement_does_not_change_is_no_reference_for_what_it_does(self):
+        variants = Variation("kind", "variant", ["fixed", "own"], [{"k": "1"}, {"k": "2"}], [])
+        value = lambda kind, i: 1.2 if kind == 0 else 1 + 0.2 / 4 ** i  # noqa: E731
+        (result,) = self.analyse(value, variants, refinement("dt", [4, 2, 1])).quantities
+        self.assertIn("own", result.reference.source)
+        self.assertAlmostEqual(result.reference.values[0, 0], 1)
+
+    def test_a_single_run_knows_nothing_of_its_error(self):
+        found = self.analyse(lambda i: 1.0 + i, refinement("dt", [4, 2, 1]), missing=[(0,), (1,)])
+        (result,) = found.quantities
+        self.assertEqual(result.uncertainty(), math.inf)
+        self.assertTrue(all(row.case is None for row in found.advice(result)))
+        self.assertIn("is the reference", "\n".join(tables.errors(found, result)))
+        json.dumps(tables.data_of(found), allow_nan=False)
+        self.assertEqual(tables.records(found)[2]["error of q"], "")
+
+    def test_two_values_have_a_page(self):
+        found = self.analyse(lambda i: (1.014, 1.0)[i], refinement("dt", [2, 1]))
+        (result,) = found.quantities
+        self.assertTrue(math.isnan(found.price_of_a_digit(result)))
+        self.assertIn("no order is known", report.text(found))
+
+    def test_orders_of_errors_against_what_is_exact(self):
+        for exact, shown in (("", math.nan), ("1", 2.0)):
+            found = self.analyse(lambda i: 1 + 0.2 / 4 ** i, refinement("dt", [4, 2, 1]))
+            (result,) = found.quantities
+            result.quantity.reference = [exact] if exact else []
+            result.errors = {case: 0.2 / 4 ** case.index[0] for case in result.errors}
+            ((_, _, own, against),) = found.orders(result)
+            self.assertAlmostEqual(own, 2)
+            numpy.testing.assert_allclose(against, shown)
 
 
 class Accuracy(unittest.TestCase):

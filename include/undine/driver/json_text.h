@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 
 namespace undine
@@ -21,6 +22,14 @@ namespace undine
       else
         result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
     return result + "\"";
+  }
+
+
+  /// The number as JSON has it, which knows no infinity: null.
+  inline std::string
+  json_number(const double value)
+  {
+    return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null";
   }
 
 

@@ -17,9 +17,9 @@
 
 namespace undine
 {
-  /// What a run knows at its end of its cost and of its own error, for the user and as the file
-  /// `summary.json`. Only what the run has measured is in it: where nothing estimates an error, it
-  /// says so.
+  /// What a run knows at its end, of the steps since its start or since it was taken up again, of
+  /// its cost and of its own error, for the user and as the file `summary.json`. Only what the run
+  /// has measured is in it: where nothing estimates an error, it says so.
   template <int dim>
   class RunSummary
   {
@@ -31,6 +31,13 @@ namespace undine
     /// A step has been made.
     void
     observe(const Report &report);
+
+    /// Has any step been made? If not, there is nothing to say: an earlier summary stays.
+    bool
+    has_steps() const
+    {
+      return n_steps > 0;
+    }
 
     /// A line for each kind of error that the run knows.
     void
@@ -54,8 +61,8 @@ namespace undine
                    const std::string &name,
                    const std::string &kind,
                    const std::string &meaning);
-    Largest &
-    largest(const std::string &kind, const std::string &meaning);
+    void
+    raise(const std::string &kind, const std::string &meaning, double value);
     std::string
     costs() const;
     std::string
