@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How true the estimates of `--accuracy` are: the error that it promises against that by independent finer runs, and its cost
+"""How true the estimates of `--accuracy` are: the error that it promises against that by finer runs, and its cost
 against that of the best settings found by trying them all.
 
 usage: benchmarks/estimates.py [PROGRAM] [--case bar]... [--accuracy 5%]... [--best]
 
-Five scenes (benchmarks/estimates), 5 and 1 %. Truth: runs 1.4 times and twice as fine in everything, extrapolated. --best: also try all settings between half and twice as fine in each thing that cost no more. One core; a
-quarter of an hour, with --best an hour.
+Five scenes (benchmarks/estimates), 5 and 1 %. Truth: runs 1.4 times and twice as fine in everything, extrapolated. --best:
+also try all settings between half and twice as fine in each thing that cost no more. One core; a quarter of an hour, with
+--best an hour.
 """
 import argparse
 import itertools
