@@ -30,8 +30,8 @@ MEASURES = ("over time", "end", "mean", "largest", "smallest", "middle", "amplit
 
 
 def least_factors(found):
-    """No coarser than the runs that have told something."""
-    return [max(knob.coarsest(), part.factor / COARSER) for knob, part in zip(found.setting.knobs, found.parts)]
+    """No coarser than the runs that have told something, and with room for coarser neighbours."""
+    return [max(with_room(knob), part.factor / COARSER) for knob, part in zip(found.setting.knobs, found.parts)]
 
 
 def next_setting(found, wanted):
@@ -47,12 +47,16 @@ def next_setting(found, wanted):
                                               zip(found.setting.knobs, factors)))
 
 
+def with_room(knob):
+    """The least factor of which there are coarser ones."""
+    return min(1.0, COARSER * knob.coarsest())
+
+
 def first_estimate(pilot, all_knobs):
     """Of settings a quarter as fine as the scene, or as fine as needed for the run and its coarser neighbours to succeed."""
     factor, reason = FIRST, None
     while factor <= 2:
-        setting = Setting(all_knobs, tuple(knobs.snapped(knob, max(factor, min(1.0, COARSER * knob.coarsest())))
-                                           for knob in all_knobs))
+        setting = Setting(all_knobs, tuple(knobs.snapped(knob, max(factor, with_room(knob))) for knob in all_knobs))
         if pilot.run(setting) is not None:
             try:
                 return estimate(pilot, setting, None, 2)

@@ -77,6 +77,21 @@ def finished(out):
     return found
 
 
+def processes_about(text):
+    """Command lines of running processes in which the text occurs."""
+    found = []
+    for entry in os.scandir("/proc"):
+        if entry.name.isdigit():
+            try:
+                with open(os.path.join(entry.path, "cmdline"), "rb") as file:
+                    line = file.read().decode(errors="replace")
+            except OSError:  # it has just ended
+                continue
+            if text in line:
+                found.append(line.replace("\0", " "))
+    return found
+
+
 def check_kill(program, studies, folder):
     """What has ended before a kill is not made again, and nothing goes on running."""
     out = os.path.join(folder, "killed")
@@ -90,7 +105,7 @@ def check_kill(program, studies, folder):
     process.send_signal(signal.SIGKILL)
     process.wait()
     time.sleep(0.2)
-    left = subprocess.run(["pgrep", "-f", out], capture_output=True, text=True).stdout.split()
+    left = processes_about(out)
     require(not left, f"after a kill there are still processes {left}")
     before = finished(out)
     require(2 <= len(before) < 8, f"{len(before)} runs had ended before the kill")
