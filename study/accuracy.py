@@ -30,8 +30,10 @@ MEASURES = ("over time", "end", "mean", "largest", "smallest", "middle", "amplit
 
 
 def least_factors(found):
-    """No coarser than the runs that have told something, and with room for coarser neighbours."""
-    return [max(with_room(knob), part.factor / COARSER) for knob, part in zip(found.setting.knobs, found.parts)]
+    """No coarser than the runs that have told something, with room for coarser neighbours, and as a run with outputs can
+    be."""
+    return [max(with_room(knob), knob.least_with_outputs(), part.factor / COARSER)
+            for knob, part in zip(found.setting.knobs, found.parts)]
 
 
 def next_setting(found, wanted):
@@ -42,7 +44,8 @@ def next_setting(found, wanted):
     jump = CAREFUL_JUMP if found.remarks or found.total() > KNOWN else LARGEST_JUMP
     if ratio > jump:
         share = math.log(jump) / math.log(ratio)
-        factors = [part.factor * (factor / part.factor) ** share for part, factor in zip(found.parts, factors)]
+        factors = [max(part.factor * (factor / part.factor) ** share, knob.least_with_outputs())
+                   for part, factor, knob in zip(found.parts, factors, found.setting.knobs)]
     return Setting(found.setting.knobs, tuple(knobs.snapped(knob, factor) for knob, factor in
                                               zip(found.setting.knobs, factors)))
 
@@ -159,8 +162,7 @@ def share(text):
 
 
 def arguments(words):
-    parser = argparse.ArgumentParser(prog="./undine SCENE.prm --accuracy", usage=__doc__.split("usage: ")[1].split("\n\n")[0],
-                                     description=__doc__.split("\n\n")[2])
+    parser = argparse.ArgumentParser(prog="./undine", description=__doc__.split("\n\n")[2])
     parser.add_argument("scene", metavar="SCENE.prm")
     parser.add_argument("--accuracy", type=share, required=True, metavar="ERROR", help="relative, such as 1%%")
     parser.add_argument("--of", metavar="COLUMN", help="of the file 'statistics'")
@@ -177,7 +179,6 @@ def main(words):
     options = arguments(words)
     found = knobs.parameters(options.program, options.scene, options.assignments)
     settings = dict(assignment.split("=", 1) for assignment in options.assignments)
-    settings.setdefault("Output/Interval", found["Output/Interval"])  # steps land on its multiples
     if float(found.get("Time/Tolerance", 0)) > 0:
         print("note: 'Time/Tolerance' is left out of account: the step is chosen for the error", file=sys.stderr)
         settings["Time/Tolerance"] = "0"

@@ -22,6 +22,7 @@ class Knob:
     growth: float
     counts: bool  # numbers of cells, which grow; else lengths, which fall
     multiple: float = 0  # a length that is a whole number of these lengths; 0: none
+    longest: float = 0  # a length in a run with outputs, which steps land on; 0: any
 
     def settings(self, factor):
         """{"Section/Key": value}, finer than the scene by the factor."""
@@ -50,6 +51,10 @@ class Knob:
         largest = min(max(values) for values in self.values.values())
         smallest = min((value for values in self.values.values() for value in values if value > 1), default=largest)
         return min(1.0, max(FEWEST_CELLS / largest, 1 / smallest))
+
+    def least_with_outputs(self):
+        """The smallest factor that a run with outputs can have: its steps are no longer than the time between outputs."""
+        return next(iter(self.values.values()))[0] / self.longest if self.longest else 0.0
 
     def single_cells(self, factor):
         """Keys with a single cell along an axis, of which no run can tell what it does to the error."""
@@ -104,7 +109,8 @@ def knobs_of(found):
         return [spacing(found, dimension)]
     result = []
     if found.get("Time/Integrator") != "static":
-        result.append(Knob("time step", {"Time/Step": numbers(found["Time/Step"])}, 2.0, 1.0, False))
+        result.append(Knob("time step", {"Time/Step": numbers(found["Time/Step"])}, 2.0, 1.0, False,
+                           longest=float(found.get("Output/Interval", 0))))
     if "Domain/Cells" in found:
         result.append(Knob("cells of the fluid", {"Domain/Cells": numbers(found["Domain/Cells"])}, 2.0, dimension, True))
     elements = {key: numbers(text) for key, text in found.items()

@@ -196,6 +196,26 @@ def check_mistakes(program, studies, folder):
                 f"'{said}' is not said, exit code {done.returncode}:\n{done.stdout}\n{done.stderr}")
 
 
+def check_accuracy(program, _, folder):
+    """A run with settings chosen for an error keeps it, against a run that is much finer; what cannot be had is refused."""
+    sys.path.insert(0, ROOT)
+    from study import columns, runs
+    scene, out = os.path.join(ROOT, "prm", "piston.prm"), os.path.join(folder, "accurate")
+    words = ["/usr/bin/python3", "-B", "-m", "study.accuracy", scene, "--program", program, "--output", out, "--set",
+             "Time/End=0.5"]
+    done = subprocess.run(words + ["--accuracy", "2%"], env=environment(), capture_output=True, text=True)
+    require(done.returncode == 0 and "half of the error would take" in done.stdout, f"--accuracy: {done.stdout}{done.stderr}")
+    found = columns.read(os.path.join(out, "statistics"))
+    _, exact = runs.single(program, scene, {"Time/End": "0.5", "Time/Step": "1/800"})
+    error = max(abs(value - exact["tip displacement x"][abs(exact["Time"] - time).argmin()])
+                for time, value in zip(found["Time"], found["tip displacement x"])) / 0.01
+    require(error < 0.03, f"--accuracy 2%: the error is {error:.3g}")
+    require(os.path.exists(os.path.join(out, "solution.pvd")), "--accuracy: the run lacks the scene's outputs")
+    done = subprocess.run(words + ["--overwrite", "--accuracy", "0.001%", "--within", "2s"], env=environment(),
+                          capture_output=True, text=True)
+    require(done.returncode == 1 and "was not reached" in done.stderr, f"--accuracy within 2 s: {done.stdout}{done.stderr}")
+
+
 def check_shipped(program, _, folder):
     """That the program reads all shipped studies, and their scenes with the settings of the coarsest and the finest run;
     that the rows of reference files are there."""
@@ -218,7 +238,8 @@ def check_shipped(program, _, folder):
 def main():
     program, studies = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
-        for check in (check_kinds, check_budgets, check_kill, check_limit, check_mistakes, check_shipped):
+        for check in (check_kinds, check_budgets, check_kill, check_limit, check_mistakes, check_accuracy,
+                      check_shipped):
             check(program, studies, folder)
 
 

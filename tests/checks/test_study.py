@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The arithmetic of studies by laws that it must obey: exact limits, orders and interpolation, honest uncertainty."""
+import dataclasses
 import json
 import math
 import os
@@ -323,11 +324,11 @@ class Results(unittest.TestCase):
 class Accuracy(unittest.TestCase):
     knobs = (Knob("step", {"Time/Step": [0.01]}, 2.0, 1.0, False), Knob("cells", {"Domain/Cells": [4000, 2000]}, 2.0, 2.0, True))
 
-    def search(self, pilot, wanted):
+    def search(self, pilot, wanted, of=knobs):
         with open(os.devnull, "w") as nowhere:
             before, sys.stderr = sys.stderr, nowhere
             try:
-                return accuracy.search(pilot, self.knobs, wanted, pilot.run)
+                return accuracy.search(pilot, of, wanted, pilot.run)
             finally:
                 sys.stderr = before
 
@@ -352,6 +353,13 @@ class Accuracy(unittest.TestCase):
                 found = self.search(pilot, wanted)[-1]
                 self.assertLessEqual(pilot.true_error(found.setting), wanted)
                 self.assertLess(abs(math.log(found.total() / pilot.true_error(found.setting))), math.log(3))
+
+    def test_steps_of_a_run_with_outputs_land_on_them(self):
+        for wanted in (0.3, 0.1, 0.01):
+            step, cells = self.knobs
+            limited = (dataclasses.replace(step, longest=0.005), cells)
+            found = self.search(FakePilot((1e-4, 0.03), (2, 2)), wanted, limited)
+            self.assertGreaterEqual(found[-1].setting.factors[0], 2)
 
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
