@@ -70,6 +70,11 @@ namespace undine
                    "Fluid divergence",
                    "mass",
                    "|div v| dx in a cell, of the fluid's largest speed");
+    observe_column(
+      report.columns,
+      "Worst pressure residual",
+      "pressure",
+      "residual that the solver leaves between particles, of that which it began with");
     if (report.account && report.account->largest > 0)
       raise("energy created",
             "by all steps and not lost again, of the largest energy so far",
@@ -88,7 +93,10 @@ namespace undine
     log.print("\nwhat the run knows of its own error, the largest in any step{}:",
               start.step > 0 ? fmt::format(" since step {}", start.step) : "");
     if (time_is_estimated && !*time_is_estimated)
-      log.print("  {:<15} not estimated; shorter steps or 'Time / Tolerance' tell", "time");
+      log.print("  {:<15} not estimated; {} tell",
+                "time",
+                scene.models.particles ? "runs with other spacings"
+                                       : "shorter steps or 'Time / Tolerance'");
     for (const auto &[kind, error] : errors)
       log.print("  {:<15} {:.1e}  {}", kind, error.value, error.meaning);
   }

@@ -80,6 +80,13 @@ def check_fluid(program, scene, folder):
     require(error(found, "energy") is not None and error(found, "momentum") is not None, f"balances: {found['errors']}")
 
 
+def check_particles(program, scene, folder):
+    scene_tools.run(program, [scene, "--output", folder, "--set", "Time/End=0.02", "--set", "Particles/Spacing=0.05"])
+    found = summary(folder)
+    limit = float(found["tolerances"]["Particles/Pressure/Tolerance"])
+    require(found["unknowns"]["particles"] > 100 and 0 < error(found, "pressure") <= limit, f"particles: {found}")
+
+
 def main():
     program, scenes = sys.argv[1:]
     beam = os.path.join(scenes, "cantilever.prm")
@@ -90,6 +97,7 @@ def main():
         check_resumption(program, place("end"))
         check_estimate(program, beam, place("estimate"))
         check_failure(program, beam, place("failure"))
+        check_particles(program, os.path.join(scenes, "hydrostatic_particles.prm"), place("particles"))
         check_fluid(program, os.path.join(scenes, "taylor_green.prm"), place("fluid"))
 
 
