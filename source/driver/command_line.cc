@@ -46,6 +46,34 @@ namespace undine
                        "replace a run in that folder which has not reached its end");
       add_assignments(command, request);
     }
+
+
+    /// Subcommands that make no run, for scripts.
+    struct Answers
+    {
+      const CLI::App *study, *parameters, *evaluate;
+    };
+
+
+    Answers
+    add_answers(CLI::App &app, Request &request)
+    {
+      CLI::App *study = app.add_subcommand(
+        "read-study", "check a study and print it as JSON, which './undine study' reads");
+      study->add_option("study", request.scene_file, "its parameter file")
+        ->required()
+        ->type_name("STUDY.prm");
+      CLI::App *parameters = app.add_subcommand(
+        "read-scene", "check the sections of a scene and print all parameters as JSON");
+      parameters->add_option("scene", request.scene_file, "its parameter file")
+        ->required()
+        ->type_name("SCENE.prm");
+      add_assignments(*parameters, request);
+      CLI::App *evaluate = app.add_subcommand(
+        "evaluate", "evaluate an expression at each line 'x y z t' of the standard input");
+      evaluate->add_option("expression", request.expression, "in x, y, z, t")->required();
+      return {study, parameters, evaluate};
+    }
   } // namespace
 
 
@@ -74,20 +102,7 @@ namespace undine
       ->type_name("DIR");
     add_run_options(*resume, request, "folder for what follows, which leaves the run as it is");
 
-    CLI::App *study = app.add_subcommand(
-      "read-study", "check a study and print it as JSON, which './undine study' reads");
-    study->add_option("study", request.scene_file, "its parameter file")
-      ->required()
-      ->type_name("STUDY.prm");
-    CLI::App *parameters = app.add_subcommand(
-      "read-scene", "check the sections of a scene and print all parameters as JSON");
-    parameters->add_option("scene", request.scene_file, "its parameter file")
-      ->required()
-      ->type_name("SCENE.prm");
-    add_assignments(*parameters, request);
-    CLI::App *evaluate = app.add_subcommand(
-      "evaluate", "evaluate an expression at each line 'x y z t' of the standard input");
-    evaluate->add_option("expression", request.expression, "in x, y, z, t")->required();
+    const auto answers = add_answers(app, request);
 
     std::ostringstream out, err;
     try
@@ -108,13 +123,13 @@ namespace undine
         return request;
       }
 
-    request.action = resume->parsed()       ? Request::Action::resume
-                     : study->parsed()      ? Request::Action::study
-                     : parameters->parsed() ? Request::Action::parameters
-                     : evaluate->parsed()   ? Request::Action::evaluate
-                     : reference            ? Request::Action::reference
-                     : validate             ? Request::Action::validate
-                                            : Request::Action::run;
+    request.action = resume->parsed()               ? Request::Action::resume
+                     : answers.study->parsed()      ? Request::Action::study
+                     : answers.parameters->parsed() ? Request::Action::parameters
+                     : answers.evaluate->parsed()   ? Request::Action::evaluate
+                     : reference                    ? Request::Action::reference
+                     : validate                     ? Request::Action::validate
+                                                    : Request::Action::run;
     return request;
   }
 } // namespace undine

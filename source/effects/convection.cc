@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
+#include <undine/effects/transport_form.h>
 #include <undine/fluid/advection/advection.h>
 #include <undine/fluid/implicit_momentum.h>
 #include <undine/fluid/pressure/projection.h>
@@ -20,11 +21,9 @@ namespace undine
     void
     add_options(const Options &options) override
     {
-      options.add(
-        "Form",
-        form,
-        "",
-        Allowed::one_of({"automatic", "along paths", "flux"}),
+      form.add_options(
+        options,
+        "convection",
         "'flux': momentum flows through the faces between volumes of the grid, centrally and "
         "implicitly: it conserves the momentum of fluid and bodies, and forces on what stands in "
         "it "
@@ -35,23 +34,12 @@ namespace undine
         "'along paths'.");
       method = options.template choose<Advection<dim>>(
         "Method", "cubic", "How the velocity is advected along paths.");
-      if (options.is_reference())
-        return;
-      if (form == "automatic" && options.given("Method"))
-        form = "along paths";
-      if (form == "flux" && options.given("Method"))
-        throw options.error("Method",
-                            "is for convection along paths, and the form is 'flux'",
-                            "Remove the key, or set 'Form = along paths'.");
     }
 
     void
     adapt_to(const std::vector<std::string> &effects) override
     {
-      if (form == "automatic")
-        form = is_among(effects, "viscosity") && !is_among(effects, "vorticity confinement")
-                 ? "flux"
-                 : "along paths";
+      form.adapt_to(effects);
     }
 
     void
@@ -61,7 +49,7 @@ namespace undine
         throw options.error("",
                             "convection acts on a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
-      if (has_flux_form() && is_among(around.effects, "vorticity confinement"))
+      if (form.is_flux() && is_among(around.effects, "vorticity confinement"))
         throw options.error("Form",
                             "'flux' smooths nothing that vorticity confinement could make good",
                             "Set 'Form = along paths', or remove 'vorticity confinement'.");
@@ -70,7 +58,7 @@ namespace undine
     std::string
     summary() const override
     {
-      return has_flux_form() ? "flux form, central, implicit" : method->summary();
+      return form.is_flux() ? "flux form, central, implicit" : method->summary();
     }
 
     typename Effect<dim>::Work
@@ -84,7 +72,7 @@ namespace undine
     initialize(const FluidModel<dim> &model, FluidState<dim> &state) const override
     {
       const auto &topology = state.velocity[0].topology();
-      if (has_flux_form() && topology)
+      if (form.is_flux() && topology)
         for (auto &half : state.volume_rates.halves)
           for (unsigned int axis = 0; axis < dim; ++axis)
             half[axis] = Field<dim>(model.grid().faces(axis), topology);
@@ -93,7 +81,7 @@ namespace undine
     void
     transport(FluidStage<dim> &step) const override
     {
-      if (has_flux_form())
+      if (form.is_flux())
         {
           step.conserve_momentum();
           return;
@@ -108,7 +96,7 @@ namespace undine
     void
     accelerate(FluidStage<dim> &step) const override
     {
-      if (!has_flux_form())
+      if (!form.is_flux())
         return;
       const auto timed = step.timing.section(this->name);
       auto       flow  = step.flow_at_end();
@@ -128,7 +116,7 @@ namespace undine
     void
     diffuse(FluidStage<dim> &step) const override
     {
-      if (!has_flux_form() || step.viscosity > 0)
+      if (!form.is_flux() || step.viscosity > 0)
         return;
       const auto timed = step.timing.section(this->name);
       momentum.solve(step, this->name);
@@ -149,12 +137,6 @@ namespace undine
     is_among(const std::vector<std::string> &effects, const std::string &name)
     {
       return std::count(effects.begin(), effects.end(), name) > 0;
-    }
-
-    bool
-    has_flux_form() const
-    {
-      return form == "flux";
     }
 
     void
@@ -203,7 +185,7 @@ namespace undine
       });
     }
 
-    std::string                              form = "automatic";
+    TransportForm                            form;
     std::unique_ptr<Advection<dim>>          method;
     mutable ImplicitMomentum<dim>            momentum;   ///< a cache
     mutable std::unique_ptr<Projection<dim>> projection; ///< the same, for surfaces that move

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
+#include <undine/effects/transport_form.h>
 #include <undine/effects/transported_scalar.h>
 #include <undine/fluid/advection/advection.h>
 #include <undine/fluid/advection/fill_unknown.h>
@@ -29,11 +30,9 @@ namespace undine
     void
     add_options(const Options &options) override
     {
-      options.add(
-        "Form",
-        form,
-        "",
-        Allowed::one_of({"automatic", "along paths", "flux"}),
+      form.add_options(
+        options,
+        "transport",
         "'flux': what there is of a field flows through the faces of cells, with no limit on the "
         "step, of second order as far as bounds allow: its integral is conserved, no value leaves "
         "the range of those around it, and diffusion works around bodies, too. 'along paths': "
@@ -47,24 +46,12 @@ namespace undine
           fields.push_back(std::make_unique<TransportedScalar<dim>>(name));
           fields.back()->add_options(options.section(name));
         }
-      if (options.is_reference())
-        return;
-      if (form == "automatic" && options.given("Method"))
-        form = "along paths";
-      if (form == "flux" && options.given("Method"))
-        throw options.error("Method",
-                            "is for transport along paths, and the form is 'flux'",
-                            "Remove the key, or set 'Form = along paths'.");
     }
 
     void
     adapt_to(const std::vector<std::string> &effects) override
     {
-      const auto is_among = [&](const std::string &other) {
-        return std::count(effects.begin(), effects.end(), other) > 0;
-      };
-      if (form == "automatic")
-        form = is_among("viscosity") && !is_among("vorticity confinement") ? "flux" : "along paths";
+      form.adapt_to(effects);
     }
 
     void
@@ -79,7 +66,7 @@ namespace undine
                             "names no field to advect",
                             "Add a subsection with the field's name, such as 'subsection smoke'.");
       for (const auto &field : fields)
-        if (around.has_immersed_surfaces && field->diffusivity > 0 && !has_flux_form())
+        if (around.has_immersed_surfaces && field->diffusivity > 0 && !form.is_flux())
           throw options.section(field->name)
             .error("Diffusivity",
                    "diffusion around bodies and obstacles needs transport in flux form",
@@ -117,7 +104,7 @@ namespace undine
           });
           set_means(values, model.grid());
           state.scalars[field->name] = values;
-          if (field->changes() && !has_flux_form())
+          if (field->changes() && !form.is_flux())
             state.scalar_rates[field->name] =
               Field<dim>(model.grid().cells(), state.velocity[0].topology());
         }
@@ -128,7 +115,7 @@ namespace undine
     transport(FluidStage<dim> &step) const override
     {
       const auto timed = step.timing.section(this->name);
-      if (has_flux_form())
+      if (form.is_flux())
         transport_by_fluxes(step);
       else
         transport_along_paths(step);
@@ -139,8 +126,8 @@ namespace undine
     {
       unsigned int implicit = 0;
       for (const auto &field : fields)
-        implicit += has_flux_form() ? 3 : field->diffusivity > 0 ? 1 : 0;
-      return {has_flux_form() ? 0 : static_cast<unsigned int>(fields.size()), implicit};
+        implicit += form.is_flux() ? 3 : field->diffusivity > 0 ? 1 : 0;
+      return {form.is_flux() ? 0 : static_cast<unsigned int>(fields.size()), implicit};
     }
 
     std::size_t
@@ -174,12 +161,6 @@ namespace undine
     }
 
   private:
-    bool
-    has_flux_form() const
-    {
-      return form == "flux";
-    }
-
     /// From the begin of the stage to its end, whatever the integrator.
     void
     transport_by_fluxes(FluidStage<dim> &step) const
@@ -288,7 +269,7 @@ namespace undine
                    "Allowed: " + known);
     }
 
-    std::string                                          form = "automatic";
+    TransportForm                                        form;
     std::unique_ptr<Advection<dim>>                      method;
     mutable std::unique_ptr<Projection<dim>>             projection; ///< of the flow: a cache
     std::vector<std::unique_ptr<TransportedScalar<dim>>> fields;
