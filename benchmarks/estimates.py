@@ -11,16 +11,18 @@ also try all settings between half and twice as fine in each thing that cost no 
 """
 import argparse
 import itertools
+import math
 import os
 import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, ROOT)
-from study import convergence, error_model, knobs, runs  # noqa: E402
-from study.accuracy import search, share  # noqa: E402
+from study import convergence, knobs, runs  # noqa: E402
+from study.accuracy import share  # noqa: E402
 from study.description import Study  # noqa: E402
 from study.pilot import Pilot, Refused, Setting, quantity_of  # noqa: E402
+from study.search import Search  # noqa: E402
 from study.tables import percent  # noqa: E402
 
 CASES = {"bar": "tip displacement y", "panel": "corner displacement x", "disc": "behind velocity x",
@@ -28,10 +30,10 @@ CASES = {"bar": "tip displacement y", "panel": "corner displacement x", "disc": 
 TRIED = [2 ** (k / 2) for k in (-2, -1, 0, 1, 2)]  # factors around those of the run
 
 
-def scaled(setting, factor):
-    """Finer in everything."""
-    return Setting(setting.knobs, tuple(knobs.snapped(knob, factor * each)
-                                        for knob, each in zip(setting.knobs, setting.factors)))
+def scaled(setting, ratios):
+    """Finer by a ratio in each thing."""
+    return Setting(setting.knobs, tuple(knob.nearest(max(ratio * factor, knob.coarsest()))
+                                        for knob, ratio, factor in zip(setting.knobs, ratios, setting.factors)))
 
 
 def errors(pilot, settings, truth, times):
@@ -43,9 +45,8 @@ def errors(pilot, settings, truth, times):
 
 def limit(pilot, setting):
     """What runs lead to that are finer in everything, up to twice, and the times of its values; None if one of them fails.
-    The lengths are the mean of
-    those of all things, as whole numbers of cells make them."""
-    chain = [scaled(setting, 2 ** (k / 2)) for k in range(3)]
+    The lengths are the mean of those of all things, as whole numbers of cells make them."""
+    chain = [scaled(setting, [2 ** (k / 2)] * len(setting.knobs)) for k in range(3)]
     if any(pilot.run(each) is None for each in chain):
         return None, None
     times = min((pilot.values[each].times for each in chain), key=len)
@@ -53,14 +54,18 @@ def limit(pilot, setting):
     return convergence.limit(lengths, [pilot.values[each].at(times) for each in chain]), times
 
 
-def best_cost(pilot, found, wanted, truth, times):
-    """Of the cheapest setting that is as accurate as asked for, among those expected to cost no more than the run."""
-    for factors in itertools.product(TRIED, repeat=len(found.parts)):
-        trial = [factor * each for factor, each in zip(factors, found.setting.factors)]
-        if error_model.cost_ratio(found.parts, trial) <= 1:
-            pilot.run(Setting(found.setting.knobs, tuple(map(knobs.snapped, found.setting.knobs, trial))))
-    accurate = [setting for setting, error in errors(pilot, pilot.values, truth, times).items() if error <= wanted]
-    return min((pilot.costs[setting] for setting in accurate), default=float("nan"))
+def best_cost(pilot, setting, wanted, truth, times):
+    """Of the cheapest settings that are as accurate as asked for, as are all finer ones, so that nothing is owed to errors that
+    cancel, among those that should cost no more than the run."""
+    growths = [knob.growth for knob in setting.knobs]
+    for factors in itertools.product(TRIED, repeat=len(growths)):
+        if math.prod(factor ** growth for factor, growth in zip(factors, growths)) <= 1:
+            pilot.run(scaled(setting, factors))
+    found = errors(pilot, pilot.values, truth, times)
+    accurate = [each for each in found if all(
+        error <= wanted for other, error in found.items()
+        if all(fine >= coarse for fine, coarse in zip(other.factors, each.factors)))]
+    return min((pilot.costs[each] for each in accurate), default=float("nan"))
 
 
 def row(program, name, wanted, with_best):
@@ -68,23 +73,23 @@ def row(program, name, wanted, with_best):
     study = Study("", scene, scene, 1, 0.0, 0.0, "core seconds", "all", [], {}, [])
     with tempfile.TemporaryDirectory() as folder:
         pilot = Pilot(program, study, lambda _: quantity_of(CASES[name], "over time"), folder, None)
+        search = Search(pilot, tuple(knobs.knobs_of(knobs.parameters(program, scene, []))), wanted, pilot.run)
         try:
-            history = search(pilot, tuple(knobs.knobs_of(knobs.parameters(program, scene, []))), wanted, pilot.run)
+            search.run()
         except Refused as reason:
             return f"| {name} | {percent(wanted)} | refused: {reason} |"
-        found = history[-1]
-        cost = pilot.costs[found.setting]
-        others = sum(pilot.costs.values()) - cost
-        true, times = limit(pilot, found.setting)
+        setting, cost = search.setting, pilot.costs[search.setting]
+        others, _ = pilot.cost_of_others(setting)
+        true, times = limit(pilot, setting)
         if true is None:
             return f"| {name} | {percent(wanted)} | no truth: {list(pilot.failures.values())[-1]} |"
-        error = errors(pilot, [found.setting], true.value, times)[found.setting]
+        error = errors(pilot, [setting], true.value, times)[setting]
         sure = true.uncertainty / convergence.norm(true.value)
-        best = best_cost(pilot, found, wanted, true.value, times) if with_best else float("nan")
-    settings = "; ".join(f"{value}" for knob, factor in zip(found.setting.knobs, found.setting.factors)
+        best = best_cost(pilot, setting, wanted, true.value, times) if with_best else float("nan")
+    settings = "; ".join(f"{value}" for knob, factor in zip(setting.knobs, setting.factors)
                          for value in knob.settings(factor).values())
-    return (f"| {name} | {percent(wanted)} | {settings} | {percent(found.total())} | {percent(error)} ± {percent(sure)} | "
-            f"{error / wanted:.2f} | {found.total() / error:.2f} | {cost:.3g} | {others:.3g} | {best:.3g} |")
+    return (f"| {name} | {percent(wanted)} | {settings} | {percent(search.error)} | {percent(error)} ± {percent(sure)} | "
+            f"{error / wanted:.2f} | {search.error / error:.2f} | {cost:.3g} | {others:.3g} | {best:.3g} |")
 
 
 def main():

@@ -1,53 +1,77 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""An error as a sum of parts, one for each thing that can be refined: part_k = size_k (factor_k)^-order_k; and the cheapest
-factors for an error that is asked for."""
-import math
-from dataclasses import dataclass
+"""An error as a sum of parts, one for each thing that can be refined, which fall with powers of its refinement; and the
+cheapest factors for an error that is asked for."""
+import itertools
+from dataclasses import dataclass, replace
+
+import numpy
 
 
 @dataclass
 class Part:
-    """Of the error, with the factor of refinement at which it was measured: by the difference to a value that is coarser in
-    this thing by a ratio. The size of the part follows with one order, how it falls further with another: where no order
-    has been seen, it is prudent to take a lower one for the size."""
-    difference: float  # relative
-    ratio: float
-    factor: float
-    order_of_size: float
-    order: float
-    growth: float  # of the cost over the factor
+    """Of the error: what one thing contributes, measured by a run that is coarser in it."""
+    difference: numpy.ndarray  # to that run [time, component], in sizes of the quantity
+    ratio: float  # of the factors of both runs
+    factor: float  # of refinement, at which it was measured
+    order: float  # with which it falls on
+    order_of_size: float  # between both runs, which is greater where the coarser one is too coarse for what theory says
+    expected: float  # order, by theory
+    growth: float  # of the cost over the factor, as measured
+    expected_growth: float
+    seen: float = None  # the order that values show; nan: they do not come closer
+    falls: bool = True  # do values come closer?
+
+    def error(self):
+        """What is missing from the limit."""
+        return self.difference / (self.ratio ** self.order_of_size - 1)
 
     @property
     def size(self):
-        return self.difference / (self.ratio ** self.order_of_size - 1)
+        return float(numpy.sqrt(numpy.mean(numpy.square(self.error()))))
 
-    def at(self, factor):
-        """Its size with another factor."""
-        return self.size * (factor / self.factor) ** -self.order
-
-
-def total(parts, factors):
-    return sum(part.at(factor) for part, factor in zip(parts, factors))
+    def hopeful(self):
+        """With the order by theory."""
+        return replace(self, order=self.expected, order_of_size=max(self.order_of_size, self.expected))
 
 
-def cost_ratio(parts, factors):
-    """Of a run with these factors to that with those of the parts."""
-    return math.prod((factor / part.factor) ** part.growth for part, factor in zip(parts, factors))
+class ErrorModel:
+    """(Q3), (Q4): errors and costs of factors that are near those of the parts."""
 
+    def __init__(self, parts):
+        self.parts = parts
+        self.factors = numpy.array([part.factor for part in parts])
+        self.orders = numpy.array([part.order for part in parts])
+        errors = [part.error() for part in parts]
+        self.products = numpy.array([[numpy.mean(one * other) for other in errors] for one in errors])
 
-def cheapest(parts, wanted, least):
-    """Factors with the least cost for an error: every part has a share of it in proportion to growth / order, but for those
-    that have less already with the least factor that is sensible."""
-    factors, free, left = list(least), [k for k, part in enumerate(parts) if part.size > 0], wanted
-    while free:
-        weight = sum(parts[k].growth / parts[k].order for k in free)
-        trial = {k: parts[k].factor * (parts[k].size * weight * parts[k].order / (left * parts[k].growth)) **
-                 (1 / parts[k].order) for k in free}
-        small = [k for k in free if trial[k] < least[k]]
-        if not small:
-            for k in free:
-                factors[k] = trial[k]
-            break
-        left -= sum(parts[k].at(least[k]) for k in small)
-        free = [k for k in free if k not in small]
-    return factors
+    def errors(self, factors):
+        """Of many settings, [setting][thing]: the largest of all sums of parts, so that nothing is owed to parts that cancel
+        each other by chance."""
+        weights = (factors / self.factors) ** -self.orders
+        largest = numpy.zeros(len(factors))
+        for chosen in itertools.product((0, 1), repeat=len(self.parts)):
+            some = weights * chosen
+            largest = numpy.maximum(largest, numpy.einsum("nk,kl,nl->n", some, self.products, some))
+        return numpy.sqrt(largest)
+
+    def error(self, factors):
+        return float(self.errors(numpy.array([factors]))[0])
+
+    def change(self, factors):
+        """What the quantity changes by from the setting of the parts to another one, in sizes of the quantity."""
+        weights = (numpy.array(factors) / self.factors) ** -self.orders
+        return sum(part.error() * (weight - 1) for part, weight in zip(self.parts, weights))
+
+    def cost(self, factors):
+        """In costs of the setting of the parts, as they have been seen to grow."""
+        return numpy.prod((factors / self.factors) ** [part.growth for part in self.parts], axis=-1)
+
+    def expected_cost(self, factors):
+        """The same as they should grow, were runs long."""
+        return numpy.prod((factors / self.factors) ** [part.expected_growth for part in self.parts], axis=-1)
+
+    def cheapest(self, wanted, choices):
+        """Of the factors to choose from for each thing those with the least cost for an error; None if none are fine enough."""
+        factors = numpy.array(list(itertools.product(*choices)))
+        enough = factors[self.errors(factors) <= wanted]
+        return tuple(enough[self.cost(enough).argmin()]) if len(enough) else None

@@ -10,6 +10,9 @@ from dataclasses import dataclass
 from study.description import flat, numbers
 
 FEWEST_CELLS = 3
+CLOSE = 1.05  # factor between choices
+AROUND = 1.25
+UNEVEN = 0.12  # by rounding to whole numbers of cells
 
 
 @dataclass
@@ -31,7 +34,9 @@ class Knob:
             if self.counts:
                 result[key] = ", ".join(str(max(1, round(value * factor))) for value in values)
             else:
-                result[key] = f"{values[0] / self.realised(factor):.{12 if self.multiple else 4}g}"
+                length = values[0] / self.realised(factor)
+                is_round = self.multiple or length <= self.longest * (1 + 1e-9)
+                result[key] = f"{length:.{12 if is_round else 4}g}"
         return result
 
     def realised(self, factor):
@@ -40,7 +45,10 @@ class Knob:
             length = next(iter(self.values.values()))[0]
             return max(1, round(self.multiple / length * factor)) * length / self.multiple
         if not self.counts:
-            return factor
+            own = next(iter(self.values.values()))[0]
+            if own / factor > self.longest * (1 + 1e-9) or not self.longest:
+                return factor
+            return round(self.longest * factor / own) * own / self.longest  # steps that land on outputs by themselves
         largest = max(value for values in self.values.values() for value in values)
         return max(1, round(largest * factor)) / largest
 
@@ -55,6 +63,29 @@ class Knob:
     def least_with_outputs(self):
         """The smallest factor that a run with outputs can have: its steps are no longer than the time between outputs."""
         return next(iter(self.values.values()))[0] / self.longest if self.longest else 0.0
+
+    def choices(self, low, high):
+        """Factors between two others that can be had, as far as numbers of cells along all axes grow alike by them, a few
+        per cent apart."""
+        found, factor = [], low
+        while factor <= high * (1 + 1e-9):
+            choice = self.realised(factor)
+            if self.is_even(choice) and (not found or choice > found[-1] * 1.01):
+                found.append(choice)
+            factor *= CLOSE
+        return found
+
+    def nearest(self, factor):
+        """The factor that can be had next to another one."""
+        return min(self.choices(factor / AROUND, factor * AROUND) or [self.realised(factor)],
+                   key=lambda choice: abs(math.log(choice / factor)))
+
+    def is_even(self, factor):
+        """Do numbers of cells along all axes grow alike?"""
+        if not self.counts:
+            return True
+        cells = [value * factor for values in self.values.values() for value in values if value > 1]
+        return all(abs(math.log(max(1, round(each)) / each)) < UNEVEN for each in cells)
 
     def single_cells(self, factor):
         """Keys with a single cell along an axis, of which no run can tell what it does to the error."""
@@ -119,8 +150,3 @@ def knobs_of(found):
         degree = int(found.get("Solid numerics/Element degree", "1"))
         result.append(Knob("elements of bodies", elements, degree + 1.0, dimension, True))
     return result
-
-
-def snapped(knob, factor):
-    """A factor that gives whole numbers of cells, not coarser than is sensible."""
-    return max(knob.realised(max(factor, knob.coarsest())), 1e-6) if not math.isinf(factor) else 1.0

@@ -1,27 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Coarse runs of a scene, which tell what part of its error comes from what."""
-import math
+"""Runs of a scene with settings of which each thing can be refined by a factor."""
 import os
 import sys
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
-from study import convergence, error_model, knobs, quantities, runs
+from study import quantities, runs
 from study.columns import NotEvaluated, read
 from study.description import Quantity
-
-COARSER = 2.0  # neighbours, in one thing
-SMALLEST_ORDER = 0.7
-UNSEEN_ORDER = 1.5  # assumed of coarse runs, for the size of an error
-APART = 1.5  # factor between two settings that can tell an order
 
 
 class Refused(Exception):
     """Why there is no run of that accuracy."""
-
-
-class NoCoarserRun(Refused):
-    """Nothing can be told of a setting, since what is coarser fails."""
 
 
 @dataclass(frozen=True)
@@ -44,17 +34,6 @@ class Setting:
         return Setting(self.knobs, self.factors[:k] + (factor,) + self.factors[k + 1:])
 
 
-@dataclass
-class Estimate:
-    """Of the error of a setting: its parts, and whether what they are made of is sure."""
-    setting: Setting
-    parts: list
-    remarks: list = field(default_factory=list)
-
-    def total(self):
-        return sum(part.size for part in self.parts)
-
-
 def quantity_of(name, measure):
     """The quantity to be accurate: one column."""
     texts = dict.fromkeys(("unit", "period_of", "field", "body", "reference_file", "reference_column", "reference_times"), "")
@@ -71,6 +50,13 @@ class Pilot:
         self.program, self.study, self.choose, self.quantity = program, study, choose, None
         self.folder, self.deadline = folder, deadline
         self.values, self.costs, self.failures = {}, {}, {}
+        self.have_outputs = set()  # settings whose cost is that of a run with outputs
+        self.made = []  # settings run here, in the place of those that are taken from earlier studies
+
+    def cost_of_others(self, setting):
+        """Core seconds and number of all runs made but that of a setting."""
+        others = [each for each in self.made if each != setting]
+        return sum(self.costs[each] for each in others), len(others)
 
     def limit(self):
         """Seconds that a run may take; 0: as many as it likes."""
@@ -80,13 +66,16 @@ class Pilot:
         """Values of the quantity with a setting; None if the run has failed."""
         if setting not in self.costs:
             folder = os.path.join(self.folder, f"{len(self.costs)}")
+            self.made.append(setting)
             self.take(setting, runs.once(self.program, self.study, setting, folder, self.limit()),
                       os.path.join(folder, "run"))
         return self.values.get(setting)
 
     def run_with_outputs(self, setting, words, folder):
         """The same with all outputs that the scene asks for, in the user's folder; None if the run has failed."""
+        self.have_outputs.add(setting)
         words = words + runs.assignments(setting.settings(self.study))
+        self.made.append(setting)
         with open(os.path.join(self.folder, "printed"), "w+") as printed:
             result = runs.execute(words, self.limit(), printed)
         self.take(setting, {**result, **runs.summary_of(os.path.join(folder, "summary.json"))}, folder)
@@ -110,76 +99,11 @@ class Pilot:
         except NotEvaluated as reason:
             raise Refused(str(reason)) from reason
 
-    def compare(self, settings):
+    def times(self, settings):
+        """Those of the run with the longest steps."""
+        return min((self.values[each].times for each in settings), key=len)
+
+    def compare(self, settings, times):
         """Values of several settings at common times, [setting][time][component]."""
         found = [self.values[setting] for setting in settings]
-        if self.quantity.evaluate != "over time":
-            return [each.values for each in found]
-        times = min((each.times for each in found), key=len)
-        return [each.at(times) for each in found]
-
-
-def observed_part(pilot, setting, k, coarser):
-    """Part of the error that one knob has, from values with it ever coarser; and a remark."""
-    knob = setting.knobs[k]
-    chain = [setting] + [each for each in coarser if each in pilot.values]
-    if len(chain) < 2:
-        return None, f"{knob.name}: no coarser run has succeeded"
-    values = pilot.compare(chain)
-    scale = convergence.norm(values[0])
-    if scale == 0:
-        raise Refused("the quantity is zero all the time: choose another one with --of")
-    factors = [each.factors[k] for each in chain]
-    difference = convergence.norm(values[0] - values[1]) / scale
-    order, order_of_size, remark = knob.order, min(knob.order, UNSEEN_ORDER), ""
-    if len(chain) > 2 and difference > 0:
-        seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
-        if math.isnan(seen):  # a size that is no less than it may be, but no hope that it falls as slowly for ever
-            order_of_size, remark = SMALLEST_ORDER, f"{knob.name}: values do not come closer yet"
-            difference = max(difference, convergence.norm(values[1] - values[2]) / scale)
-        else:
-            order = order_of_size = sensible(seen, knob)
-    return error_model.Part(difference, factors[0] / factors[1], factors[0], order_of_size, order, knob.growth), remark
-
-
-def coarser_neighbours(setting, k, count):
-    """With one knob coarser by two, by four, ..., as far as that is sensible and differs."""
-    knob, found = setting.knobs[k], []
-    for n in range(1, count + 1):
-        factor = knobs.snapped(knob, setting.factors[k] / COARSER ** n)
-        if factor < 0.8 * (found[-1] if found else setting).factors[k]:
-            found.append(setting.with_factor(k, factor))
-    return found
-
-
-def sensible(order, knob):
-    """One greater than expected is chance, or an error that will not fall as fast for long."""
-    return min(max(order, SMALLEST_ORDER), knob.order)
-
-
-def with_order_between(part, before, knob):
-    """A part with the order that follows from the differences at two settings, if these are far enough from each other to
-    tell one; else with that of the earlier one."""
-    order, order_of_size = before.order, before.order_of_size
-    if before.difference > 0 and part.difference > 0 and part.factor > APART * before.factor:
-        seen = math.log(before.difference / part.difference) / math.log(part.factor / before.factor)
-        order = order_of_size = sensible(seen, knob)
-    return replace(part, order=order, order_of_size=order_of_size)
-
-
-def estimate(pilot, setting, known, count):
-    """The parts of a setting's error. `known`: parts from an earlier setting, which tell the order where `count` coarser
-    neighbours are too few for that."""
-    parts, remarks = [], []
-    for k, knob in enumerate(setting.knobs):
-        neighbours = coarser_neighbours(setting, k, count)
-        for each in neighbours:
-            pilot.run(each)
-        part, remark = observed_part(pilot, setting, k, neighbours)
-        if part is None:
-            raise NoCoarserRun(remark)
-        if len(neighbours) == 1 and known:
-            part = with_order_between(part, known[k], knob)
-        parts.append(part)
-        remarks += [remark] if remark else []
-    return Estimate(setting, parts, remarks)
+        return [each.at(times) if self.quantity.evaluate == "over time" else each.values for each in found]

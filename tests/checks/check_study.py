@@ -216,6 +216,23 @@ def check_accuracy(program, _, folder):
     require(done.returncode == 1 and "was not reached" in done.stderr, f"--accuracy within 2 s: {done.stdout}{done.stderr}")
 
 
+def check_earlier(program, _, folder):
+    """Of the runs of a study those are used again that differ from a scene in its step only."""
+    sys.path.insert(0, ROOT)
+    from study import description, earlier, knobs, pilot
+    scene = os.path.join(ROOT, "prm", "cantilever.prm")
+    settings = {"Time/End": "0.1", "Bodies/beam/Cells": "6, 1, 1"}
+    for changed, count in ((settings, 4), ({**settings, "Time/Integrator": "generalised_alpha"}, 4),
+                           ({**settings, "Time/End": "0.2"}, 0)):
+        parameters = knobs.parameters(program, scene, [f"{key}={value}" for key, value in changed.items()])
+        study = description.Study("", scene, scene, 1, 0.0, 0.0, "core seconds", "all", [], changed, [])
+        known = pilot.Pilot(program, study, lambda _: pilot.quantity_of("tip displacement y", "end"), folder, None)
+        found = earlier.load(known, tuple(knobs.knobs_of(parameters)), parameters, folder)
+        steps = sorted(round(120 / setting.factors[0]) for setting in known.values)
+        require(found == count and steps in ([], sorted(round(120 * 120 / n) for n in (40, 80, 160, 320))),
+                f"{changed}: {found} runs, steps {steps}")
+
+
 def check_shipped(program, _, folder):
     """That the program reads all shipped studies, and their scenes with the settings of the coarsest and the finest run;
     that the rows of reference files are there."""
@@ -239,7 +256,7 @@ def main():
     program, studies = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         for check in (check_kinds, check_budgets, check_kill, check_limit, check_mistakes, check_accuracy,
-                      check_shipped):
+                      check_earlier, check_shipped):
             check(program, studies, folder)
 
 

@@ -12,13 +12,14 @@ import unittest
 import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-from study import (accuracy, analysis, columns, convergence, error_model, predictions, quantities, report, scene_files,
-                   tables)  # noqa: E402
+from study import analysis, columns, convergence, predictions, quantities, report, scene_files, tables  # noqa: E402
 from study.cases import Case, make_cases, of_scene, ranks  # noqa: E402
 from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
-from study.knobs import Knob, common_length, knobs_of, snapped  # noqa: E402
+from study.error_model import ErrorModel, Part  # noqa: E402
+from study.knobs import Knob, common_length, knobs_of  # noqa: E402
 from study.pilot import Refused  # noqa: E402
+from study.search import Search  # noqa: E402
 
 
 def quantity(**keys):
@@ -238,24 +239,28 @@ class FakePilot:
 
     def __init__(self, sizes, orders, deadline=None, noise=0.0):
         self.sizes, self.orders, self.deadline, self.noise = sizes, orders, deadline, noise
-        self.times, self.values, self.costs, self.failures = numpy.linspace(0, 1, 11), {}, {}, {}
+        self.times_of_rows, self.values, self.costs, self.failures = numpy.linspace(0, 1, 11), {}, {}, {}
         self.study, self.quantity = study(), quantity(evaluate="over time")
+        self.have_outputs = set()
 
     def exact(self):
-        return numpy.cos(self.times)
+        return numpy.cos(self.times_of_rows)
 
     def error(self, setting):
-        waves = (numpy.cos(self.times), numpy.sin(2 * self.times), self.times)
+        waves = (numpy.cos(self.times_of_rows), numpy.sin(2 * self.times_of_rows), self.times_of_rows)
         parts = sum(size * wave * factor ** -order for size, wave, factor, order in
                     zip(self.sizes, waves, setting.factors, self.orders))
-        return parts + self.noise * numpy.cos(100 * sum(setting.factors) * self.times)
+        return parts + self.noise * numpy.cos(100 * sum(setting.factors) * self.times_of_rows)
 
     def run(self, setting):
         self.costs[setting] = math.prod(factor ** knob.growth for knob, factor in zip(setting.knobs, setting.factors))
-        self.values[setting] = quantities.Values(self.times, (self.exact() + self.error(setting))[:, None])
+        self.values[setting] = quantities.Values(self.times_of_rows, (self.exact() + self.error(setting))[:, None])
         return self.values[setting]
 
-    def compare(self, settings):
+    def times(self, _):
+        return self.times_of_rows
+
+    def compare(self, settings, _):
         return [self.values[setting].values for setting in settings]
 
     def true_error(self, setting):
@@ -328,42 +333,97 @@ class Accuracy(unittest.TestCase):
         with open(os.devnull, "w") as nowhere:
             before, sys.stderr = sys.stderr, nowhere
             try:
-                return accuracy.search(pilot, of, wanted, pilot.run)
+                search = Search(pilot, of, wanted, pilot.run)
+                search.run()
+                return search
             finally:
                 sys.stderr = before
 
-    def test_the_cheapest_factors_for_an_error(self):
-        parts = [error_model.Part(0.3, 2, 1, 2, 2, 1), error_model.Part(0.6, 2, 1, 1, 1, 2)]
-        found = error_model.cheapest(parts, 0.01, [0.1, 0.1])
-        self.assertAlmostEqual(error_model.total(parts, found), 0.01)
-        for share in numpy.linspace(0.02, 0.98, 49):  # no other division of the error is cheaper
-            other = [(part.size / (0.01 * each)) ** (1 / part.order) for part, each in zip(parts, (share, 1 - share))]
-            self.assertLessEqual(error_model.cost_ratio(parts, found), error_model.cost_ratio(parts, other) * (1 + 1e-9))
+    @staticmethod
+    def model(*waves, orders=(2, 2)):
+        """Of two things at factor one, whose neighbours, twice as coarse, differ by waves times 2^p - 1."""
+        return ErrorModel([Part((2 ** p - 1) * wave, 2, 1, p, p, p, growth, growth)
+                           for wave, p, growth in zip(waves, orders, (1, 2))])
 
-    def test_factors_have_a_least_value(self):
-        parts = [error_model.Part(1e-6, 2, 1, 2, 2, 1), error_model.Part(0.3, 2, 1, 2, 2, 2)]
-        found = error_model.cheapest(parts, 0.01, [0.5, 0.1])
-        self.assertEqual(found[0], 0.5)
-        self.assertAlmostEqual(error_model.total(parts, found), 0.01)
+    def test_the_cheapest_factors_for_an_error(self):
+        one, other = numpy.array([0.1, 0]), numpy.array([0, 0.2])
+        choices = [numpy.geomspace(0.2, 20, 200)] * 2
+        model = self.model(one, other, orders=(2, 1))
+        found = model.cheapest(0.01, choices)
+        self.assertLessEqual(model.error(found), 0.01)
+        for factor in choices[0]:  # no other pair is cheaper
+            needed = next((each for each in choices[1] if model.error((factor, each)) <= 0.01), math.inf)
+            self.assertLessEqual(model.cost(found), model.cost((factor, needed)) * (1 + 1e-9))
+        self.assertIsNone(model.cheapest(1e-9, choices))
+
+    def test_parts_that_cancel_are_no_accuracy(self):
+        wave = numpy.array([1.0, -2.0, 0.5])
+        size = convergence.norm(wave)
+        self.assertAlmostEqual(self.model(0.1 * wave, -0.08 * wave).error((1, 1)), 0.1 * size)
+        self.assertAlmostEqual(self.model(0.1 * wave, 0.08 * wave).error((1, 1)), 0.18 * size)
+        self.assertAlmostEqual(self.model(0.1 * wave, -0.08 * wave).error((2, 1)), 0.08 * size)
 
     def test_errors_that_are_powers_are_found(self):
         for orders in ((2, 2), (1, 2), (2, 1.2)):
             for wanted in (0.05, 0.01, 0.002):
                 pilot = FakePilot((0.02, 0.03), orders)
-                found = self.search(pilot, wanted)[-1]
-                self.assertLessEqual(pilot.true_error(found.setting), wanted)
-                self.assertLess(abs(math.log(found.total() / pilot.true_error(found.setting))), math.log(3))
+                found = self.search(pilot, wanted)
+                self.assertLessEqual(pilot.true_error(found.setting), 1.1 * wanted)
+                self.assertLess(abs(math.log(found.error / pilot.true_error(found.setting))), math.log(2))
+
+    def test_runs_are_not_much_dearer_than_needed(self):
+        for orders in ((2, 2), (1, 2), (2, 1.2)):
+            for wanted in (0.01, 0.002):
+                pilot = FakePilot((0.01, 0.015), orders)
+                found = self.search(pilot, wanted)
+                cost = pilot.costs[found.setting]
+                grid = numpy.geomspace(0.5, 2, 12)
+                settings = [dataclasses.replace(found.setting, factors=(found.setting.factors[0] * a, found.setting.factors[1] * b))
+                            for a in grid for b in grid]
+                accurate = [a for a in settings if pilot.run(a) is not None and pilot.true_error(a) <= wanted]
+                self.assertLess(cost, 2 * min(pilot.costs[each] for each in accurate), f"orders {orders}, {wanted}")
+
+    def test_runs_before_the_last_one_are_cheap(self):
+        for wanted in (0.01, 0.002, 0.0005):
+            pilot = FakePilot((0.2, 0.3), (2, 2))
+            found = self.search(pilot, wanted)
+            cost = pilot.costs[found.setting]
+            self.assertLess(sum(pilot.costs.values()) - cost, cost)
+
+    def test_a_run_that_is_not_as_foretold_is_not_trusted(self):
+        class Worse(FakePilot):
+            """Whose error grows suddenly with fine steps."""
+
+            def error(self, setting):
+                step, cells = setting.factors
+                found = FakePilot.error(self, setting)
+                return found + 0.1 * numpy.sin(5 * self.times_of_rows) * (step > self.edge) * step ** -1.0
+
+        for edge in (1, 2, 3):
+            Worse.edge = edge
+            pilot = Worse((0.2, 0.3), (2, 2))
+            try:
+                found = self.search(pilot, 0.01)
+            except Refused:
+                continue
+            self.assertLess(pilot.true_error(found.setting), 0.02)
 
     def test_steps_of_a_run_with_outputs_land_on_them(self):
         for wanted in (0.3, 0.1, 0.01):
             step, cells = self.knobs
             limited = (dataclasses.replace(step, longest=0.005), cells)
             found = self.search(FakePilot((1e-4, 0.03), (2, 2)), wanted, limited)
-            self.assertGreaterEqual(found[-1].setting.factors[0], 2)
+            self.assertGreaterEqual(found.setting.factors[0], 2 * (1 - 1e-9))
 
     def test_what_does_not_converge_is_refused(self):
         with self.assertRaisesRegex(Refused, "do not come closer"):
             self.search(FakePilot((0, 0), (2, 2), noise=0.3), 0.01)
+
+    def test_cells_along_all_axes_grow_alike(self):
+        knob = Knob("elements", {"Bodies/a/Cells": [24, 3]}, 2.0, 2.0, True)
+        for factor in knob.choices(0.3, 4):
+            long, short = (int(each) for each in knob.settings(factor)["Bodies/a/Cells"].split(","))
+            self.assertLess(abs(math.log(long / short / 8)), 0.2)
 
     def test_spacings_of_particles_divide_the_domain(self):
         self.assertAlmostEqual(common_length([1, 0.8]), 0.2)
@@ -371,7 +431,7 @@ class Accuracy(unittest.TestCase):
         (knob,) = knobs_of({"Dimension": "2", "Scheme": "particle", "Particles/Spacing": "0.02", "Domain/Lower corner": "0, 0",
                             "Domain/Upper corner": "1, 0.8"})
         for factor in (0.21, 0.5, 1, 1.3, 2.7):
-            spacing = float(knob.settings(snapped(knob, factor))["Particles/Spacing"])
+            spacing = float(knob.settings(knob.nearest(factor))["Particles/Spacing"])
             self.assertAlmostEqual(0.2 / spacing, round(0.2 / spacing), 9)
 
 

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What part of the error of a setting comes from what, by runs that are coarser in one thing."""
+import math
+
+from study import convergence
+from study.error_model import ErrorModel, Part
+from study.pilot import Refused
+
+COARSER, NEAR = 2.0, 1.4  # neighbours, in one thing; factor by which a run that is there already may be beside that
+SMALLEST_ORDER = 0.7
+UNSEEN_ORDER = 1.5  # a prudent one, where none has been seen
+APART = 1.4  # factor between two settings that can tell an order
+LARGE = 0.5  # a difference, in sizes of the quantity, that tells nothing of smaller ones
+SMALLEST_GROWTH = 0.3  # of cost; less is seen of runs that are too short to tell
+ALIKE_ORDERS = 0.3  # largest difference
+ALIKE = 0.6  # of a change, what may not have been foretold
+
+
+class NoCoarserRun(Refused):
+    """Nothing can be told of a setting, since what is coarser fails."""
+
+
+def coarser_neighbour(pilot, setting, k, ratio):
+    """With one knob coarser by a ratio, or about so much if there is such a run already; None where that is not sensible."""
+    knob, own = setting.knobs[k], setting.factors[k]
+    factor = knob.nearest(max(own / ratio, knob.coarsest()))
+    there = [other.factors[k] for other in pilot.values if other == setting.with_factor(k, other.factors[k])
+             and ratio / NEAR < own / other.factors[k] < ratio * NEAR]
+    if there:
+        factor = min(there, key=lambda other: abs(math.log(own / other / ratio)))
+    return setting.with_factor(k, factor) if factor < 0.8 * own else None
+
+
+class Level:
+    """A setting, of whose error each part is known by a run that is coarser in one thing, or two. `before`: an earlier level
+    to tell orders. Raises NoCoarserRun."""
+
+    def __init__(self, pilot, setting, before=None):
+        self.pilot, self.setting, self.before = pilot, setting, before
+        self.neighbours, self.remarks = [], []
+        for k, knob in enumerate(setting.knobs):
+            neighbour = coarser_neighbour(pilot, setting, k, COARSER)
+            if neighbour is None or pilot.run(neighbour) is None:
+                raise NoCoarserRun(f"{knob.name}: no coarser run has succeeded")
+            self.neighbours.append([neighbour])
+        self.evaluate()
+
+    def see_orders(self):
+        """By a second neighbour of each knob of which no order has been seen."""
+        for k, part in enumerate(self.model.parts):
+            neighbour = coarser_neighbour(self.pilot, self.setting, k, COARSER ** 2) if part.seen is None else None
+            is_apart = neighbour and neighbour.factors[k] < 0.8 * self.neighbours[k][-1].factors[k]
+            if is_apart and self.pilot.run(neighbour) is not None:
+                self.neighbours[k].append(neighbour)
+        self.evaluate()
+
+    def evaluate(self):
+        """The parts of the error, by all runs that there are."""
+        chains = [[self.setting] + each for each in self.neighbours]
+        self.times = self.pilot.times(sum(chains, []))
+        (own,) = self.pilot.compare([self.setting], self.times)
+        self.scale = convergence.norm(own)
+        if self.scale == 0:
+            raise Refused("the quantity is zero all the time: choose another one with --of")
+        self.model = ErrorModel([self.part(k, chain, [each / self.scale for each in self.pilot.compare(chain, self.times)])
+                                 for k, chain in enumerate(chains)])
+        self.remarks = [f"{knob.name}: values do not come closer yet"
+                        for knob, part in zip(self.setting.knobs, self.model.parts) if not part.falls]
+
+    def part(self, k, chain, values):
+        """That of one knob, by values of settings that are coarser and coarser in it, in sizes of the quantity."""
+        knob, factors = self.setting.knobs[k], [each.factors[k] for each in chain]
+        ratio, difference = factors[0] / factors[1], convergence.norm(values[1] - values[0])
+        before = self.before.model.parts[k] if self.before else None
+        seen = order_between(before, difference, ratio, factors[0]) if before else None
+        if seen is None and len(chain) > 2 and difference > 0:
+            seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
+        order = order_to_use(seen, before, knob)
+        falls = difference < LARGE and not (seen is not None and math.isnan(seen))
+        return Part(values[1] - values[0], ratio, factors[0], min(order, knob.order), order, knob.order,
+                    self.growth(chain, ratio, before, knob), knob.growth, seen, falls)
+
+    def growth(self, chain, ratio, before, knob):
+        """Of the cost; outputs hide it."""
+        if self.setting in self.pilot.have_outputs:
+            return before.growth if before else knob.growth
+        seen = math.log(self.pilot.costs[chain[0]] / self.pilot.costs[chain[1]]) / math.log(ratio)
+        return min(max(seen, SMALLEST_GROWTH), knob.growth)
+
+    def error(self):
+        return self.model.error(self.setting.factors)
+
+    def orders_are_seen(self):
+        return all(part.seen is not None for part in self.model.parts)
+
+    def hopeful(self):
+        """The model with the orders that theory promises."""
+        return ErrorModel([part.hopeful() for part in self.model.parts])
+
+    def confirmed_error(self, setting):
+        """That of another setting, whose run tells whether the parts are what they seem: larger by as much as the quantity
+        has changed more than was foretold; None if it changes in another way."""
+        own, other = self.pilot.compare([self.setting, setting], self.times)
+        change, foretold = (other - own) / self.scale, self.model.change(setting.factors)
+        error, size = self.model.error(setting.factors), convergence.norm(change)
+        if convergence.norm(change - foretold) > max(ALIKE * size, error / 2):
+            return None
+        more = size / convergence.norm(foretold) if size > error / 2 else 1.0
+        return error * max(1.0, more) * self.scale / convergence.norm(other)
+
+
+def order_to_use(seen, before, knob):
+    """The one seen if an earlier level shows the same. One seen once is noisy: in the middle between it and the one expected,
+    and not much greater than that. A prudent one if none has been seen."""
+    if seen is None:
+        return min(knob.order, UNSEEN_ORDER)
+    if math.isnan(seen):
+        return SMALLEST_ORDER
+    confirmed = before and before.seen is not None and abs(seen - before.seen) < ALIKE_ORDERS
+    order = (seen + before.seen) / 2 if confirmed else (seen + knob.order) / 2
+    return min(max(order, SMALLEST_ORDER), knob.order + 1)
+
+
+def order_between(before, difference, ratio, factor):
+    """p of differences C s^-p (r^p - 1) at two factors; that of before if these are too close to tell one; None if none was
+    seen, nan if differences do not fall."""
+    earlier = convergence.norm(before.difference)
+    if factor < APART * before.factor or not (earlier > 0 and difference > 0):
+        return before.seen if before.falls else None
+
+    def fall(p):
+        return (factor / before.factor) ** p * (before.ratio ** p - 1) / (ratio ** p - 1) - earlier / difference
+
+    low, high = 0.01, 12.0
+    if fall(low) > 0:
+        return math.nan
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if fall(middle) < 0 else (low, middle)
+    return low

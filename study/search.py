@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Searches for the cheapest settings for an error: from coarse runs to finer ones, of which each is cheap beside the next."""
+import math
+import sys
+import time
+
+from study.campaign import readable
+from study.level import COARSER, Level, NoCoarserRun, coarser_neighbour
+from study.pilot import Refused, Setting
+from study.tables import percent
+
+FIRST = 0.125  # factor of the first settings, of those of the scene
+AIM = 0.9  # of the error asked for: the parts are estimates
+CHEAP = 8.0  # the last run, in costs of the one that foretells its error
+LARGEST_JUMP, CAREFUL_JUMP = 8.0, 4.0  # of cost, from one setting to the next; where the error is large
+LARGE = 0.3
+SETTLING = 1.6  # refinement of what does not come closer yet
+SMALL_JUMP = 4.0  # where orders are less than hoped for
+FINEST = (4, 32, 256)  # factors of refinement in which settings are looked for
+LEVELS = 16
+HOPELESS = 100.0  # of cost, without the error falling
+
+
+def with_room(knob):
+    """The least factor of which there are coarser ones."""
+    return min(1.0, COARSER * knob.coarsest())
+
+
+def known_level(pilot):
+    """Of the dearest of the runs that are there already of which all coarser neighbours are there, too; or None."""
+    def is_surrounded(setting):
+        return all(coarser_neighbour(pilot, setting, k, COARSER) in pilot.values for k in range(len(setting.knobs)))
+
+    surrounded = [setting for setting in pilot.values if is_surrounded(setting)]
+    return Level(pilot, max(surrounded, key=pilot.costs.get)) if surrounded else None
+
+
+def first_level(pilot, all_knobs):
+    """Of settings an eighth as fine as the scene, or as fine as needed for the run and its coarser neighbours to succeed."""
+    factor, reason = FIRST, None
+    while factor <= 2:
+        setting = Setting(all_knobs, tuple(knob.nearest(max(factor, with_room(knob))) for knob in all_knobs))
+        if pilot.run(setting) is not None:
+            try:
+                return Level(pilot, setting)
+            except NoCoarserRun as missing:
+                reason = str(missing)
+        else:
+            reason = "the scene's own settings fail: " + pilot.failures[setting]
+        factor *= 2
+    raise Refused(reason)
+
+
+def cheapest(level, model, wanted):
+    """Factors by a model of a level's error; the finest there are if none are fine enough. Steps are no longer than a run
+    with outputs makes them."""
+    knobs, factors = level.setting.knobs, level.setting.factors
+    low = [max(with_room(knob), knob.least_with_outputs(), factor / 4) for knob, factor in zip(knobs, factors)]
+    for finest in FINEST:
+        choices = [knob.choices(least, max(least, factor * finest)) or [knob.nearest(least)]
+                   for knob, least, factor in zip(knobs, low, factors)]
+        found = model.cheapest(wanted, choices)
+        if found:
+            return found
+    return tuple(each[-1] for each in choices)
+
+
+def between(level, factors, jump):
+    """The setting on the way to other factors that is dearer by a jump only."""
+    whole = level.model.expected_cost(factors)
+    share = math.log(jump) / math.log(whole)
+    return Setting(level.setting.knobs, tuple(
+        knob.nearest(max(own * (other / own) ** share, knob.least_with_outputs()))
+        for knob, own, other in zip(level.setting.knobs, level.setting.factors, factors)))
+
+
+def settled(level):
+    """A setting with what does not come closer yet refined."""
+    return Setting(level.setting.knobs, tuple(
+        knob.nearest(max(factor if part.falls else factor * SETTLING, knob.least_with_outputs()))
+        for knob, factor, part in zip(level.setting.knobs, level.setting.factors, level.model.parts)))
+
+
+def next_setting(level, wanted):
+    """The setting to run after a level, and whether its error can be foretold by the level.
+
+    What is foretold best is near, and a level is the cheaper the further the last run is: one that costs an eighth of it is
+    the aim, on a way that theory tells, so that nothing is run that is finer than needed."""
+    level.see_orders()
+    hope = level.hopeful()
+    way = cheapest(level, hope, wanted)
+    jump = hope.expected_cost(way)
+    if jump > 2 * CHEAP:
+        return between(level, way, min(jump / CHEAP, CAREFUL_JUMP if level.error() > LARGE else LARGEST_JUMP)), False
+    if level.remarks:
+        return settled(level), False
+    factors = cheapest(level, level.model, wanted)
+    jump = level.model.expected_cost(factors)
+    if jump > 4 * CHEAP:
+        return between(level, factors, SMALL_JUMP), False
+    return Setting(level.setting.knobs, factors), True
+
+
+class Search:
+    """Levels and the settings tried between them. The last setting is accurate enough, and its run, by `run_with_outputs`,
+    is the one that the user gets. Raises Refused."""
+
+    def __init__(self, pilot, all_knobs, wanted, run_with_outputs):
+        self.pilot, self.wanted, self.run_with_outputs = pilot, wanted, run_with_outputs
+        self.all_knobs, self.levels = all_knobs, []
+        self.setting, self.error = None, math.inf
+
+    def run(self):
+        self.levels.append(known_level(self.pilot) or first_level(self.pilot, self.all_knobs))
+        self.say()
+        while self.error > self.wanted:
+            self.refine()
+
+    def refine(self):
+        """Run the next setting, and find its error."""
+        level = self.levels[-1]
+        setting, is_foretold = next_setting(level, AIM * self.wanted)
+        if setting == level.setting and not is_foretold:
+            raise Refused(f"nothing can be refined further: the error is still about {percent(level.error())}")
+        self.refuse_what_takes_too_long(setting)
+        if self.run_with_outputs(setting) is None:
+            raise Refused(f"the run with {setting.name(self.pilot.study)} fails: {self.pilot.failures[setting]}")
+        self.setting = setting
+        error = level.confirmed_error(setting) if is_foretold else None
+        if error is not None and error <= self.wanted:
+            self.error = error
+            return
+        self.levels.append(Level(self.pilot, setting, level))
+        self.say()
+        if self.levels[-1].error() <= self.wanted and not self.levels[-1].remarks:
+            self.error = self.levels[-1].error()
+            return
+        if len(self.levels) > LEVELS:
+            raise Refused(f"after {LEVELS} refinements the error is still about {percent(self.levels[-1].error())}")
+        self.refuse_what_does_not_converge()
+
+    def parts(self):
+        """Of the error of the last setting."""
+        model = self.levels[-1].model
+        scale = self.error / model.error(self.setting.factors)
+        return [scale * part.size * (factor / part.factor) ** -part.order for part, factor in
+                zip(model.parts, self.setting.factors)]
+
+    def cost_of(self, wanted):
+        """Core seconds that an error would take, no coarser than the last setting."""
+        level = self.levels[-1]
+        factors = cheapest(level, level.model, wanted)
+        return self.pilot.costs[level.setting] * float(level.model.cost(factors))
+
+    def refuse_what_takes_too_long(self, setting):
+        """Where the next run does not fit into the time, or, once values come closer, the last one."""
+        if not self.pilot.deadline:
+            return
+        left, level = self.pilot.deadline - time.monotonic(), self.levels[-1]
+        next_cost = self.pilot.costs[level.setting] * float(level.model.cost(setting.factors))
+        whole = self.cost_of(AIM * self.wanted)
+        is_sure = level.orders_are_seen() and not level.remarks
+        if next_cost > left or (is_sure and whole > left):
+            raise Refused(f"it would take about {readable(max(whole, next_cost))}, but {readable(max(left, 0))} of the time "
+                          f"allowed are left; so far the error is about {percent(level.error())}")
+
+    def refuse_what_does_not_converge(self):
+        """A setting that should cost much more than an earlier one, and is finer in nothing less, without a smaller error: a
+        chaotic flow, for example."""
+        late = self.levels[-1]
+        for early in self.levels[:-1]:
+            ratios = late.setting.factors, early.setting.factors
+            is_finer = all(fine >= coarse for fine, coarse in zip(*ratios))
+            if is_finer and early.model.expected_cost(late.setting.factors) > HOPELESS and late.error() > 0.8 * early.error():
+                errors = ", ".join(percent(each.error()) for each in self.levels)
+                raise Refused("runs do not come closer to each other as they are refined: the estimates are "
+                              f"{errors}. Flows that are chaotic have no accurate values over time: ask for a mean with "
+                              "--as mean, or for a shorter time")
+
+    def say(self):
+        """Where the last level stands."""
+        level = self.levels[-1]
+        parts = ", ".join(f"{knob.name} {percent(part.size)} (order {part.order:.1f}{'' if part.seen is not None else ' assumed'})"
+                          for knob, part in zip(level.setting.knobs, level.model.parts))
+        print(f"error about {percent(level.error())}: {parts}", file=sys.stderr, flush=True)
