@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Work-precision diagrams."""
 import math
+import textwrap
 
 import matplotlib
 
@@ -76,18 +77,57 @@ def style(axes):
     axes.grid(alpha=0.3, which="both", linewidth=0.4)
 
 
-def work_precision(found, result, path):
-    """Relative error over cost, a curve for each variant and each value of all refinements but the last."""
-    figure, axes = pyplot.subplots(figsize=(8.6, 4.6))
+def cost_label(found):
+    refined = found.study.refinements()
+    return f"{found.study.cost} of a run" + (
+        f" (along a curve: {found.study.variations[refined[-1]].name})" if refined else "")
+
+
+def draw(axes, found, result):
+    """All of a diagram but its labels."""
     draw_curves(axes, found, result)
     draw_front(axes, found, result)
     style(axes)
-    refined = found.study.refinements()
-    axes.set_xlabel(f"{found.study.cost} of a run" + (
-        f" (along a curve: {found.study.variations[refined[-1]].name})" if refined else ""))
+
+
+def save(figure, path):
+    figure.tight_layout()
+    figure.savefig(path, dpi=100)
+    pyplot.close(figure)
+
+
+def work_precision(found, result, path):
+    """Relative error over cost, a curve for each variant and each value of all refinements but the last."""
+    figure, axes = pyplot.subplots(figsize=(8.6, 4.6))
+    draw(axes, found, result)
+    axes.set_xlabel(cost_label(found))
     axes.set_ylabel(f"relative error of {result.quantity.name}")
     axes.set_title(found.study.title, fontsize=11)
     axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
-    figure.tight_layout()
+    save(figure, path)
+
+
+def missing_runs(found, result):
+    """Of each variant that has not a single run in a diagram: a line that says so."""
+    there = {variant(found.study, case) for case in result.errors}
+    every = ordered(variant(found.study, case) for case in found.results)
+    return [f"{variant_name(found.study, key)}: no run has succeeded" for key in every if key not in there]
+
+
+def side_by_side(several, path):
+    """The diagrams of the first quantities of several studies beside each other, with one legend of all their curves."""
+    figure, panels = pyplot.subplots(1, len(several), figsize=(4.3 * len(several), 5.4), squeeze=False)
+    legend = {}
+    for axes, found in zip(panels[0], several):
+        result = found.quantities[0]
+        draw(axes, found, result)
+        axes.set_title("\n".join(textwrap.wrap(found.study.title, 34)), fontsize=10)
+        axes.set_xlabel(cost_label(found), fontsize=9)
+        axes.set_ylabel(f"relative error of {result.quantity.name}", fontsize=9)
+        axes.text(0.02, 0.02, "\n".join(missing_runs(found, result)), transform=axes.transAxes, fontsize=8, color="C3")
+        for line, name in zip(*axes.get_legend_handles_labels()):
+            legend.setdefault(name, line)
+    figure.tight_layout(rect=(0, 0.1, 1, 1))
+    figure.legend(legend.values(), legend.keys(), loc="lower center", ncol=min(5, len(legend)), fontsize=9)
     figure.savefig(path, dpi=100)
     pyplot.close(figure)

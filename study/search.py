@@ -18,7 +18,8 @@ SETTLING = 1.6  # refinement of what does not come closer yet
 SMALL_JUMP = 4.0  # where orders are less than hoped for
 FINEST = (4, 32, 256)  # factors of refinement in which settings are looked for
 LEVELS = 16
-HOPELESS = 100.0  # of cost, without the error falling
+HOPELESS = 6.0  # refinement of all that matters, without the error falling
+MATTERS = 0.1  # of the error
 
 
 def with_room(knob):
@@ -165,13 +166,14 @@ class Search:
                           f"allowed are left; so far the error is about {percent(level.error())}")
 
     def refuse_what_does_not_converge(self):
-        """A setting that should cost much more than an earlier one, and is finer in nothing less, without a smaller error: a
-        chaotic flow, for example."""
+        """A setting that is much finer than an earlier one in all that the error came from, and coarser in nothing, without a
+        smaller error: a chaotic flow, for example."""
         late = self.levels[-1]
         for early in self.levels[:-1]:
-            ratios = late.setting.factors, early.setting.factors
-            is_finer = all(fine >= coarse for fine, coarse in zip(*ratios))
-            if is_finer and early.model.expected_cost(late.setting.factors) > HOPELESS and late.error() > 0.8 * early.error():
+            ratios = [fine / coarse for fine, coarse in zip(late.setting.factors, early.setting.factors)]
+            is_finer = min(ratios) > 0.99 and all(ratio > HOPELESS for ratio, part in zip(ratios, early.model.parts)
+                                                  if part.size > MATTERS * early.error())
+            if is_finer and late.error() > 0.8 * early.error():
                 errors = ", ".join(percent(each.error()) for each in self.levels)
                 raise Refused("runs do not come closer to each other as they are refined: the estimates are "
                               f"{errors}. Flows that are chaotic have no accurate values over time: ask for a mean with "
