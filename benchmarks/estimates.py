@@ -88,8 +88,8 @@ def row(program, name, wanted, with_best):
         best = best_cost(pilot, setting, wanted, true.value, times) if with_best else float("nan")
     settings = "; ".join(f"{value}" for knob, factor in zip(setting.knobs, setting.factors)
                          for value in knob.settings(factor).values())
-    return (f"| {name} | {percent(wanted)} | {settings} | {percent(search.error)} | {percent(error)} ± {percent(sure)} | "
-            f"{error / wanted:.2f} | {search.error / error:.2f} | {cost:.3g} | {others:.3g} | {best:.3g} |")
+    return (f"| {name} | {percent(wanted)} | {settings} | {percent(search.error)} | {percent(search.expected_error())} | {percent(error)} ± {percent(sure)} | "
+            f"{error / wanted:.2f} | {search.expected_error() / error:.2f} | {cost:.3g} | {others:.3g} | {best:.3g} |")
 
 
 def main():
@@ -100,8 +100,8 @@ def main():
     parser.add_argument("--best", action="store_true")
     options = parser.parse_args()
     os.environ.update(runs.environment())
-    print("| scene | asked for | settings | estimated | true | true / asked for | estimated / true | run [core s] | "
-          "other runs [core s] | best settings [core s] |\n" + 10 * "|---" + "|", flush=True)
+    print("| scene | asked for | settings | estimated | with what cancels | true | true / asked for | with what cancels / true | run [core s] | "
+          "other runs [core s] | best settings [core s] |\n" + 11 * "|---" + "|", flush=True)
     for name in options.case or CASES:
         for wanted in options.accuracy or (0.05, 0.01):
             print(row(options.program, name, wanted, options.best), flush=True)

@@ -10,7 +10,7 @@ import os
 import re
 import sys
 
-from study import analysis, campaign, plots, report
+from study import analysis, campaign, description, plots, report, stability, stability_report
 
 UNITS = {"": 1, "s": 1, "min": 60, "h": 3600}
 
@@ -44,6 +44,11 @@ def name_of(file):
 
 def carry_out(options, file, folder):
     """The analysis of one study, after its results are written."""
+    if description.read(options.program, file).ranges():
+        found = stability.of_file(options.program, file, folder, options.jobs, 0 if options.results_only else options.within)
+        print(stability_report.text(found))
+        print("written: " + ", ".join(stability_report.write(found, folder)))
+        return found
     study, results, folders = campaign.of_file(options.program, file, folder, options.jobs,
                                                0 if options.results_only else options.within)
     if options.results_only and all(result.get("left out") for result in results.values()):

@@ -31,7 +31,9 @@ def report(search):
     rows = [[knob.name, "; ".join(knob.settings(factor).values()), percent(size),
              f"{part.order:.1f}" + ("" if part.seen is not None else " (assumed)")]
             for (knob, factor), size, part in zip(parts, search.parts(), level.model.parts)]
-    lines = ["", f"error of '{pilot.quantity.name}' ({pilot.quantity.evaluate}): about {percent(search.error)}, "
+    expected = search.expected_error()
+    cancels = f" ({percent(expected)} if parts cancel each other as they seem to)" if expected < 0.8 * search.error else ""
+    lines = ["", f"error of '{pilot.quantity.name}' ({pilot.quantity.evaluate}): about {percent(search.error)}{cancels}, "
              f"{percent(search.wanted)} were asked for; the truth may be a factor of two and more away from an estimate",
              *table(["what", "value", "part of the error", "order"], rows)]
     lines += [f"note: {remark}" for remark in level.remarks]

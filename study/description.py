@@ -17,7 +17,8 @@ FIELD_COLUMNS = {"velocity": "velocity", "pressure": "pressure", "displacement":
 
 @dataclass
 class Variation:
-    """Something that is varied: settings and a name for each of its values and, of a refinement, lengths."""
+    """Something that is varied: settings and a name for each of its values and, of a refinement or a range, numbers: lengths,
+    or the values themselves."""
     name: str
     kind: str
     names: list
@@ -26,6 +27,9 @@ class Variation:
 
     def is_refinement(self):
         return self.kind == "refinement"
+
+    def is_range(self):
+        return self.kind == "range"
 
 
 @dataclass
@@ -112,6 +116,11 @@ class Study:
     settings: dict
     variations: list
     quantities: list = field(default_factory=list)
+    boundary: float = 1.2  # factor between neighbours of a range at which runs begin to be stable
+
+    def ranges(self):
+        """Positions of the variations along which it matters whether runs are stable."""
+        return [k for k, variation in enumerate(self.variations) if variation.is_range()]
 
     def refinements(self):
         """Positions of the variations that are refinements."""
@@ -180,7 +189,7 @@ def from_json(text, file):
                   float(top["Repeat below"]), float(top["Limit"]), top["Cost"], top["Combine"], numbers(top["Levels"]),
                   flat(top.get("Settings", {})),
                   [variation(*item) for item in top["Vary"].items()],
-                  [quantity(*item, folder) for item in top["Quantities"].items()])
+                  [quantity(*item, folder) for item in top.get("Quantities", {}).items()], float(top["Boundary within"]))
     for each in study.quantities:
         study.settings.update(each.settings())
     check_own_keys(study)

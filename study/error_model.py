@@ -13,8 +13,7 @@ class Part:
     difference: numpy.ndarray  # to that run [time, component], in sizes of the quantity
     ratio: float  # of the factors of both runs
     factor: float  # of refinement, at which it was measured
-    order: float  # with which it falls on
-    order_of_size: float  # between both runs, which is greater where the coarser one is too coarse for what theory says
+    order: float
     expected: float  # order, by theory
     growth: float  # of the cost over the factor, as measured
     expected_growth: float
@@ -23,7 +22,7 @@ class Part:
 
     def error(self):
         """What is missing from the limit."""
-        return self.difference / (self.ratio ** self.order_of_size - 1)
+        return self.difference / (self.ratio ** self.order - 1)
 
     @property
     def size(self):
@@ -31,7 +30,7 @@ class Part:
 
     def hopeful(self):
         """With the order by theory."""
-        return replace(self, order=self.expected, order_of_size=max(self.order_of_size, self.expected))
+        return replace(self, order=self.expected)
 
 
 class ErrorModel:
@@ -56,6 +55,11 @@ class ErrorModel:
 
     def error(self, factors):
         return float(self.errors(numpy.array([factors]))[0])
+
+    def sum(self, factors):
+        """Of a setting: the size of the sum of all parts, be it that they cancel each other."""
+        weights = (numpy.array(factors) / self.factors) ** -self.orders
+        return float(numpy.sqrt(max(0.0, weights @ self.products @ weights)))
 
     def change(self, factors):
         """What the quantity changes by from the setting of the parts to another one, in sizes of the quantity."""

@@ -77,7 +77,7 @@ class Level:
             seen = convergence.observed_order([1 / factor for factor in factors[::-1]], values[::-1])
         order = order_to_use(seen, before, knob)
         falls = difference < LARGE and not (seen is not None and math.isnan(seen))
-        return Part(values[1] - values[0], ratio, factors[0], min(order, knob.order), order, knob.order,
+        return Part(values[1] - values[0], ratio, factors[0], order, knob.order,
                     self.growth(chain, ratio, before, knob), knob.growth, seen, falls)
 
     def growth(self, chain, ratio, before, knob):
@@ -110,15 +110,15 @@ class Level:
 
 
 def order_to_use(seen, before, knob):
-    """The one seen if an earlier level shows the same. One seen once is noisy: in the middle between it and the one expected,
-    and not much greater than that. A prudent one if none has been seen."""
+    """The one seen if an earlier level shows the same. One seen once is noisy: in the middle between it and the one expected;
+    one greater than that is chance. A prudent one if none has been seen."""
     if seen is None:
         return min(knob.order, UNSEEN_ORDER)
     if math.isnan(seen):
         return SMALLEST_ORDER
     confirmed = before and before.seen is not None and abs(seen - before.seen) < ALIKE_ORDERS
     order = (seen + before.seen) / 2 if confirmed else (seen + knob.order) / 2
-    return min(max(order, SMALLEST_ORDER), knob.order + 1)
+    return min(max(order, SMALLEST_ORDER), knob.order)
 
 
 def order_between(before, difference, ratio, factor):
@@ -126,7 +126,7 @@ def order_between(before, difference, ratio, factor):
     seen, nan if differences do not fall."""
     earlier = convergence.norm(before.difference)
     if factor < APART * before.factor or not (earlier > 0 and difference > 0):
-        return before.seen if before.falls else None
+        return before.seen if before.falls and factor > 0.99 * before.factor else None
 
     def fall(p):
         return (factor / before.factor) ** p * (before.ratio ** p - 1) / (ratio ** p - 1) - earlier / difference

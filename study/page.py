@@ -64,8 +64,12 @@ def figure(found, name, path):
             "run is both cheaper and more accurate.</figcaption></figure>")
 
 
+def document(title, content):
+    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{html.escape(title)}</title>'
+            f"<style>{STYLE}</style></head><body>\n{content}\n</body></html>\n")
+
+
 def page(found, text, pictures):
     """`pictures`: {name of the quantity: path of its SVG}."""
     figures = {name: figure(found, name, path) for name, path in pictures.items()}
-    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{html.escape(found.study.title)}</title>'
-            f"<style>{STYLE}</style></head><body>\n{body(text, figures)}\n</body></html>\n")
+    return document(found.study.title, body(text, figures))

@@ -17,7 +17,7 @@ class Predictions:
     def features(self, case):
         result = [1.0]
         for variation, position in zip(self.study.variations, case.index):
-            if variation.is_refinement():
+            if variation.lengths:
                 result.append(math.log(variation.lengths[0] / variation.lengths[position]))
             else:
                 result += [float(position == k) for k in range(len(variation.names))]
@@ -27,8 +27,9 @@ class Predictions:
         """Exponents before anything was seen, in the order of features()."""
         result = [0.0]
         for variation in self.study.variations:
-            if variation.is_refinement():
-                result.append(1.0 if any(key.startswith("Time/") for key in variation.settings[0]) else GROWTH)
+            if variation.lengths:
+                is_step = any(key.startswith("Time/") for key in variation.settings[0])
+                result.append(1.0 if is_step else GROWTH if variation.is_refinement() else 0.0)
             else:
                 result += [0.0] * len(variation.names)
         return numpy.array(result)

@@ -138,8 +138,9 @@ def summary_of(path):
             summary = json.load(file)
     except (OSError, ValueError):
         return {}
-    cost = summary["cost"]
-    return {"core seconds": cost["core seconds"], "wall seconds": cost["wall seconds"],
+    cost, certificate = summary["cost"], summary.get("certificate", {})
+    return {"verdict": certificate.get("verdict", ""), "verdict in words": certificate.get("text", ""),
+            "core seconds": cost["core seconds"], "wall seconds": cost["wall seconds"],
             "memory": cost["peak memory [bytes]"], "steps": summary["steps"],
             "Newton iterations": summary["Newton iterations"], "linear iterations": summary["linear iterations"],
             "unknowns": sum(summary["unknowns"].values()), "reached": summary["time [s]"]}

@@ -9,13 +9,14 @@ from study.level import COARSER, Level, NoCoarserRun, coarser_neighbour
 from study.pilot import Refused, Setting
 from study.tables import percent
 
-FIRST = 0.125  # factor of the first settings, of those of the scene
+FIRST = 0.25  # factor of the first settings, of those of the scene
 AIM = 0.9  # of the error asked for: the parts are estimates
 CHEAP = 8.0  # the last run, in costs of the one that foretells its error
 LARGEST_JUMP, CAREFUL_JUMP = 8.0, 4.0  # of cost, from one setting to the next; where the error is large
 LARGE = 0.3
 SETTLING = 1.6  # refinement of what does not come closer yet
 SMALL_JUMP = 4.0  # where orders are less than hoped for
+FAR = 3.0  # a refinement of one thing beyond which nothing is foretold
 FINEST = (4, 32, 256)  # factors of refinement in which settings are looked for
 LEVELS = 16
 HOPELESS = 6.0  # refinement of all that matters, without the error falling
@@ -56,7 +57,7 @@ def cheapest(level, model, wanted):
     """Factors by a model of a level's error; the finest there are if none are fine enough. Steps are no longer than a run
     with outputs makes them."""
     knobs, factors = level.setting.knobs, level.setting.factors
-    low = [max(with_room(knob), knob.least_with_outputs(), factor / 4) for knob, factor in zip(knobs, factors)]
+    low = [max(with_room(knob), knob.least_with_outputs(), factor / COARSER) for knob, factor in zip(knobs, factors)]
     for finest in FINEST:
         choices = [knob.choices(least, max(least, factor * finest)) or [knob.nearest(least)]
                    for knob, least, factor in zip(knobs, low, factors)]
@@ -67,9 +68,10 @@ def cheapest(level, model, wanted):
 
 
 def between(level, factors, jump):
-    """The setting on the way to other factors that is dearer by a jump only."""
-    whole = level.model.expected_cost(factors)
-    share = math.log(jump) / math.log(whole)
+    """The setting on the way to other factors that is dearer by a jump only, and in nothing much finer."""
+    whole = max(1.0, level.model.expected_cost(factors))
+    finest = max(1.0, max(other / own for own, other in zip(level.setting.factors, factors)))
+    share = min([1.0] + [math.log(most) / math.log(there) for most, there in ((jump, whole), (FAR, finest)) if there > most])
     return Setting(level.setting.knobs, tuple(
         knob.nearest(max(own * (other / own) ** share, knob.least_with_outputs()))
         for knob, own, other in zip(level.setting.knobs, level.setting.factors, factors)))
@@ -97,7 +99,8 @@ def next_setting(level, wanted):
         return settled(level), False
     factors = cheapest(level, level.model, wanted)
     jump = level.model.expected_cost(factors)
-    if jump > 4 * CHEAP:
+    is_far = max(other / own for own, other in zip(level.setting.factors, factors)) > FAR
+    if jump > 2 * CHEAP or is_far:
         return between(level, factors, SMALL_JUMP), False
     return Setting(level.setting.knobs, factors), True
 
@@ -139,6 +142,11 @@ class Search:
         if len(self.levels) > LEVELS:
             raise Refused(f"after {LEVELS} refinements the error is still about {percent(self.levels[-1].error())}")
         self.refuse_what_does_not_converge()
+
+    def expected_error(self):
+        """Of the last setting, with parts that cancel each other."""
+        model = self.levels[-1].model
+        return self.error * model.sum(self.setting.factors) / model.error(self.setting.factors)
 
     def parts(self):
         """Of the error of the last setting."""

@@ -99,6 +99,28 @@ namespace undine
     }
 
 
+    /// Numbers of a range rise or fall, and are the same for all keys, so that there are others
+    /// between them.
+    void
+    check_range(const Options &options, const std::vector<Setting> &settings)
+    {
+      for (const auto &setting : settings)
+        {
+          const auto numbers = lengths_of(setting);
+          const bool single  = setting.values.find(',') == std::string::npos;
+          const bool rises   = std::is_sorted(numbers.begin(), numbers.end(), std::less_equal<>());
+          const bool falls = std::is_sorted(numbers.begin(), numbers.end(), std::greater_equal<>());
+          if (!single || numbers.size() < 2 || !(rises || falls) ||
+              numbers != lengths_of(settings.front()))
+            options.mistake(
+              options.error("Settings/" + setting.key,
+                            "a range needs two numbers or more that rise or fall, the same ones "
+                            "for all of its keys",
+                            "Allowed: numbers > 0 with '|' between them, such as '1/240 | 1/30'."));
+        }
+    }
+
+
     void
     check_lengths(const Options             &options,
                   const std::vector<double> &lengths,
@@ -119,17 +141,18 @@ namespace undine
     }
 
 
-    /// Something that is varied.
-    void
+    /// Something that is varied. Is it a range?
+    bool
     read_variation(const Options &options, const std::string &path)
     {
       std::string kind = "refinement";
       options.add("Kind",
                   kind,
                   "",
-                  Allowed::one_of({"refinement", "variant"}),
+                  Allowed::one_of({"refinement", "variant", "range"}),
                   "'refinement': values come closer to the truth from left to right; 'variant': "
-                  "ways of computing the same, each a curve of its own.");
+                  "ways of computing the same, each a curve of its own; 'range': numbers along "
+                  "which runs are stable or not: such a study makes a map of stability.");
       const auto  settings = read_settings(options,
                                           path,
                                           "Values of a key of the scene, with '|' between them. "
@@ -168,7 +191,7 @@ namespace undine
           fmt::format("has {} names, but there are {} values", names.size(), n_values),
           "Give each value a name, with ',' between them."));
       std::vector<double> lengths;
-      if (!settings.empty() && kind == "refinement")
+      if (!settings.empty() && kind != "variant")
         lengths = lengths_of(settings.front());
       options.add("Lengths",
                   lengths,
@@ -179,6 +202,9 @@ namespace undine
                   "these are several numbers, one over the first of them.");
       if (kind == "refinement" && !settings.empty())
         check_lengths(options, lengths, n_values);
+      if (kind == "range")
+        check_range(options, settings);
+      return kind == "range";
     }
 
 
@@ -390,6 +416,7 @@ namespace undine
   read_study(const Options &options)
   {
     std::string         title = "Study", scene;
+    double              boundary = 1.2;
     std::vector<double> levels{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
     options.add("Title", title, "", Allowed::anything(), "What the study shows.");
     options.require("Scene",
@@ -398,6 +425,12 @@ namespace undine
                     Allowed::anything(),
                     "The scene's parameter file, from the folder of the study.");
     read_runs(options);
+    options.add("Boundary within",
+                boundary,
+                "1",
+                Allowed::between(1.001, 100),
+                "Of ranges: between two values of the last range with different verdicts others "
+                "are tried until they differ by this factor at most.");
     options.add("Levels",
                 levels,
                 "1",
@@ -410,8 +443,9 @@ namespace undine
 
     const auto variations = options.section("Vary");
     const auto names      = variations.named_sections("variation");
+    unsigned int n_ranges = 0;
     for (const auto &name : names)
-      read_variation(variations.section(name), "Vary/" + name + "/");
+      n_ranges += read_variation(variations.section(name), "Vary/" + name + "/");
     if (names.empty())
       options.mistake(options.error("Vary",
                                     "nothing is varied",
@@ -421,7 +455,7 @@ namespace undine
     const auto wanted     = quantities.named_sections("quantity");
     for (const auto &name : wanted)
       read_quantity(quantities.section(name));
-    if (wanted.empty())
+    if (wanted.empty() && n_ranges == 0)
       options.mistake(options.error("Quantities",
                                     "no quantity is named",
                                     "Add a subsection 'Quantities' with a subsection for each, "

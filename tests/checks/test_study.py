@@ -342,7 +342,7 @@ class Accuracy(unittest.TestCase):
     @staticmethod
     def model(*waves, orders=(2, 2)):
         """Of two things at factor one, whose neighbours, twice as coarse, differ by waves times 2^p - 1."""
-        return ErrorModel([Part((2 ** p - 1) * wave, 2, 1, p, p, p, growth, growth)
+        return ErrorModel([Part((2 ** p - 1) * wave, 2, 1, p, p, growth, growth)
                            for wave, p, growth in zip(waves, orders, (1, 2))])
 
     def test_the_cheapest_factors_for_an_error(self):
