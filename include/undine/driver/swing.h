@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_driver_swing_h
+#define undine_driver_swing_h
+
+#include <undine/driver/growth.h>
+
+#include <array>
+#include <deque>
+#include <optional>
+
+namespace undine
+{
+  /// Does a force or a velocity swing with a period of only a few steps, and more and more? Rules
+  /// (V4) to (V7) of doc/hard_cases.md.
+  class Swing
+  {
+  public:
+    using Signal = std::array<double, 3>; ///< components that a scene has not are zero
+
+    /// The signal at the end of a step of length `dt` [s], which ends at `time` [s].
+    void
+    observe(double time, double dt, const Signal &signal);
+
+    /// Unless it has died away again. Without `where`.
+    const std::optional<Growth> &
+    growth() const
+    {
+      return found;
+    }
+
+    /// What has grown and died away.
+    const std::optional<Growth> &
+    past() const
+    {
+      return died_away;
+    }
+
+    /// How what is not smooth in the last so many steps moves, in words.
+    std::string
+    mode(unsigned int window) const;
+
+    /// The largest signal in the last quarter of so many steps over that in the first; 0: unknown.
+    double
+    gain(unsigned int window) const;
+
+  private:
+    /// A step.
+    struct Moment
+    {
+      double time;
+      Signal jump;   ///< (V4)
+      double size;   ///< of the jump
+      double sum;    ///< of the sizes so far
+      double signal; ///< its size
+      double record; ///< of the mean size of jumps so far, but for the first steps of the run
+    };
+
+    /// d_{n+1} = a d_n + b d_{n-1}, the best fit.
+    struct Recurrence
+    {
+      double growth = 0; ///< the largest |root| [1]
+      double period = 0; ///< of it, in steps; infinite: none
+      double share  = 0; ///< of the squares of jumps that it explains [1]
+    };
+
+    void
+    judge(unsigned int window, double least_ratio, double material);
+    void
+    note(unsigned int window, const Recurrence &recurrence);
+    Recurrence
+    recurrence(unsigned int window) const;
+    double
+    mean_size(unsigned int first, unsigned int last) const;
+    double
+    largest_signal(unsigned int first, unsigned int last) const;
+    const Moment &
+    before(unsigned int steps) const
+    {
+      return moments[moments.size() - 1 - steps];
+    }
+
+    std::deque<Moment>    moments; ///< the last ones
+    Signal                last{}, last_slope{};
+    unsigned int          n_steps = 0;
+    double                largest = 0; ///< signal so far
+    std::optional<Growth> found, died_away;
+    double                first_size = 0, peak = 0; ///< of the jumps of what grows
+    unsigned int          first_step = 0, first_window = 0;
+  };
+} // namespace undine
+
+#endif
