@@ -181,10 +181,11 @@ namespace undine
   Certificate::locate_growth_of_energy()
   {
     if (!energy.growth() && !energy.unexplained())
-      where.clear();
+      located_over = 0;
     const unsigned int window = energy.steps_of_growth();
-    if (window == 0 || !where.empty())
+    if (window <= located_over)
       return;
+    located_over    = window; // the longer, the clearer
     const auto gain = [&](const std::deque<double> &energies) {
       return energies.back() - energies[energies.size() - 1 - window];
     };

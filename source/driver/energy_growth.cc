@@ -13,7 +13,7 @@ namespace undine
     constexpr unsigned int                shortest_of_unknown_origin = 48;
 
     // 1 % a step over 100 steps multiplies an energy by 2.7.
-    constexpr double least_share  = 0.6; // of the energy there is, that must have been created
+    constexpr double least_share  = 0.5; // of the energy there is, that must have been created
     constexpr double least_factor = 2.5;
 
     // Of works and powers, which are known at the ends of steps only.
@@ -48,14 +48,14 @@ namespace undine
       least = now;
 
     window_of_growth = 0;
-    for (const auto window : windows)
-      if (window < moments.size() && window_of_growth == 0)
+    for (auto window = windows.rbegin(); window != windows.rend(); ++window)
+      if (*window < moments.size() && window_of_growth == 0)
         {
-          if (is_created(before(window), step.least))
-            note(created, before(window));
-          else if (window >= shortest_of_unknown_origin && !created &&
-                   is_unexplained(window, step.least))
-            note(of_unknown_origin, before(window));
+          if (is_created(before(*window), step.least))
+            note(created, before(*window));
+          else if (*window >= shortest_of_unknown_origin && !created &&
+                   is_unexplained(*window, step.least))
+            note(of_unknown_origin, before(*window));
         }
     if (window_of_growth == 0 && now.step - least->step > windows.back() &&
         is_created(*least, step.least))
@@ -72,14 +72,13 @@ namespace undine
       return false;
     const double input  = std::max(now.input - begin.input, now.input_at_end - begin.input_at_end);
     const double excess = now.energy - begin.energy - input;
-    return excess >=
-           std::max(
-             {least_share * now.energy, share_uncertain * (now.exchange - begin.exchange), least});
+    return excess > least && excess >= least_share * now.energy &&
+           excess >= share_uncertain * (now.exchange - begin.exchange);
   }
 
 
-  /// (V3): in each quarter the energy grows, in the last one by at least half the power of the
-  /// first, and less than half of it is known to have been put in.
+  /// (V3): in both halves the energy grows, in the second by at least half the power of the first,
+  /// and less than half of it is known to have been put in.
   bool
   EnergyGrowth::is_unexplained(const unsigned int window, const double least) const
   {
@@ -88,11 +87,9 @@ namespace undine
     if (!(begin.energy > least) || now.energy < least_factor * begin.energy ||
         now.input - begin.input >= gain / 2)
       return false;
-    std::array<double, 4> powers;
-    for (unsigned int quarter = 0; quarter < 4; ++quarter)
-      powers[quarter] = std::log(before(window * (3 - quarter) / 4).energy /
-                                 before(window * (4 - quarter) / 4).energy);
-    return *std::min_element(powers.begin(), powers.end()) > 0 && powers[3] >= powers[0] / 2;
+    const double middle = before(window / 2).energy;
+    const double first = std::log(middle / begin.energy), second = std::log(now.energy / middle);
+    return first > 0 && second >= first / 2;
   }
 
 
@@ -108,6 +105,7 @@ namespace undine
         growth->what  = "energy";
         peak          = 0;
       }
+    growth->since    = std::min(growth->since, begin.time);
     growth->until    = now.time;
     const double put = now.input_known ? now.input - begin.input : 0;
     const double old = std::max(begin.energy + put, rounding * now.energy);

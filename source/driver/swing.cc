@@ -9,44 +9,50 @@
 
 namespace undine
 {
+  /// So many steps: how much larger the jumps in the last quarter must be than in the first, and
+  /// how large compared with the largest signal.
+  struct Swing::Window
+  {
+    unsigned int length;
+    double       ratio, material;
+  };
+
+
   namespace
   {
-    /// How much larger the jumps in the last quarter of so many steps must be than in the first,
-    /// and how large compared with the largest signal.
-    struct Window
-    {
-      unsigned int length;
-      double       ratio, material;
-    };
+    // An energy that grows by 1 % a step grows by 2.05 between quarters that are 72 steps apart, an
+    // amplitude by 1.43. In fewer steps means are less certain.
+    constexpr std::array<Swing::Window, 4> windows{
+      {{16, 5., 0.1}, {32, 2., 0.01}, {64, 1.5, 0.01}, {96, 1.4, 0.01}}};
 
-    // An energy that grows by 1 % a step grows by 2.1 between quarters that are 75 steps apart, an
-    // amplitude by 1.45. In fewer steps means are less certain.
-    constexpr std::array<Window, 4> windows{
-      {{16, 5., 0.1}, {32, 2., 0.01}, {64, 1.5, 0.01}, {100, 1.4, 0.01}}};
-
-    constexpr double       rounding       = 1e-12;
-    constexpr unsigned int least_window   = 6;  // that a mode shows in
-    constexpr unsigned int first_steps    = 10; // may jump as they like
-    constexpr unsigned int mean_of_record = 8;
-    constexpr double       more_than_ever = 1.2;  // of the record
-    constexpr double       relative_ratio = 1.2;  // by which jumps grow more than the signal
-    constexpr double       least_share    = 0.8;  // of a mode in all that jumps
+    constexpr unsigned int first_steps    = 10;  // may jump as they like
+    constexpr unsigned int mean_of_record = 8;   // steps
+    constexpr double       more_than_ever = 1.2; // of the record
+    constexpr double       more_than_all  = 1.2; // as the signal grows
+    constexpr double       nearly         = 0.8;
+    constexpr double       one_mode       = 0.95; // of all jumps
     constexpr double       least_root     = 0.95; // noise makes a root smaller than it is
     constexpr double       longest_period = 4;    // steps
+    constexpr double       far_from_two   = 4;    // times the share of noise
+    constexpr double       all_alternate  = 0.9;
+    constexpr unsigned int often_enough   = 4; // more steps in which it grows than others
     constexpr double       a_third        = 1. / 3;
-
-
-    double
-    norm(const Swing::Signal &signal)
-    {
-      return std::sqrt(signal[0] * signal[0] + signal[1] * signal[1] + signal[2] * signal[2]);
-    }
+    constexpr unsigned int steps_of_rest  = 48;
+    constexpr unsigned int least_window   = 6; // in which a mode shows
+    constexpr double       rounding       = 1e-12;
 
 
     double
     product(const Swing::Signal &a, const Swing::Signal &b)
     {
       return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+
+
+    double
+    norm(const Swing::Signal &signal)
+    {
+      return std::sqrt(product(signal, signal));
     }
 
 
@@ -84,20 +90,74 @@ namespace undine
     moments.push_back(now);
     if (moments.size() > windows.back().length + 2)
       moments.pop_front();
-    if (moments.size() > mean_of_record && n_steps >= first_steps + mean_of_record)
+    follow_size();
+    look_for_growth();
+  }
+
+
+  /// The record, and whether what has grown has died away.
+  void
+  Swing::follow_size()
+  {
+    if (moments.size() <= mean_of_record || n_steps < first_steps + mean_of_record)
+      return;
+    const double mean     = mean_size(mean_of_record, 0);
+    moments.back().record = std::max(moments.back().record, mean);
+    peak                  = std::max(peak, mean);
+    if (mean >= a_third * peak)
+      last_large = n_steps;
+    else if (found && n_steps - last_large > steps_of_rest)
       {
-        const double mean     = mean_size(mean_of_record, 0);
-        moments.back().record = std::max(now.record, mean);
-        peak                  = std::max(peak, mean);
-        if (found && mean < a_third * peak)
-          {
-            died_away = found;
-            found.reset();
-          }
+        died_away = found;
+        found.reset();
       }
-    for (const auto &window : windows)
-      if (moments.size() > window.length)
-        judge(window.length, window.ratio, window.material);
+  }
+
+
+  /// The longest window in which it grows tells most.
+  void
+  Swing::look_for_growth()
+  {
+    for (auto window = windows.rbegin(); window != windows.rend(); ++window)
+      if (moments.size() > window->length)
+        if (const auto mode = growing_mode(*window))
+          {
+            if (++n_seen >= often_enough)
+              note(window->length, *mode);
+            return;
+          }
+    n_seen -= n_seen > 0;
+  }
+
+
+  /// (V5) to (V7). What does not grow, as nearly always, is known by a few differences.
+  std::optional<Swing::Recurrence>
+  Swing::growing_mode(const Window &window) const
+  {
+    const unsigned int length = window.length, quarter = length / 4;
+    const double       first = mean_size(length, length - quarter), last = mean_size(quarter, 0);
+    if (last < nearly * window.ratio * first || last < window.material * largest ||
+        last < more_than_ever * before(length).record)
+      return {};
+    const double signal       = largest_signal(quarter, 0);
+    const double first_signal = largest_signal(length, length - quarter);
+    if (last < signal && last * first_signal < more_than_all * first * signal)
+      return {};
+    const auto fit = recurrence(length);
+    if (fit.share < one_mode || fit.root < least_root || fit.period > longest_period)
+      return {};
+
+    const double sine     = std::sin(2 * M_PI / fit.period);
+    const bool   turns    = fit.is_complex && sine * sine >= far_from_two * (1 - fit.share);
+    const auto   sizes    = turns ? amplitudes(length, fit) : means(length);
+    const double ratio    = sizes[3] / sizes[0];
+    const double by_noise = 2 * std::sqrt(std::max(0., 1 - fit.share) / quarter);
+    const bool   grows    = sizes[3] > sizes[2] && sizes[2] > sizes[1] && sizes[1] > sizes[0] &&
+                       ratio >= window.ratio * (1 + by_noise);
+    const bool is_exponential =
+      turns || (sizes[3] - sizes[2] >= std::cbrt(ratio) * (sizes[1] - sizes[0]) &&
+                alternating_share(length, length - quarter) >= all_alternate);
+    return grows && is_exponential ? std::optional<Recurrence>(fit) : std::nullopt;
   }
 
 
@@ -119,25 +179,97 @@ namespace undine
   }
 
 
-  void
-  Swing::judge(const unsigned int window, const double least_ratio, const double material)
+  /// How much of the jumps in these steps changes its sign from step to step [1].
+  double
+  Swing::alternating_share(const unsigned int first, const unsigned int last) const
+  {
+    Signal sum{};
+    for (unsigned int steps = last; steps < first; ++steps)
+      for (unsigned int axis = 0; axis < 3; ++axis)
+        sum[axis] += (steps % 2 == 0 ? 1 : -1) * before(steps).jump[axis];
+    return norm(sum) / ((first - last) * mean_size(first, last));
+  }
+
+
+  std::array<double, 4>
+  Swing::means(const unsigned int window) const
   {
     const unsigned int    quarter = window / 4;
-    std::array<double, 4> sizes;
+    std::array<double, 4> result;
     for (unsigned int k = 0; k < 4; ++k)
-      sizes[k] = mean_size(quarter * (4 - k), quarter * (3 - k));
-    const bool grows = sizes[3] > sizes[2] && sizes[2] > sizes[1] && sizes[1] > sizes[0] &&
-                       sizes[3] >= least_ratio * sizes[0]; // (V5)
-    if (!grows || sizes[3] < material * largest ||
-        sizes[3] < more_than_ever * before(window).record) // (V6)
-      return;
-    const double now    = largest_signal(quarter, 0);
-    const double before = largest_signal(window, window - quarter);
-    if (sizes[3] < now && sizes[3] * before < relative_ratio * sizes[0] * now)
-      return;
-    const auto fit = recurrence(window); // (V7)
-    if (fit.share >= least_share && fit.growth >= least_root && fit.period <= longest_period)
-      note(window, fit);
+      result[k] = mean_size(quarter * (4 - k), quarter * (3 - k));
+    return result;
+  }
+
+
+  /// Of d_n^2 - a d_n d_{n-1} - b d_{n-1}^2, which is the same in all steps of a mode that stays as
+  /// it is, whatever the phase in which it is sampled.
+  std::array<double, 4>
+  Swing::amplitudes(const unsigned int window, const Recurrence &recurrence) const
+  {
+    const unsigned int    quarter = window / 4;
+    std::array<double, 4> result;
+    for (unsigned int k = 0; k < 4; ++k)
+      {
+        double sum = 0;
+        for (unsigned int steps = quarter * (3 - k); steps < quarter * (4 - k); ++steps)
+          {
+            const auto &now = before(steps), &earlier = before(steps + 1);
+            sum += now.size * now.size - recurrence.a * product(now.jump, earlier.jump) -
+                   recurrence.b * earlier.size * earlier.size;
+          }
+        result[k] = std::sqrt(std::max(0., sum));
+      }
+    return result;
+  }
+
+
+  Swing::Recurrence
+  Swing::recurrence(const unsigned int window) const
+  {
+    // Normal equations, in which each step counts as much: else only the last few would, of what
+    // grows fast. The little that is added to their diagonal decides where only one mode is there,
+    // for which there are many recurrences.
+    double one = 0, other = 0, mixed = 0, right_one = 0, right_other = 0, squares = 0;
+    for (unsigned int steps = 0; steps + 2 < window; ++steps)
+      {
+        const auto  &next = before(steps), &now = before(steps + 1), &earlier = before(steps + 2);
+        const double size =
+          next.size * next.size + now.size * now.size + earlier.size * earlier.size;
+        if (!(size > 0))
+          continue;
+        one += now.size * now.size / size;
+        other += earlier.size * earlier.size / size;
+        mixed += product(now.jump, earlier.jump) / size;
+        right_one += product(next.jump, now.jump) / size;
+        right_other += product(next.jump, earlier.jump) / size;
+        squares += next.size * next.size / size;
+      }
+    Recurrence result;
+    if (!(squares > 0))
+      return result;
+    const double little = 1e-9 * (one + other);
+    one += little;
+    other += little;
+    const double determinant = one * other - mixed * mixed;
+    result.a                 = (right_one * other - right_other * mixed) / determinant;
+    result.b                 = (right_other * one - right_one * mixed) / determinant;
+    result.share             = (result.a * right_one + result.b * right_other) / squares;
+
+    const double discriminant = result.a * result.a / 4 + result.b;
+    result.is_complex         = discriminant < 0;
+    if (result.is_complex)
+      {
+        result.root   = std::sqrt(-result.b);
+        result.period = 2 * M_PI / std::acos(std::clamp(result.a / 2 / result.root, -1., 1.));
+      }
+    else
+      {
+        result.root = std::abs(result.a) / 2 + std::sqrt(discriminant);
+        if (result.a < 0)
+          result.period = 2;
+      }
+    return result;
   }
 
 
@@ -159,54 +291,8 @@ namespace undine
     found->mode          = words(recurrence.period);
     const auto   quarter = first_window / 4;
     const double size    = mean_size(quarter, 0);
-    const double least   = rounding * size;
-    found->factor =
-      std::pow(size / std::max(first_size, least), 1. / (n_steps - first_step - quarter));
-  }
-
-
-  Swing::Recurrence
-  Swing::recurrence(const unsigned int window) const
-  {
-    // Normal equations. The little that is added to their diagonal decides where only one mode is
-    // there, for which there are many recurrences.
-    double one = 0, other = 0, mixed = 0, right_one = 0, right_other = 0, squares = 0;
-    for (unsigned int steps = 0; steps + 2 < window; ++steps)
-      {
-        const auto &next = before(steps).jump, &now = before(steps + 1).jump,
-                   &last_one = before(steps + 2).jump;
-        one += product(now, now);
-        other += product(last_one, last_one);
-        mixed += product(now, last_one);
-        right_one += product(next, now);
-        right_other += product(next, last_one);
-        squares += product(next, next);
-      }
-    Recurrence result;
-    result.period = std::numeric_limits<double>::infinity();
-    if (!(squares > 0))
-      return result;
-    const double little = 1e-9 * (one + other);
-    one += little;
-    other += little;
-    const double determinant = one * other - mixed * mixed;
-    const double a           = (right_one * other - right_other * mixed) / determinant;
-    const double b           = (right_other * one - right_one * mixed) / determinant;
-    result.share             = (a * right_one + b * right_other) / squares;
-
-    const double discriminant = a * a / 4 + b;
-    if (discriminant < 0)
-      {
-        result.growth = std::sqrt(-b);
-        result.period = 2 * M_PI / std::acos(std::clamp(a / 2 / result.growth, -1., 1.));
-      }
-    else
-      {
-        result.growth = std::abs(a) / 2 + std::sqrt(discriminant);
-        if (a < 0)
-          result.period = 2;
-      }
-    return result;
+    const double begin   = std::max(first_size, rounding * size);
+    found->factor        = std::pow(size / begin, 1. / (n_steps - first_step - quarter));
   }
 
 
@@ -215,8 +301,9 @@ namespace undine
   {
     if (window >= moments.size())
       return 0;
-    const double before = largest_signal(window, window - window / 4);
-    return before > 0 ? largest_signal(window / 4, 0) / before : 0;
+    const unsigned int quarter = std::max(1u, window / 4);
+    const double       before  = largest_signal(window, window - quarter);
+    return before > 0 ? largest_signal(quarter, 0) / before : 0;
   }
 
 
@@ -227,8 +314,6 @@ namespace undine
     if (length < least_window)
       return "monotonic";
     const auto fit = recurrence(length);
-    if (fit.share < least_share || fit.period > length / 2.)
-      return "monotonic";
-    return words(fit.period);
+    return fit.share < one_mode || fit.period > length / 2. ? "monotonic" : words(fit.period);
   }
 } // namespace undine

@@ -99,7 +99,7 @@ namespace undine
     std::deque<double> of_fluid, of_bodies; ///< energies at the ends of the last steps [J]
     double             last_potential = 0, largest_potential = 0; ///< [J]
     std::string        where, mode;                               ///< of the energy that grows
-    unsigned int       n_steps = 0, n_redone = 0;
+    unsigned int       located_over = 0, n_steps = 0, n_redone = 0;
   };
 } // namespace undine
 

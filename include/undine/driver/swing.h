@@ -6,7 +6,9 @@
 
 #include <array>
 #include <deque>
+#include <limits>
 #include <optional>
+#include <string>
 
 namespace undine
 {
@@ -16,6 +18,7 @@ namespace undine
   {
   public:
     using Signal = std::array<double, 3>; ///< components that a scene has not are zero
+    struct Window;
 
     /// The signal at the end of a step of length `dt` [s], which ends at `time` [s].
     void
@@ -58,21 +61,38 @@ namespace undine
     /// d_{n+1} = a d_n + b d_{n-1}, the best fit.
     struct Recurrence
     {
-      double growth = 0; ///< the largest |root| [1]
-      double period = 0; ///< of it, in steps; infinite: none
-      double share  = 0; ///< of the squares of jumps that it explains [1]
+      double a = 0, b = 0;
+      double share      = 0; ///< of the squares of jumps that it explains [1]
+      double root       = 0; ///< size of the largest [1]
+      bool   is_complex = false;
+      double period     = std::numeric_limits<double>::infinity(); ///< of that root, in steps
     };
 
     void
-    judge(unsigned int window, double least_ratio, double material);
+    follow_size();
+    void
+    look_for_growth();
+    std::optional<Recurrence>
+    growing_mode(const Window &window) const;
     void
     note(unsigned int window, const Recurrence &recurrence);
     Recurrence
     recurrence(unsigned int window) const;
+
+    /// In each quarter of so many steps, the oldest first: @{
+    std::array<double, 4>
+    means(unsigned int window) const;
+    std::array<double, 4>
+    amplitudes(unsigned int window, const Recurrence &recurrence) const;
+    /// @}
+
     double
     mean_size(unsigned int first, unsigned int last) const;
     double
     largest_signal(unsigned int first, unsigned int last) const;
+    double
+    alternating_share(unsigned int first, unsigned int last) const;
+
     const Moment &
     before(unsigned int steps) const
     {
@@ -81,11 +101,11 @@ namespace undine
 
     std::deque<Moment>    moments; ///< the last ones
     Signal                last{}, last_slope{};
-    unsigned int          n_steps = 0;
     double                largest = 0; ///< signal so far
     std::optional<Growth> found, died_away;
     double                first_size = 0, peak = 0; ///< of the jumps of what grows
-    unsigned int          first_step = 0, first_window = 0;
+    unsigned int          n_steps = 0, n_seen = 0;
+    unsigned int          first_step = 0, first_window = 0, last_large = 0;
   };
 } // namespace undine
 

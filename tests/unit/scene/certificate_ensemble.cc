@@ -6,6 +6,9 @@
 
 #include <cmath>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace undine;
 
@@ -59,6 +62,7 @@ namespace
                               (1 + ripple * std::sin(2 * M_PI / period * n)) *
                               (1 + noise * draw(-1, 1));
         History::Step step;
+        step.fluid                         = 0;
         (in_body ? step.body : step.fluid) = energy;
         step.velocity                      = std::sqrt(energy) * std::sin(2 * M_PI / period * n);
         step.force                         = energy;
@@ -80,6 +84,14 @@ namespace
                  amplitude = draw.size(0.03, 0.3), energy = draw.size(1, 1e6);
     const bool in_force = draw.yes();
     const int  n_steps  = 110 + int(draw(0, 100));
+    run.drawn           = fmt::format(
+      "factor {:.4f}, period {:.4f}, noise {:.3f}, amplitude {:.3f}, mean {:.2f}, {} steps",
+      factor,
+      period,
+      noise,
+      amplitude,
+      mean,
+      n_steps);
     for (int n = 0; n < n_steps; ++n)
       {
         const double swing =
@@ -127,10 +139,11 @@ namespace
                  period = draw.yes() ? 2 : draw(2, 6);
     for (int n = 0; n < 200; ++n)
       {
-        const double swing = jump * std::exp(-fast * n) * std::cos(2 * M_PI / period * n);
-        const double decay = std::exp(-slow * n);
+        const double amplitude = jump * std::exp(-fast * n);
+        const double swing     = amplitude * std::cos(2 * M_PI / period * n);
+        const double decay     = std::exp(-slow * n);
         run.add({10 * decay,
-                 decay + swing * swing / (1 + jump * jump),
+                 decay + amplitude * amplitude / (1 + jump * jump),
                  decay + swing + 0.1 * noise * draw(-1, 1),
                  decay + 2 * swing + noise * draw(-1, 1)});
       }
@@ -201,13 +214,14 @@ namespace
     for (int n = 0; n < 250; ++n)
       {
         const double before = place;
-        velocity -= 0.05;
+        if (place > 0 || velocity != 0)
+          velocity -= 0.05;
         place += velocity;
         const bool hits = place < 0;
         if (hits)
           {
             place    = 0;
-            velocity = -restitution * velocity;
+            velocity = velocity < -0.2 ? -restitution * velocity : 0; // or it comes to rest
           }
         History::Step step;
         step.fluid = 0;
@@ -228,7 +242,7 @@ namespace
   {
     History      run(has_account);
     const double noise = draw(0, 0.5), period = draw.yes() ? 2 : draw(2, 6), swing = draw(0, 0.5),
-                 beat = draw(20, 500), depth = draw(0, 0.15), size = draw.size(1e-6, 1e6);
+                 beat = draw(20, 500), depth = draw(0, 0.1), size = draw.size(1e-6, 1e6);
     for (int n = 0; n < 300; ++n)
       {
         const double more =
@@ -245,6 +259,32 @@ namespace
       }
     return run;
   }
+
+
+  /// A stiff mode with a period of little more than two steps, in which a load has set it off: its
+  /// samples swell and fade.
+  History
+  stiff_mode(Draw &draw, const bool has_account)
+  {
+    History      run(has_account);
+    const double period = 2 + draw.size(5e-3, 0.2), phase = draw(0, 2 * M_PI), swing = draw(0, 1),
+                 noise = draw.size(1e-6, 1e-1) * swing, damping = draw.yes() ? 0 : draw(0, 0.01);
+    run.drawn =
+      fmt::format("period {:.4f}, phase {:.2f}, swing {:.2f}, noise {:.3f}, damping {:.4f}",
+                  period,
+                  phase,
+                  swing,
+                  noise / swing,
+                  damping);
+    for (int n = 0; n < 400; ++n)
+      {
+        const double more =
+          swing * std::exp(-damping * n) * std::cos(2 * M_PI / period * n + phase) +
+          noise * draw(-1, 1);
+        run.add({1, 0.1, 0.3 + more, 1 + more});
+      }
+    return run;
+  }
 } // namespace
 
 
@@ -256,7 +296,9 @@ TEST_CASE("of 300 runs that grow none is called stable")
     {
       const auto known = growing_energy(draw, true), unknown = growing_energy(draw, false),
                  swing = growing_swing(draw);
-      INFO(n);
+      INFO(n << ": " << known.text() << "\n"
+             << unknown.text() << "\n"
+             << swing.drawn << ": " << swing.text());
       CHECK(known.verdict() == "growing");
       CHECK(unknown.verdict() != "stable");
       CHECK(swing.verdict() == "growing");
@@ -267,24 +309,30 @@ TEST_CASE("of 300 runs that grow none is called stable")
 }
 
 
-TEST_CASE("of 600 good runs none is called growing")
+TEST_CASE("of 700 good runs none is called growing")
 {
   using Kind = History (*)(Draw &, bool);
-  Draw         draw(20261127);
-  unsigned int n_good = 0, n_stable = 0;
-  for (const Kind kind :
-       {spin_up, start_with_a_jump, limit_cycle, load_switched_on, falling_body, bounded})
+  const std::vector<std::pair<std::string, Kind>> kinds{{"spin-up", spin_up},
+                                                        {"start with a jump", start_with_a_jump},
+                                                        {"limit cycle", limit_cycle},
+                                                        {"load switched on", load_switched_on},
+                                                        {"falling body", falling_body},
+                                                        {"bounded", bounded},
+                                                        {"stiff mode", stiff_mode}};
+  Draw                                            draw(20261127);
+  unsigned int                                    n_good = 0, n_stable = 0;
+  for (const auto &[name, kind] : kinds)
     for (int n = 0; n < 100; ++n)
       {
         const bool has_account = n < 60;
         const auto run         = kind(draw, has_account);
-        INFO(n << ": " << run.text());
+        INFO(name << ", " << n << ": " << run.drawn << ": " << run.text());
         CHECK(run.verdict() != "growing");
         if (has_account)
           CHECK(run.verdict() == "stable");
         n_good += run.verdict() != "growing";
         n_stable += run.verdict() == "stable";
       }
-  CHECK(n_good == 600);
-  WARN(n_stable << " of 600 are stable, of " << 600 - n_stable << " nothing is known of the work");
+  CHECK(n_good == 700);
+  WARN(n_stable << " of 700 are stable, of " << 700 - n_stable << " nothing is known of the work");
 }

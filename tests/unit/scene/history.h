@@ -71,6 +71,7 @@ namespace undine
 
     Certificate certificate;
     double      time = 0;
+    std::string drawn; ///< what may tell why a verdict is wrong
 
   private:
     const bool has_account;
