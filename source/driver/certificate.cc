@@ -226,6 +226,31 @@ namespace undine
   }
 
 
+  /// Of what nobody can tell: the energy, or something that swings.
+  std::optional<Growth>
+  Certificate::apparent_growth() const
+  {
+    std::optional<Growth> result = energy.unexplained();
+    if (result)
+      {
+        result->where = where;
+        result->mode  = mode;
+        result->doubt = "whether it was put in is not known";
+        return result;
+      }
+    for (const auto &each : watched)
+      if (const auto &of_this = each.swing.apparent_growth())
+        if (!result || of_this->since < result->since)
+          {
+            result        = of_this;
+            result->where = each.where;
+            result->doubt =
+              "which samples of a steady swing with a period next to two steps do, too";
+          }
+    return result;
+  }
+
+
   /// Something that has grown and died away.
   std::optional<Growth>
   Certificate::past() const
@@ -250,7 +275,7 @@ namespace undine
       return "failed";
     if (growth())
       return "growing";
-    return energy.unexplained() ? "undecided" : "stable";
+    return apparent_growth() ? "undecided" : "stable";
   }
 
 
@@ -290,15 +315,13 @@ namespace undine
         "failed at t = {:.6g} s: {}{}", time, failure, (now ? "; " : "") + growing + redone());
     if (now)
       return growing + redone();
-    if (const auto &unknown = energy.unexplained())
-      return fmt::format(
-        "undecided: the energy of {} grew by a factor of {:.4g} a step from {:.6g} "
-        "to {:.6g} s, and whether it was put in is not known{}",
-        where,
-        unknown->factor,
-        unknown->since,
-        unknown->until,
-        redone());
+    if (const auto apparent = apparent_growth())
+      return fmt::format("undecided: {} grew from {:.6g} to {:.6g} s, {}{}",
+                         apparent->text(),
+                         apparent->since,
+                         apparent->until,
+                         apparent->doubt,
+                         redone());
     std::string died_away;
     if (const auto gone = past())
       died_away = fmt::format("; what grew from {:.6g} to {:.6g} s ({}) has died away",

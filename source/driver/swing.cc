@@ -30,16 +30,15 @@ namespace undine
     constexpr double       more_than_ever = 1.2; // of the record
     constexpr double       more_than_all  = 1.2; // as the signal grows
     constexpr double       nearly         = 0.8;
-    constexpr double       one_mode       = 0.95; // of all jumps
-    constexpr double       least_root     = 0.95; // noise makes a root smaller than it is
-    constexpr double       longest_period = 4;    // steps
-    constexpr double       far_from_two   = 4;    // times the share of noise
-    constexpr double       all_alternate  = 0.9;
-    constexpr unsigned int often_enough   = 4; // more steps in which it grows than others
-    constexpr double       a_third        = 1. / 3;
-    constexpr unsigned int steps_of_rest  = 48;
-    constexpr unsigned int least_window   = 6; // in which a mode shows
-    constexpr double       rounding       = 1e-12;
+    constexpr double       one_mode       = 0.95;        // of all jumps
+    constexpr double       least_root     = 0.95;        // noise makes a root smaller than it is
+    constexpr double       longest_period = 4;           // steps
+    constexpr double       clear = 4, very_clear = 1000; // times the share of noise
+    constexpr unsigned int often_enough  = 4;            // more steps in which it grows than others
+    constexpr double       a_third       = 1. / 3;
+    constexpr unsigned int steps_of_rest = 48;
+    constexpr unsigned int least_window  = 6; // in which a mode shows
+    constexpr double       rounding      = 1e-12;
 
 
     double
@@ -106,11 +105,13 @@ namespace undine
     peak                  = std::max(peak, mean);
     if (mean >= a_third * peak)
       last_large = n_steps;
-    else if (found && n_steps - last_large > steps_of_rest)
-      {
-        died_away = found;
-        found.reset();
-      }
+    else if (n_steps - last_large > steps_of_rest)
+      for (auto *track : {&sure, &unsure})
+        if (track->growth)
+          {
+            died_away = track->growth;
+            *track    = {};
+          }
   }
 
 
@@ -118,15 +119,19 @@ namespace undine
   void
   Swing::look_for_growth()
   {
+    for (auto *track : {&sure, &unsure})
+      track->n_seen -= track->n_seen > 0;
     for (auto window = windows.rbegin(); window != windows.rend(); ++window)
       if (moments.size() > window->length)
         if (const auto mode = growing_mode(*window))
           {
-            if (++n_seen >= often_enough)
-              note(window->length, *mode);
-            return;
+            auto &track = mode->is_exponential ? sure : unsure;
+            track.n_seen += 2; // one more than before
+            if (track.n_seen >= often_enough)
+              note(track, window->length, *mode);
+            if (mode->is_exponential)
+              return;
           }
-    n_seen -= n_seen > 0;
   }
 
 
@@ -143,21 +148,24 @@ namespace undine
     const double first_signal = largest_signal(length, length - quarter);
     if (last < signal && last * first_signal < more_than_all * first * signal)
       return {};
-    const auto fit = recurrence(length);
+    auto fit = recurrence(length);
     if (fit.share < one_mode || fit.root < least_root || fit.period > longest_period)
       return {};
 
-    const double sine     = std::sin(2 * M_PI / fit.period);
-    const bool   turns    = fit.is_complex && sine * sine >= far_from_two * (1 - fit.share);
+    // Samples with a period next to two steps swell and fade although the mode stays as it is.
+    const double sine = std::sin(2 * M_PI / fit.period), beat = fit.period / (fit.period - 2);
+    const double clearly  = beat <= quarter ? clear : very_clear;
+    const bool   turns    = fit.is_complex && sine * sine >= clearly * (1 - fit.share);
     const auto   sizes    = turns ? amplitudes(length, fit) : means(length);
     const double ratio    = sizes[3] / sizes[0];
     const double by_noise = 2 * std::sqrt(std::max(0., 1 - fit.share) / quarter);
-    const bool   grows    = sizes[3] > sizes[2] && sizes[2] > sizes[1] && sizes[1] > sizes[0] &&
-                       ratio >= window.ratio * (1 + by_noise);
-    const bool is_exponential =
-      turns || (sizes[3] - sizes[2] >= std::cbrt(ratio) * (sizes[1] - sizes[0]) &&
-                alternating_share(length, length - quarter) >= all_alternate);
-    return grows && is_exponential ? std::optional<Recurrence>(fit) : std::nullopt;
+    if (!(sizes[3] > sizes[2] && sizes[2] > sizes[1] && sizes[1] > sizes[0] &&
+          ratio >= window.ratio * (1 + by_noise)))
+      return {};
+    fit.is_exponential =
+      turns ||
+      (sizes[3] - sizes[2] >= std::cbrt(ratio) * (sizes[1] - sizes[0]) && alternates(length));
+    return fit;
   }
 
 
@@ -179,15 +187,14 @@ namespace undine
   }
 
 
-  /// How much of the jumps in these steps changes its sign from step to step [1].
-  double
-  Swing::alternating_share(const unsigned int first, const unsigned int last) const
+  /// Do all jumps in so many steps change their signs from step to step?
+  bool
+  Swing::alternates(const unsigned int window) const
   {
-    Signal sum{};
-    for (unsigned int steps = last; steps < first; ++steps)
-      for (unsigned int axis = 0; axis < 3; ++axis)
-        sum[axis] += (steps % 2 == 0 ? 1 : -1) * before(steps).jump[axis];
-    return norm(sum) / ((first - last) * mean_size(first, last));
+    for (unsigned int steps = 0; steps + 1 < window; ++steps)
+      if (product(before(steps).jump, before(steps + 1).jump) >= 0)
+        return false;
+    return true;
   }
 
 
@@ -275,24 +282,25 @@ namespace undine
 
   /// The factor is that of means over quarters of windows of one length.
   void
-  Swing::note(const unsigned int window, const Recurrence &recurrence)
+  Swing::note(Track &track, const unsigned int window, const Recurrence &recurrence)
   {
-    if (!found)
+    auto &growth = track.growth;
+    if (!growth)
       {
-        found.emplace();
-        found->since = before(window).time;
-        found->what  = "amplitude";
-        first_step   = n_steps - window;
-        first_window = window;
-        first_size   = mean_size(window, window - window / 4);
-        peak         = 0;
+        growth.emplace();
+        growth->since    = before(window).time;
+        growth->what     = "amplitude";
+        track.first_step = n_steps - window;
+        track.window     = window;
+        track.first_size = mean_size(window, window - window / 4);
+        peak             = 0;
       }
-    found->until         = moments.back().time;
-    found->mode          = words(recurrence.period);
-    const auto   quarter = first_window / 4;
+    growth->until        = moments.back().time;
+    growth->mode         = words(recurrence.period);
+    const auto   quarter = track.window / 4;
     const double size    = mean_size(quarter, 0);
-    const double begin   = std::max(first_size, rounding * size);
-    found->factor        = std::pow(size / begin, 1. / (n_steps - first_step - quarter));
+    const double begin   = std::max(track.first_size, rounding * size);
+    growth->factor       = std::pow(size / begin, 1. / (n_steps - track.first_step - quarter));
   }
 
 

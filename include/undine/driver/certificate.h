@@ -84,6 +84,8 @@ namespace undine
     std::optional<Growth>
     growth() const;
     std::optional<Growth>
+    apparent_growth() const;
+    std::optional<Growth>
     past() const;
     std::string
     violated() const;

@@ -15,6 +15,7 @@ namespace undine
     std::string what;       ///< grows: "energy", "amplitude"
     std::string where;      ///< "body plate", "fluid"
     std::string mode;       ///< "swings from step to step", "period of 3.1 steps", "monotonic"
+    std::string doubt;      ///< why it may be none
 
     /// In words, without the time since when.
     std::string

@@ -28,7 +28,15 @@ namespace undine
     const std::optional<Growth> &
     growth() const
     {
-      return found;
+      return sure.growth;
+    }
+
+    /// The same where a mode with a period next to two steps, which stays as it is, may look like
+    /// it.
+    const std::optional<Growth> &
+    apparent_growth() const
+    {
+      return unsure.growth;
     }
 
     /// What has grown and died away.
@@ -62,10 +70,20 @@ namespace undine
     struct Recurrence
     {
       double a = 0, b = 0;
-      double share      = 0; ///< of the squares of jumps that it explains [1]
-      double root       = 0; ///< size of the largest [1]
-      bool   is_complex = false;
-      double period     = std::numeric_limits<double>::infinity(); ///< of that root, in steps
+      double share          = 0; ///< of the squares of jumps that it explains [1]
+      double root           = 0; ///< size of the largest [1]
+      bool   is_complex     = false;
+      double period         = std::numeric_limits<double>::infinity(); ///< of that root, in steps
+      bool   is_exponential = false; ///< does it grow, without a doubt
+    };
+
+    /// What grows.
+    struct Track
+    {
+      std::optional<Growth> growth;
+      double                first_size = 0; ///< of the jumps
+      unsigned int          first_step = 0, window = 0;
+      unsigned int          n_seen = 0; ///< how many more steps show it than do not
     };
 
     void
@@ -75,7 +93,7 @@ namespace undine
     std::optional<Recurrence>
     growing_mode(const Window &window) const;
     void
-    note(unsigned int window, const Recurrence &recurrence);
+    note(Track &track, unsigned int window, const Recurrence &recurrence);
     Recurrence
     recurrence(unsigned int window) const;
 
@@ -90,8 +108,8 @@ namespace undine
     mean_size(unsigned int first, unsigned int last) const;
     double
     largest_signal(unsigned int first, unsigned int last) const;
-    double
-    alternating_share(unsigned int first, unsigned int last) const;
+    bool
+    alternates(unsigned int window) const;
 
     const Moment &
     before(unsigned int steps) const
@@ -102,10 +120,10 @@ namespace undine
     std::deque<Moment>    moments; ///< the last ones
     Signal                last{}, last_slope{};
     double                largest = 0; ///< signal so far
-    std::optional<Growth> found, died_away;
-    double                first_size = 0, peak = 0; ///< of the jumps of what grows
-    unsigned int          n_steps = 0, n_seen = 0;
-    unsigned int          first_step = 0, first_window = 0, last_large = 0;
+    Track                 sure, unsure;
+    std::optional<Growth> died_away;
+    double                peak    = 0; ///< of the jumps of what grows
+    unsigned int          n_steps = 0, last_large = 0;
   };
 } // namespace undine
 
