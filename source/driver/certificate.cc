@@ -245,7 +245,7 @@ namespace undine
             result        = of_this;
             result->where = each.where;
             result->doubt =
-              "which samples of a steady swing with a period next to two steps do, too";
+              "samples of a steady swing with a period next to two steps may look like this";
           }
     return result;
   }
@@ -314,12 +314,12 @@ namespace undine
       return fmt::format(
         "failed at t = {:.6g} s: {}{}", time, failure, (now ? "; " : "") + growing + redone());
     if (now)
-      return growing + redone();
+      return growing + violated() + redone();
     if (const auto apparent = apparent_growth())
-      return fmt::format("undecided: {} grew from {:.6g} to {:.6g} s, {}{}",
-                         apparent->text(),
+      return fmt::format("undecided, it seems to grow from {:.6g} to {:.6g} s: {}; {}{}",
                          apparent->since,
                          apparent->until,
+                         apparent->text(),
                          apparent->doubt,
                          redone());
     std::string died_away;
@@ -341,8 +341,8 @@ namespace undine
           log.print("\nWARNING: before it failed, the run was {}", text(time, ""));
         return;
       }
-    const bool is_good = verdict("") == "stable" && violated().empty();
-    log.print("\n{}: {}", is_good ? "verdict" : "WARNING", text(time, ""));
+    const bool is_bad = verdict("") == "growing" || !violated().empty();
+    log.print("\n{}: {}", is_bad ? "WARNING" : "verdict", text(time, ""));
     for (const auto &law : margins.all())
       log.print("  {:<28} margin {:>7.4f}  {:.1e} of {:.1e}: {}",
                 law.law,

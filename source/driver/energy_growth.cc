@@ -77,8 +77,8 @@ namespace undine
   }
 
 
-  /// (V3): in both halves the energy grows, in the second by at least half the power of the first,
-  /// and less than half of it is known to have been put in.
+  /// (V3): in both halves the energy grows, in the second by at least a quarter of the power of the
+  /// first, and less than half of it is known to have been put in.
   bool
   EnergyGrowth::is_unexplained(const unsigned int window, const double least) const
   {
@@ -89,7 +89,7 @@ namespace undine
       return false;
     const double middle = before(window / 2).energy;
     const double first = std::log(middle / begin.energy), second = std::log(now.energy / middle);
-    return first > 0 && second >= first / 2;
+    return first > 0 && second >= first / 4;
   }
 
 
@@ -105,12 +105,13 @@ namespace undine
         growth->what  = "energy";
         peak          = 0;
       }
-    growth->since    = std::min(growth->since, begin.time);
-    growth->until    = now.time;
-    const double put = now.input_known ? now.input - begin.input : 0;
-    const double old = std::max(begin.energy + put, rounding * now.energy);
-    growth->factor   = std::max(growth->factor, std::pow(now.energy / old, 1. / steps));
-    window_of_growth = std::min(steps, windows.back());
+    growth->since      = std::min(growth->since, begin.time);
+    growth->until      = now.time;
+    const double put   = now.input_known ? now.input - begin.input : 0;
+    const double old   = std::max(begin.energy + std::max(0., put), rounding * now.energy);
+    const double alone = old + now.energy - begin.energy - put; // nothing else would be lost
+    growth->factor     = std::max(growth->factor, std::pow(alone / old, 1. / steps));
+    window_of_growth   = std::min(steps, windows.back());
   }
 
 
