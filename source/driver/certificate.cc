@@ -79,6 +79,8 @@ namespace undine
           energy_of_bodies.push_back(k);
         else if (name == "solid load potential" || name == "Potential energy")
           potential.push_back(k);
+        else if (name == "Fluid particles")
+          particles = k;
         unsigned int n = 1;
         for (const char axis : {'y', 'z'})
           if (k + n < columns.size() &&
@@ -131,6 +133,9 @@ namespace undine
         largest_potential              = std::max(largest_potential, std::abs(potential));
         if (scope.is_closed)
           step.least += part_of_potential * largest_potential;
+        else if (particles) // what flows in brings energy: that of one particle in the mean
+          for (double *const sum : {&step.energy, &step.input, &step.input_at_end, &step.exchange})
+            *sum /= std::max(1., report.columns[*particles].value);
       }
     last_potential = potential;
     return step;
@@ -275,6 +280,8 @@ namespace undine
       return "failed";
     if (growth())
       return "growing";
+    if (n_steps == 0)
+      return "undecided";
     return apparent_growth() ? "undecided" : "stable";
   }
 
@@ -311,8 +318,10 @@ namespace undine
                         is_over(*now, time) ? fmt::format(", until {:.6g} s", now->until) : "")
           : "";
     if (!failure.empty())
-      return fmt::format(
-        "failed at t = {:.6g} s: {}{}", time, failure, (now ? "; " : "") + growing + redone());
+      return fmt::format("failed at t = {:.6g} s: {}{}",
+                         time,
+                         failure,
+                         (now ? "; " : "") + growing + violated() + redone());
     if (now)
       return growing + violated() + redone();
     if (const auto apparent = apparent_growth())
@@ -322,6 +331,8 @@ namespace undine
                          apparent->text(),
                          apparent->doubt,
                          redone());
+    if (n_steps == 0)
+      return "undecided: no step has been made";
     std::string died_away;
     if (const auto gone = past())
       died_away = fmt::format("; what grew from {:.6g} to {:.6g} s ({}) has died away",

@@ -94,6 +94,7 @@ namespace undine
 
     const Scope                  scope;
     std::vector<std::size_t>     energy_of_fluid, energy_of_bodies, potential;
+    std::optional<std::size_t>   particles; ///< column of their number
     std::vector<Watched>         watched;
     EnergyGrowth                 energy;
     Margins                      margins;

@@ -180,6 +180,29 @@ TEST_CASE("particles: weight is all that works in a closed tank, and frames are 
 }
 
 
+TEST_CASE("particles that flow in bring energy")
+{
+  const auto run = [](const double factor) {
+    Certificate::Scope scope;
+    scope.steps_are_frames = true;
+    Certificate certificate(scope);
+    CHECK(certificate.text(0, "") == "undecided: no step has been made");
+    for (int n = 0; n < 200; ++n)
+      {
+        const double number = 10 + std::exp(0.02 * n);
+        Report       report;
+        report.dt      = 0.01;
+        report.columns = {{"Fluid particles", "1", number},
+                          {"Kinetic energy of fluid", "J", number * std::pow(factor, n)}};
+        certificate.observe(0.01 * (n + 1), report);
+      }
+    return certificate.verdict("");
+  };
+  CHECK(run(1) == "stable");
+  CHECK(run(1.01) == "undecided");
+}
+
+
 TEST_CASE("margins are those of the worst step")
 {
   Certificate certificate({});
