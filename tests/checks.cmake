@@ -61,6 +61,11 @@ add_test(NAME runs/summary
                  ${PROJECT_SOURCE_DIR}/prm)
 set_tests_properties(runs/summary PROPERTIES PROCESSORS 2 TIMEOUT 300)
 
+add_test(NAME runs/certificate
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_certificate.py $<TARGET_FILE:undine>
+                 ${PROJECT_SOURCE_DIR}/prm)
+set_tests_properties(runs/certificate PROPERTIES TIMEOUT 300)
+
 # Studies: their arithmetic, and tiny ones of each kind.
 add_test(NAME studies/arithmetic COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_study.py)
 add_test(NAME studies/tiny

@@ -150,12 +150,15 @@ namespace undine
                              const RunSummary<dim> &summary,
                              const Clock           &clock,
                              const Error           &failure,
+                             Log                   &log,
                              const MPI_Comm         communicator)
     {
+      const bool is_stopped = dynamic_cast<const Interruption *>(&failure) != nullptr;
+      const typename RunSummary<dim>::End end{failure.what(), !is_stopped};
+      summary.print_failure(log, clock.time, end);
       try
         {
-          write_whole_file(
-            folder, "summary.json", summary.json(clock, failure.what()), communicator);
+          write_whole_file(folder, "summary.json", summary.json(clock, end), communicator);
         }
       catch (const FileError &)
         {
@@ -319,7 +322,7 @@ namespace undine
                                  scene,
                                  {[&](const State<dim> &now, const Report &report) {
                                    adviser.observe(now, report);
-                                   summary.observe(report);
+                                   summary.observe(now.clock.time, report);
                                  }},
                                  folder,
                                  log,
@@ -327,7 +330,7 @@ namespace undine
         }
       catch (const Error &failure)
         {
-          write_summary_of_failure(folder, summary, state.clock, failure, communicator);
+          write_summary_of_failure(folder, summary, state.clock, failure, log, communicator);
           throw;
         }
       write_checkpoint(folder.path(), scene.models, state, folder.statistics_digest);
@@ -335,10 +338,10 @@ namespace undine
       const auto advice = adviser.advice();
       effects.print_end(log, advice);
       if (summary.has_steps())
-        summary.print(log);
+        summary.print(log, state.clock.time);
       write_whole_file(folder, "effects.json", effects.json(advice), communicator);
       if (summary.has_steps())
-        write_whole_file(folder, "summary.json", summary.json(state.clock, ""), communicator);
+        write_whole_file(folder, "summary.json", summary.json(state.clock, {}), communicator);
       folder.finish();
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/version.h>
+#include <undine/coupled/budget/inertia.h>
 #include <undine/driver/json_text.h>
 #include <undine/driver/machine.h>
 #include <undine/driver/run_summary.h>
@@ -9,12 +10,27 @@
 
 namespace undine
 {
+  namespace
+  {
+    template <int dim>
+    Certificate::Scope
+    scope_of(const Models<dim> &models)
+    {
+      const auto &particles = models.particles;
+      return {inertia(models),
+              particles && !particles->has_openings() && particles->setup().n_moving == 0,
+              particles != nullptr};
+    }
+  } // namespace
+
+
   template <int dim>
   RunSummary<dim>::RunSummary(const Scene<dim> &scene, const Options &options, const Clock &start)
     : scene(scene)
     , options(options)
     , start(start)
     , core_seconds_of_start(core_seconds())
+    , certificate(scope_of(scene.models))
   {
   }
 
@@ -51,9 +67,10 @@ namespace undine
 
   template <int dim>
   void
-  RunSummary<dim>::observe(const Report &report)
+  RunSummary<dim>::observe(const double time, const Report &report)
   {
     ++n_steps;
+    certificate.observe(time, report);
     newton_iterations += report.newton_iterations;
     linear_iterations += report.linear_iterations;
     cuts += report.cuts;
@@ -88,7 +105,7 @@ namespace undine
 
   template <int dim>
   void
-  RunSummary<dim>::print(Log &log) const
+  RunSummary<dim>::print(Log &log, const double time) const
   {
     log.print("\nwhat the run knows of its own error, the largest in any step{}:",
               start.step > 0 ? fmt::format(" since step {}", start.step) : "");
@@ -99,6 +116,16 @@ namespace undine
                                        : "shorter steps or 'Time / Tolerance'");
     for (const auto &[kind, error] : errors)
       log.print("  {:<15} {:.1e}  {}", kind, error.value, error.meaning);
+    certificate.print(log, time, {});
+  }
+
+
+  template <int dim>
+  void
+  RunSummary<dim>::print_failure(Log &log, const double time, const End &end) const
+  {
+    if (has_steps())
+      certificate.print(log, time, end.has_failed ? end.reason : "");
   }
 
 
@@ -153,7 +180,7 @@ namespace undine
 
   template <int dim>
   std::string
-  RunSummary<dim>::json(const Clock &clock, const std::string &failure) const
+  RunSummary<dim>::json(const Clock &clock, const End &end) const
   {
     const auto known = json_list(errors, [](const auto &error) {
       return fmt::format("{{\"kind\": {}, \"largest\": {}, \"meaning\": {}}}",
@@ -167,14 +194,14 @@ namespace undine
       "  \"time [s]\": {:.10g},\n  \"end [s]\": {:.10g},\n  \"steps\": {},\n  \"step cuts\": {},\n"
       "  \"Newton iterations\": {},\n  \"linear iterations\": {},\n  \"unknowns\": {},\n"
       "  \"cost\": {},\n  \"tolerances\": {},\n  \"time is estimated\": {},\n  \"errors\": "
-      "{}\n}}\n",
+      "{},\n  \"certificate\": {}\n}}\n",
       quoted("undine " UNDINE_VERSION),
       quoted(scene.title),
       quoted(options.file().name()),
       dim,
       dealii::Utilities::MPI::n_mpi_processes(scene.models.communicator()),
       clock.ended(),
-      quoted(failure),
+      quoted(end.reason),
       start.time,
       clock.time,
       clock.end_time,
@@ -186,7 +213,8 @@ namespace undine
       costs(),
       tolerances(),
       time_is_estimated.value_or(false),
-      known);
+      known,
+      certificate.json(clock.time, end.has_failed ? end.reason : ""));
   }
 
 

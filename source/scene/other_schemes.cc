@@ -42,7 +42,8 @@ namespace undine
            {{"Maximum cuts", "Remove it: a frame is made of as many sub-steps as it needs."}},
            "belongs to other schemes than 'particle'");
     refuse(scene.section("Output"),
-           {{"Budget", "Remove it: 'statistics' has the energies and the momentum."}},
+           {{"Budget", "Remove it: 'statistics' has the energies and the momentum."},
+            {"Energy account", "Remove it: 'statistics' has the energies."}},
            "belongs to other schemes than 'particle'");
     refuse(scene.section("Domain"),
            {{"Cells", spacing},

@@ -4,6 +4,7 @@
 
 #include <undine/base/options/options.h>
 #include <undine/coupled/state/report.h>
+#include <undine/driver/certificate.h>
 #include <undine/driver/log.h>
 #include <undine/scene/scene.h>
 
@@ -18,19 +19,19 @@
 namespace undine
 {
   /// What a run knows at its end, of the steps since its start or since it was taken up again, of
-  /// its cost and of its own error, for the user and as the file `summary.json`. Only what the run
-  /// has measured is in it: where nothing estimates an error, it says so.
+  /// its cost, its stability and its own error, for the user and as the file `summary.json`. Only
+  /// what the run has measured is in it: where nothing estimates an error, it says so.
   template <int dim>
   class RunSummary
   {
   public:
     /// The run stands before its first step, set up or taken up again at `start`. The references
-    /// must outlive it.
+    /// must outlive it. Collective.
     RunSummary(const Scene<dim> &scene, const Options &options, const Clock &start);
 
-    /// A step has been made.
+    /// A step has been made, to `time` [s].
     void
-    observe(const Report &report);
+    observe(double time, const Report &report);
 
     /// Has any step been made? If not, there is nothing to say: an earlier summary stays.
     bool
@@ -39,13 +40,24 @@ namespace undine
       return n_steps > 0;
     }
 
-    /// A line for each kind of error that the run knows.
+    /// A line for each kind of error that the run knows, and whether it was stable, at `time` [s].
     void
-    print(Log &log) const;
+    print(Log &log, double time) const;
 
-    /// All of it; `failure`: why the run has ended before its time, empty: it has not. Collective.
+    /// Why a run ended before its time.
+    struct End
+    {
+      std::string reason;             ///< empty: it has not
+      bool        has_failed = false; ///< else it was asked to stop
+    };
+
+    /// What there is to say of stability where the run has come to this end, at `time` [s].
+    void
+    print_failure(Log &log, double time, const End &end) const;
+
+    /// All of it. Collective.
     std::string
-    json(const Clock &clock, const std::string &failure) const;
+    json(const Clock &clock, const End &end) const;
 
   private:
     /// Of a kind of error: the largest of a dimensionless measure in any step.
@@ -77,6 +89,7 @@ namespace undine
     unsigned int        n_steps = 0, newton_iterations = 0, linear_iterations = 0, cuts = 0;
     std::optional<bool> time_is_estimated; ///< none before the first step
     Errors              errors;
+    Certificate         certificate;
 
     const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   };

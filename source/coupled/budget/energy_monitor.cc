@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/coupled/budget/energy_monitor.h>
-#include <undine/solid/step/solid_columns.h>
+#include <undine/coupled/budget/inertia.h>
 
 #include <fmt/format.h>
 
@@ -49,8 +49,9 @@ namespace undine
 
 
   void
-  EnergyMonitor::add_options(const Options &time, const Response usual)
+  EnergyMonitor::add_options(const Options &options, const Response usual)
   {
+    const auto time = options.section("Time"), output = options.section("Output");
     response = usual == Response::none ? "off" : usual == Response::warn ? "warn" : "redo";
     time.add(
       "Energy monitor",
@@ -61,31 +62,51 @@ namespace undine
       "into them from outside, by more than a tenth of it and of what goes in and out: "
       "nothing; a warning; or redo it with half its length, as long as that creates less. Smaller "
       "amounts add up to a two-hundredth of the largest energy before that.");
+    output.add(
+      "Energy account",
+      writes_columns,
+      "",
+      Allowed::anything(),
+      "Write the energy of fluid and bodies, what is put into them in every step, and what "
+      "all steps have created, as Time / Energy monitor sees it.");
+    if (writes_columns && response == "off")
+      output.mistake(output.error(
+        "Energy account", "needs the monitor", "Try: Time / Energy monitor = warn or redo."));
+  }
+
+
+  /// The row of the account in `statistics`.
+  void
+  EnergyMonitor::add_columns(Columns             &columns,
+                             const EnergyAccount &account,
+                             const EnergyInput   &input) const
+  {
+    if (!writes_columns)
+      return;
+    const auto add = [&](const std::string &name, const double value) {
+      columns.push_back({name, "J", value});
+    };
+    add("energy", account.energy);
+    add("energy put in", input.by_means);
+    add("energy put in by forces at the end", input.at_end);
+    add("energy exchanged", input.of_works + input.of_powers);
+    add("energy created", account.created);
   }
 
 
   template <int dim>
   void
-  EnergyMonitor::start(const Models<dim> &models, State<dim> &state, const Columns &columns)
+  EnergyMonitor::start(const Models<dim> &models, State<dim> &state, Columns &columns)
   {
     if (response == "off")
       return;
+    if (writes_columns && models.direction != Direction::two_way)
+      throw InputError("Output / Energy account: of a coupling in one direction there is none. "
+                       "Try: remove the key.");
     auto &account  = state.account.emplace();
     account.energy = account.largest = energy_of(columns);
-    const auto add                   = [this](const double mass, const double volume) {
-      inertia += mass * std::pow(volume, 2. / dim);
-    };
-    if (models.fluid)
-      {
-        const auto extent = models.fluid->grid().upper() - models.fluid->grid().lower();
-        double     volume = 1;
-        for (unsigned int axis = 0; axis < dim; ++axis)
-          volume *= extent[axis];
-        add(models.fluid->density() * volume, volume);
-      }
-    if (models.solid)
-      for (const auto &body : measure_bodies(*models.solid, models.solid->vector()))
-        add(body.mass, body.volume);
+    add_columns(columns, account, {account, account, 0.});
+    moment = inertia(models);
   }
 
 
@@ -121,18 +142,18 @@ namespace undine
   EnergyMonitor::Creation
   EnergyMonitor::created(const EnergyAccount &last, const EnergyAccount &now, const double dt) const
   {
-    const auto  &first    = last.known ? last : now;
-    const double gain     = now.energy - last.energy;
-    const double exchange = dt / 2 * (first.exchange + now.exchange);
-    const double scale =
-      last.energy + now.work_exchange + exchange + inertia * std::pow(least_way / dt, 2);
+    const EnergyInput input(last, now, dt);
+    const double      gain = now.energy - last.energy;
+    const double      scale =
+      last.energy + input.of_works + input.of_powers + moment * std::pow(least_way / dt, 2);
 
     Creation step;
-    step.is_known      = last.known || exchange <= small_work_of_powers * (scale - exchange);
-    step.energy        = gain - now.work - dt / 2 * (first.power + now.power);
-    const double least = std::min(step.energy, gain - now.work_at_end - dt * now.power);
+    step.is_known =
+      last.known || input.of_powers <= small_work_of_powers * (scale - input.of_powers);
+    step.energy        = gain - input.by_means;
+    const double least = std::min(step.energy, gain - input.at_end);
     step.share         = least / scale;
-    step.uncertain     = largest_share * exchange + step.energy - least;
+    step.uncertain     = largest_share * input.of_powers + step.energy - least;
     step.exceeds_sum =
       step.share > share_in_sum && last.created - last.excused + step.energy >
                                      largest_sum * now.largest + last.uncertain + step.uncertain;
@@ -207,13 +228,14 @@ namespace undine
                               "Try: shorter steps.",
                               now.created,
                               now.created / now.largest));
+    add_columns(report.columns, now, {last, now, report.dt});
     state.account = now;
   }
 
 
-#define INSTANTIATE(dim)                                                                  \
-  template void EnergyMonitor::start(const Models<dim> &, State<dim> &, const Columns &); \
-  template void EnergyMonitor::begin_step(State<dim> &, Report &) const;                  \
+#define INSTANTIATE(dim)                                                            \
+  template void EnergyMonitor::start(const Models<dim> &, State<dim> &, Columns &); \
+  template void EnergyMonitor::begin_step(State<dim> &, Report &) const;            \
   template void EnergyMonitor::judge(State<dim> &, Report &, bool) const;
 
   INSTANTIATE(2)

@@ -41,7 +41,7 @@ namespace undine
              Allowed::between(0, 20),
              "A step that fails is redone with half its length; the run stops where that would be "
              "less than Step halved so often.");
-    energy_monitor.add_options(time, response_to_created_energy());
+    energy_monitor.add_options(options, response_to_created_energy());
     integrator = choose_time_integrator(options);
     options.section("Output").add(
       "Budget",

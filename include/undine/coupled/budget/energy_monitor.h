@@ -5,6 +5,7 @@
 #include <undine/base/core/column.h>
 #include <undine/base/core/errors.h>
 #include <undine/base/options/options.h>
+#include <undine/coupled/budget/energy_input.h>
 #include <undine/coupled/model/models.h>
 #include <undine/coupled/state/energy_account.h>
 #include <undine/coupled/state/report.h>
@@ -45,15 +46,16 @@ namespace undine
       using SolveError::SolveError;
     };
 
-    /// `Energy monitor` of the section `Time`, with the response as its default.
+    /// `Time / Energy monitor`, with the response as its default, and `Output / Energy account`.
     void
-    add_options(const Options &time, Response response);
+    add_options(const Options &options, Response response);
 
-    /// `state` at the start of a run, of the given columns, gets an account, if there is a monitor.
-    /// Collective.
+    /// `state` at the start of a run, of the given columns, gets an account, if there is a monitor,
+    /// and the columns those of the account, if the scene asks for them. Throws InputError if it
+    /// does so where no account can be kept. Collective.
     template <int dim>
     void
-    start(const Models<dim> &models, State<dim> &state, const Columns &columns);
+    start(const Models<dim> &models, State<dim> &state, Columns &columns);
 
     /// A step from `state` is tried: its report gets an empty account, if there is a monitor.
     template <int dim>
@@ -75,9 +77,12 @@ namespace undine
     created(const EnergyAccount &last, const EnergyAccount &now, double dt) const;
     void
     respond(const Creation &step, Report &report, bool can_be_cut) const;
+    void
+    add_columns(Columns &columns, const EnergyAccount &account, const EnergyInput &input) const;
 
-    std::string response;    ///< off | warn | redo
-    double      inertia = 0; ///< sum of mass and the square of its extent [kg m^2]
+    std::string response;               ///< off | warn | redo
+    bool        writes_columns = false; ///< of the account
+    double      moment         = 0;     ///< inertia() [kg m^2]
   };
 } // namespace undine
 
