@@ -8,11 +8,11 @@ from study import description
 from study.campaign import Campaign, only_one
 from study.cases import Case
 
-VERDICTS = ("stable", "growing", "failed")
+VERDICTS = ("stable", "undecided", "growing", "failed")
 
 
 def verdict(result):
-    """"stable", "growing" or "failed"; "" of a run that was left out or says nothing."""
+    """One of VERDICTS; "" of a run that was left out or says nothing."""
     if result.get("left out"):
         return ""
     if result["failure"] and not result.get("stopped"):
@@ -22,7 +22,7 @@ def verdict(result):
 
 @dataclass
 class Boundary:
-    """Between two neighbours along the last range, of which one is stable and the other is not."""
+    """Between two neighbours along the last range, of which one is stable and the other one is not, or not surely."""
     line: tuple  # positions in all other variations
     stable: float
     unstable: float

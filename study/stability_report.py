@@ -12,7 +12,7 @@ from matplotlib import pyplot  # noqa: E402
 from study import page, tables  # noqa: E402
 from study.stability import VERDICTS, verdict  # noqa: E402
 
-LOOKS = {"stable": ("o", "C2"), "growing": ("^", "C1"), "failed": ("x", "C3")}
+LOOKS = {"stable": ("o", "C2"), "undecided": ("s", "C7"), "growing": ("^", "C1"), "failed": ("x", "C3")}
 
 
 def panels(found):
@@ -58,7 +58,7 @@ def draw(found, path):
     handles = axes[0][0].get_legend_handles_labels()
     figure.suptitle(study.title, fontsize=11)
     figure.tight_layout(rect=(0, 0.07, 1, 1))
-    figure.legend(*handles, loc="lower center", ncol=4, fontsize=9)
+    figure.legend(*handles, loc="lower center", ncol=5, fontsize=9)
     figure.savefig(path, dpi=100)
     pyplot.close(figure)
 
@@ -93,7 +93,7 @@ def text(found, pictures=False):
     rows = [[*[variation.names[position] for variation, position in zip(study.variations, case.index)],
              verdict(result), reason(result)]
             for case, result in sorted(found.results.items(), key=lambda item: (item[0].index, found.number(item[0])))
-            if verdict(result) in ("growing", "failed")]
+            if verdict(result) in VERDICTS[1:]]
     lines += tables.table([variation.name for variation in study.variations] + ["verdict", "why"], rows) if rows else ["None.", ""]
     return "\n".join(lines).rstrip() + "\n"
 

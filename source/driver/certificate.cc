@@ -12,6 +12,7 @@ namespace undine
     constexpr unsigned int longest_window    = 100;
     constexpr double       least_way         = 1e-7; // of the extent, in a step: less is rounding
     constexpr double       part_of_potential = 1e-3; // less than this is rounding of particles
+    constexpr double       rounding          = 1e-6; // of the largest force or velocity
     constexpr double       many_redone       = 0.01; // of all steps
 
     // Of the energy that grows: then they are what shakes the fluid, which often has most of it.
@@ -159,25 +160,47 @@ namespace undine
   }
 
 
+  /// A force or a velocity at the end of a step; nothing of a place whose velocity is not known
+  /// yet.
+  std::optional<Swing::Signal>
+  Certificate::signal_of(Watched &each, const Report &report) const
+  {
+    Swing::Signal signal{};
+    for (unsigned int axis = 0; axis < each.components; ++axis)
+      signal[axis] = report.columns[each.column + axis].value;
+    if (!each.moves)
+      return signal;
+    const auto place = each.place;
+    each.place       = signal;
+    if (n_steps == 1)
+      return {};
+    for (unsigned int axis = 0; axis < each.components; ++axis)
+      signal[axis] = (signal[axis] - place[axis]) / report.dt;
+    return signal;
+  }
+
+
+  /// What is rounding beside other forces or velocities may do as it likes.
   void
   Certificate::watch(const double time, const Report &report)
   {
+    std::vector<std::optional<Swing::Signal>> signals;
     for (auto &each : watched)
       {
-        Swing::Signal signal{};
-        for (unsigned int axis = 0; axis < each.components; ++axis)
-          signal[axis] = report.columns[each.column + axis].value;
-        if (each.moves)
-          {
-            const auto place = signal;
-            for (unsigned int axis = 0; axis < each.components; ++axis)
-              signal[axis] = (place[axis] - each.place[axis]) / report.dt;
-            each.place = place;
-            if (n_steps == 1)
-              continue;
-          }
-        each.swing.observe(time, report.dt, signal);
+        signals.push_back(signal_of(each, report));
+        if (const auto &signal = signals.back())
+          for (const double component : *signal)
+            {
+              double &largest = each.moves ? largest_velocity : largest_force;
+              largest         = std::max(largest, std::abs(component));
+            }
       }
+    for (std::size_t k = 0; k < watched.size(); ++k)
+      if (signals[k])
+        watched[k].swing.observe(time,
+                                 report.dt,
+                                 *signals[k],
+                                 rounding * (watched[k].moves ? largest_velocity : largest_force));
   }
 
 

@@ -415,7 +415,7 @@ namespace undine
   void
   read_study(const Options &options)
   {
-    std::string         title = "Study", scene;
+    std::string         title    = "Study", scene;
     double              boundary = 1.2;
     std::vector<double> levels{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
     options.add("Title", title, "", Allowed::anything(), "What the study shows.");
@@ -441,9 +441,9 @@ namespace undine
                   "Value of a key of the scene in all runs; empty: the scene is taken without the "
                   "key, which another integrator may not know, for example.");
 
-    const auto variations = options.section("Vary");
-    const auto names      = variations.named_sections("variation");
-    unsigned int n_ranges = 0;
+    const auto   variations = options.section("Vary");
+    const auto   names      = variations.named_sections("variation");
+    unsigned int n_ranges   = 0;
     for (const auto &name : names)
       n_ranges += read_variation(variations.section(name), "Vary/" + name + "/");
     if (names.empty())

@@ -65,8 +65,9 @@ namespace undine
 
 
   void
-  Swing::observe(const double time, const double dt, const Signal &signal)
+  Swing::observe(const double time, const double dt, const Signal &signal, const double least)
   {
+    this->least = least;
     Moment now{time, {}, 0, 0, norm(signal), 0};
     Signal slope{};
     for (unsigned int axis = 0; axis < 3; ++axis)
@@ -141,7 +142,7 @@ namespace undine
   {
     const unsigned int length = window.length, quarter = length / 4;
     const double       first = mean_size(length, length - quarter), last = mean_size(quarter, 0);
-    if (last < nearly * window.ratio * first || last < window.material * largest ||
+    if (last < nearly * window.ratio * first || last < window.material * largest || last < least ||
         last < more_than_ever * before(length).record)
       return {};
     const double signal       = largest_signal(quarter, 0);

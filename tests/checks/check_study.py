@@ -178,6 +178,25 @@ def check_budgets(program, _, folder):
                 f"{scene} with bad {bad}: {budget}")
 
 
+def check_map(program, studies, folder):
+    """A map of stability: splitting fails where the fluid is heavy, from a density on that bisection finds; solved together
+    all holds."""
+    out = os.path.join(folder, "stability")
+    done = run(program, os.path.join(studies, "stability.prm"), out)
+    require(done.returncode == 0, f"stability: {done.stdout}{done.stderr}")
+    for file in ("stability.md", "stability.svg", "stability.png", "index.html"):
+        require(os.path.getsize(os.path.join(out, file)) > 100, f"stability: {file} is missing or empty")
+    with open(os.path.join(out, "stability.csv")) as file:
+        rows = list(csv.DictReader(file))
+    for step in ("1/100", "1/200"):
+        together, in_turns = ([(float(row["density of the fluid"]), row["verdict"]) for row in rows
+                               if row["scheme"] == scheme and row["step"] == step] for scheme in ("simultaneous", "splitting u"))
+        require(len(together) == 2 and all(verdict == "stable" for _, verdict in together), f"stability: {together}")
+        stable = [density for density, verdict in in_turns if verdict == "stable"]
+        bad = [density for density, verdict in in_turns if verdict != "stable"]
+        require(stable and bad and max(stable) < min(bad) <= 2 * max(stable), f"stability: {in_turns}")
+
+
 def check_mistakes(program, studies, folder):
     with open(os.path.join(studies, "coupled.prm")) as file:
         text = file.read()
@@ -255,7 +274,7 @@ def check_shipped(program, _, folder):
 def main():
     program, studies = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
-        for check in (check_kinds, check_budgets, check_kill, check_limit, check_mistakes, check_accuracy,
+        for check in (check_kinds, check_budgets, check_map, check_kill, check_limit, check_mistakes, check_accuracy,
                       check_earlier, check_shipped):
             check(program, studies, folder)
 

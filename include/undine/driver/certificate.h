@@ -77,6 +77,8 @@ namespace undine
     find_columns(const Columns &columns);
     EnergyGrowth::Step
     energies(double time, const Report &report);
+    std::optional<Swing::Signal>
+    signal_of(Watched &each, const Report &report) const;
     void
     watch(double time, const Report &report);
     void
@@ -101,6 +103,7 @@ namespace undine
     std::optional<EnergyAccount> last_account;
     std::deque<double> of_fluid, of_bodies; ///< energies at the ends of the last steps [J]
     double             last_potential = 0, largest_potential = 0; ///< [J]
+    double             largest_force = 0, largest_velocity = 0;   ///< of all watched [N], [m/s]
     std::string        where, mode;                               ///< of the energy that grows
     unsigned int       located_over = 0, n_steps = 0, n_redone = 0;
   };

@@ -20,9 +20,10 @@ namespace undine
     using Signal = std::array<double, 3>; ///< components that a scene has not are zero
     struct Window;
 
-    /// The signal at the end of a step of length `dt` [s], which ends at `time` [s].
+    /// The signal at the end of a step of length `dt` [s], which ends at `time` [s]. Jumps that are
+    /// smaller than `least` do not matter.
     void
-    observe(double time, double dt, const Signal &signal);
+    observe(double time, double dt, const Signal &signal, double least);
 
     /// Unless it has died away again. Without `where`.
     const std::optional<Growth> &
@@ -120,6 +121,7 @@ namespace undine
     std::deque<Moment>    moments; ///< the last ones
     Signal                last{}, last_slope{};
     double                largest = 0; ///< signal so far
+    double                least   = 0; ///< jump that matters
     Track                 sure, unsure;
     std::optional<Growth> died_away;
     double                peak    = 0; ///< of the jumps of what grows

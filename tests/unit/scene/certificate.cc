@@ -224,3 +224,20 @@ TEST_CASE("margins are those of the worst step")
   CHECK(contains(text, "\"volume of room\", \"value\": 0.005, \"bound\": 0.01, \"margin\": 0.5,"));
   CHECK(certificate.text(5, "") == "stable; not kept: momentum of body plate");
 }
+
+
+TEST_CASE("what swings by less than the rounding of other forces does not matter")
+{
+  for (const double size : {1e-14, 1e-11, 1e-8, 1e-5})
+    {
+      History run;
+      for (int n = 0; n < 120; ++n)
+        {
+          History::Step step{1e3, 1e-3, 1, 3 + std::sin(0.05 * n)};
+          step.force_on_sides = size * std::pow(1.2, std::min(n, 40)) * (n % 2 == 0 ? 1 : -1);
+          run.add(step);
+        }
+      INFO(size);
+      CHECK((run.verdict() == "growing") == (size > 1e-9));
+    }
+}

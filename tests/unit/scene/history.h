@@ -22,6 +22,7 @@ namespace undine
       double       power          = 0;        ///< put in, at the end [W]
       double       size_of_powers = 0;        ///< [W]; less than that of `power`: the latter
       unsigned int cuts           = 0;
+      double       force_on_sides = 0; ///< [N]
     };
 
     explicit History(const bool has_account = true, const Certificate::Scope &scope = {})
@@ -44,7 +45,9 @@ namespace undine
                         {"centre of mass plate x", "m", place},
                         {"centre of mass plate y", "m", 0.5},
                         {"pressure force plate x", "N", step.force},
-                        {"pressure force plate y", "N", 0.}};
+                        {"pressure force plate y", "N", 0.},
+                        {"Pressure force on other sides, x", "N", 0.},
+                        {"Pressure force on other sides, y", "N", step.force_on_sides}};
       if (has_account)
         {
           auto &account    = report.account.emplace();
