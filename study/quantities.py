@@ -41,11 +41,20 @@ def upward_passages(times, values):
     return times[at] + (times[at + 1] - times[at]) * (middle - before[at]) / (after[at] - before[at])
 
 
+def rates(times, values):
+    """Derivatives of second order: those of the parabola through a value and its neighbours, or the nearest one."""
+    if len(times) < 3:
+        raise NotEvaluated("a rate needs three rows")
+    return numpy.gradient(values, times, axis=0, edge_order=2)
+
+
 def series(quantity, columns):
-    """Times and values [time][component] of all rows, each at the time of its step that it belongs to."""
+    """Times and values [time][component] of all rows, each at the time of its step that it belongs to; or their rates."""
     times = column(columns, "Time")
     values = quantity.factor * numpy.stack(
         [sum(column(columns, name) for name in names) for names in quantity.components()], axis=1)
+    if quantity.rate:
+        values = rates(times, values)
     if quantity.share_of_step < 1:
         times = times[:-1] + quantity.share_of_step * numpy.diff(times)
         values = values[1:]

@@ -305,6 +305,7 @@ namespace undine
     {
       std::string columns, field = "none", evaluate = "end", unit;
       double      factor = 1, share = 1;
+      bool        rate = false;
       options.add("Columns",
                   columns,
                   "",
@@ -323,6 +324,13 @@ namespace undine
           columns.empty() ? "or 'Field' must be given" : "and 'Field' are both given",
           "Name columns as the header of the run's file 'statistics' has them, without units."));
       options.add("Factor", factor, "", Allowed::anything(), "By which the sum is multiplied.");
+      options.add("Rate",
+                  rate,
+                  "",
+                  Allowed::anything(),
+                  "The derivative in time of the sum is evaluated, at every row that of the "
+                  "parabola through this and the rows before and after; at the first and the last "
+                  "row that of the nearest parabola. Of an impulse it is a force of second order.");
       options.add("Unit", unit, "", Allowed::anything(), "Of the result, for tables.");
       options.add(
         "Evaluate",
