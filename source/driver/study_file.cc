@@ -355,6 +355,10 @@ namespace undine
                   "1",
                   Allowed::between(0, 1),
                   "Which time of a step the values belong to: 1 its end, 0.5 its middle.");
+      if (rate && share != 1)
+        options.mistake(options.error("Share of step",
+                                      "is given beside 'Rate', which belongs to the times of rows",
+                                      "Remove one of them."));
       read_window(options);
       read_points(options, field);
       read_reference(options);

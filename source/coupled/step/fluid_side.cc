@@ -379,7 +379,10 @@ namespace undine
       report.account->add_power(-kinetic_energy_outflow(model, state.fluid.velocity));
     Vectors pressures; // those that have accelerated the fluid, before friction corrects them
     if (state.impulses)
-      pressures = pressures_on_surfaces(state, fluid.end);
+      {
+        const auto phase = timing.section("measure");
+        pressures        = pressures_on_surfaces(state, fluid.end);
+      }
     fluid.finish();
     if (fluid.friction)
       {
