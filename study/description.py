@@ -10,7 +10,7 @@ from study.cases import AS_IS, QUANTITIES, RANKS
 
 AXES = "xyz"
 # Keys of a quantity that variations may change.
-VARIABLE = ("Columns", "Factor", "Rate", "Evaluate", "Share of step", "From", "Until", "Periods", "Period of")
+VARIABLE = ("Columns", "Factor", "Rate", "Rate over", "Evaluate", "Share of step", "From", "Until", "Periods", "Period of")
 FIELD_COLUMNS = {"velocity": "velocity", "pressure": "pressure", "displacement": "displacement",
                  "body velocity": "velocity"}
 
@@ -56,6 +56,7 @@ class Quantity:
     section: dict = field(default_factory=dict)  # that all of this is from
     folder: str = ""
     rate: bool = False
+    rate_over: float = 0
 
     def has_reference(self):
         return bool(self.reference or self.reference_file)
@@ -161,7 +162,7 @@ def quantity(name, section, folder):
         numbers(text("Upper corner")), numbers(text("Points")), split(text("Reference"), ";"), file,
         text("Reference column"), dict(split(part, "=") for part in split(text("Reference row"), ",")),
         text("Reference times"), float(text("Reference factor")), float(text("Scale")), section, folder,
-        truth(text("Rate", "false")))
+        truth(text("Rate", "false")), float(text("Rate over", "0")))
 
 
 def check_own_keys(study):

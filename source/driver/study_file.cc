@@ -304,7 +304,7 @@ namespace undine
     read_quantity(const Options &options)
     {
       std::string columns, field = "none", evaluate = "end", unit;
-      double      factor = 1, share = 1;
+      double      factor = 1, share = 1, over = 0;
       bool        rate = false;
       options.add("Columns",
                   columns,
@@ -331,6 +331,15 @@ namespace undine
                   "The derivative in time of the sum is evaluated, at every row that of the "
                   "parabola through this and the rows before and after; at the first and the last "
                   "row that of the nearest parabola. Of an impulse it is a force of second order.");
+      options.add("Rate over",
+                  over,
+                  "s",
+                  Allowed::not_negative(),
+                  "Instead the mean rate over this time around a row, the same for runs of all "
+                  "steps, where there are rows so long before and after. 0: as above.");
+      if (over > 0 && !rate)
+        options.mistake(
+          options.error("Rate over", "is given without 'Rate'", "Set 'Rate = true'."));
       options.add("Unit", unit, "", Allowed::anything(), "Of the result, for tables.");
       options.add(
         "Evaluate",

@@ -143,6 +143,17 @@ class Quantities(unittest.TestCase):
             errors.append(numpy.abs(found.values[:, 0] - 3 * numpy.cos(3 * times)).max())
         self.assertAlmostEqual(math.log2(errors[0] / errors[1]), 2, 1)
 
+    def test_rates_over_a_time_are_means_that_no_step_changes(self):
+        for step in (0.1, 0.05, 0.03):
+            times = numpy.arange(0, 2, step)
+            found = quantities.evaluate(quantity(rate=True, rate_over=0.4, evaluate="over time", start=0.5, until=1.5),
+                                        {"Time": times, "a": times ** 3})
+            inside = found.values[1:-1, 0]
+            numpy.testing.assert_allclose(inside, 3 * found.times[1:-1] ** 2 + 0.2 ** 2, atol=1e-10)
+            ends = quantities.evaluate(quantity(rate=True, rate_over=0.4, evaluate="over time"),
+                                       {"Time": times, "a": times ** 2})
+            numpy.testing.assert_allclose(ends.values[:, 0], 2 * times, atol=1e-10)
+
     def test_rates_are_taken_before_the_window(self):
         times = numpy.linspace(0, 1, 11)
         kink = {"Time": times, "a": numpy.maximum(0, times - 0.5)}
