@@ -10,7 +10,7 @@ from study.cases import AS_IS, QUANTITIES, RANKS
 
 AXES = "xyz"
 # Keys of a quantity that variations may change.
-VARIABLE = ("Columns", "Factor", "Evaluate", "Share of step", "From", "Until", "Periods", "Period of")
+VARIABLE = ("Columns", "Factor", "Rate", "Rate over", "Evaluate", "Share of step", "From", "Until", "Periods", "Period of")
 FIELD_COLUMNS = {"velocity": "velocity", "pressure": "pressure", "displacement": "displacement",
                  "body velocity": "velocity"}
 
@@ -59,6 +59,8 @@ class Quantity:
     scale: float
     section: dict = field(default_factory=dict)  # that all of this is from
     folder: str = ""
+    rate: bool = False
+    rate_over: float = 0
 
     def has_reference(self):
         return bool(self.reference or self.reference_file)
@@ -135,6 +137,12 @@ def numbers(text):
     return [float(word) for word in split(text, ",")]
 
 
+def truth(text):
+    if text not in ("true", "false"):
+        raise ValueError(f"'{text}' is neither 'true' nor 'false'")
+    return text == "true"
+
+
 def flat(section, path=""):
     """{"Section/Key": text} of nested sections."""
     result = {}
@@ -162,7 +170,8 @@ def quantity(name, section, folder):
         "" if text("Field") == "none" else text("Field"), text("Body"), numbers(text("Lower corner")),
         numbers(text("Upper corner")), numbers(text("Points")), split(text("Reference"), ";"), file,
         text("Reference column"), dict(split(part, "=") for part in split(text("Reference row"), ",")),
-        text("Reference times"), float(text("Reference factor")), float(text("Scale")), section, folder)
+        text("Reference times"), float(text("Reference factor")), float(text("Scale")), section, folder,
+        truth(text("Rate", "false")), float(text("Rate over", "0")))
 
 
 def check_own_keys(study):

@@ -41,11 +41,26 @@ def upward_passages(times, values):
     return times[at] + (times[at + 1] - times[at]) * (middle - before[at]) / (after[at] - before[at])
 
 
+def rates(times, values, over=0):
+    """Derivatives of second order: those of the parabola through a value and its neighbours, or the nearest one; where there
+    are values before and after, means over a time around if it is given."""
+    if len(times) < 3:
+        raise NotEvaluated("a rate needs three rows")
+    result = numpy.gradient(values, times, axis=0, edge_order=2)
+    if over:
+        inside = (times - over / 2 >= times[0]) & (times + over / 2 <= times[-1])
+        after, before = (interpolate(times, values, times[inside] + shift) for shift in (over / 2, -over / 2))
+        result[inside] = (after - before) / over
+    return result
+
+
 def series(quantity, columns):
-    """Times and values [time][component] of all rows, each at the time of its step that it belongs to."""
+    """Times and values [time][component] of all rows, each at the time of its step that it belongs to; or their rates."""
     times = column(columns, "Time")
     values = quantity.factor * numpy.stack(
         [sum(column(columns, name) for name in names) for names in quantity.components()], axis=1)
+    if quantity.rate:
+        values = rates(times, values, quantity.rate_over)
     if quantity.share_of_step < 1:
         times = times[:-1] + quantity.share_of_step * numpy.diff(times)
         values = values[1:]

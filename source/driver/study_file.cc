@@ -330,7 +330,8 @@ namespace undine
     read_quantity(const Options &options)
     {
       std::string columns, field = "none", evaluate = "end", unit;
-      double      factor = 1, share = 1;
+      double      factor = 1, share = 1, over = 0;
+      bool        rate = false;
       options.add("Columns",
                   columns,
                   "",
@@ -349,6 +350,22 @@ namespace undine
           columns.empty() ? "or 'Field' must be given" : "and 'Field' are both given",
           "Name columns as the header of the run's file 'statistics' has them, without units."));
       options.add("Factor", factor, "", Allowed::anything(), "By which the sum is multiplied.");
+      options.add("Rate",
+                  rate,
+                  "",
+                  Allowed::anything(),
+                  "The derivative in time of the sum is evaluated, at every row that of the "
+                  "parabola through this and the rows before and after; at the first and the last "
+                  "row that of the nearest parabola. Of an impulse it is a force of second order.");
+      options.add("Rate over",
+                  over,
+                  "s",
+                  Allowed::not_negative(),
+                  "Instead the mean rate over this time around a row, the same for runs of all "
+                  "steps, where there are rows so long before and after. 0: as above.");
+      if (over > 0 && !rate)
+        options.mistake(
+          options.error("Rate over", "is given without 'Rate'", "Set 'Rate = true'."));
       options.add("Unit", unit, "", Allowed::anything(), "Of the result, for tables.");
       options.add(
         "Evaluate",
@@ -373,6 +390,10 @@ namespace undine
                   "1",
                   Allowed::between(0, 1),
                   "Which time of a step the values belong to: 1 its end, 0.5 its middle.");
+      if (rate && share != 1)
+        options.mistake(options.error("Share of step",
+                                      "is given beside 'Rate', which belongs to the times of rows",
+                                      "Remove one of them."));
       read_window(options);
       read_points(options, field);
       read_reference(options);

@@ -8,21 +8,6 @@ namespace undine
   namespace
   {
     const char *const axis_names[3] = {"x", "y", "z"};
-
-
-    template <int dim>
-    void
-    append(Columns                                   &columns,
-           const Surface<dim>                        &surface,
-           const std::string                         &name,
-           const std::vector<dealii::Tensor<1, dim>> &forces)
-    {
-      for (unsigned int body = 0; body < forces.size(); ++body)
-        for (unsigned int axis = 0; axis < dim; ++axis)
-          columns.push_back({name + " " + surface.body_names()[body] + " " + axis_names[axis],
-                             "N",
-                             forces[body][axis]});
-    }
   } // namespace
 
 
@@ -45,12 +30,17 @@ namespace undine
 
   template <int dim>
   Columns
-  body_force_columns(const std::string                         &name,
-                     const Surface<dim>                        &surface,
-                     const std::vector<dealii::Tensor<1, dim>> &forces)
+  body_columns(const std::string                         &name,
+               const std::string                         &unit,
+               const Surface<dim>                        &surface,
+               const std::vector<dealii::Tensor<1, dim>> &values)
   {
     Columns columns;
-    append(columns, surface, name, sums_over_bodies(surface, forces));
+    for (unsigned int body = 0; body < values.size(); ++body)
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        columns.push_back({name + " " + surface.body_names()[body] + " " + axis_names[axis],
+                           unit,
+                           values[body][axis]});
     return columns;
   }
 
@@ -60,18 +50,22 @@ namespace undine
   pressure_force_columns(const Surface<dim> &surface, const PressureForces<dim> &forces)
   {
     Columns    columns;
+    const auto add = [&](const std::string &name, const auto &sums) {
+      for (const auto &column : body_columns(name, "N", surface, sums))
+        columns.push_back(column);
+    };
     const auto reduced = sums_over_bodies(surface, forces.reduced);
     if (forces.gravity.empty())
-      append(columns, surface, "pressure force", reduced);
+      add("pressure force", reduced);
     else
       {
         const auto gravity = sums_over_bodies(surface, forces.gravity);
         auto       total   = reduced;
         for (unsigned int body = 0; body < total.size(); ++body)
           total[body] += gravity[body];
-        append(columns, surface, "pressure force", total);
-        append(columns, surface, "reduced pressure force", reduced);
-        append(columns, surface, "gravity load", gravity);
+        add("pressure force", total);
+        add("reduced pressure force", reduced);
+        add("gravity load", gravity);
       }
     return columns;
   }
@@ -81,8 +75,10 @@ namespace undine
 #define INSTANTIATE(dim)                                                                           \
   template std::vector<dealii::Tensor<1, dim>> sums_over_bodies(                                   \
     const Surface<dim> &, const std::vector<dealii::Tensor<1, dim>> &);                            \
-  template Columns body_force_columns(                                                             \
-    const std::string &, const Surface<dim> &, const std::vector<dealii::Tensor<1, dim>> &);       \
+  template Columns body_columns(const std::string &,                                               \
+                                const std::string &,                                               \
+                                const Surface<dim> &,                                              \
+                                const std::vector<dealii::Tensor<1, dim>> &);                      \
   template Columns pressure_force_columns(const Surface<dim> &, const PressureForces<dim> &);
   // clang-format on
   INSTANTIATE(2)

@@ -62,8 +62,10 @@ def check_kinds(program, studies, folder):
             f"orders of the cantilever's sag: {own_orders(solid['sag over time'])}")
     fluid = results(program, studies, "fluid", folder)
     require(own_orders(fluid["velocity"])[0] > 1.8, f"order of the vortices: {own_orders(fluid['velocity'])}")
-    coupled = results(program, studies, "coupled", folder)["tip"]
-    require(coupled["budget"][0]["refined"] == "step" and own_orders(coupled)[0] > 1.8, f"budget of the piston: {coupled}")
+    coupled = results(program, studies, "coupled", folder)
+    tip, force = coupled["tip"], coupled["force"]
+    require(tip["budget"][0]["refined"] == "step" and own_orders(tip)[0] > 1.8, f"budget of the piston: {tip}")
+    require(own_orders(force)[0] > 1.2, f"order of the force as the rate of its impulse: {own_orders(force)}")
     particles = results(program, studies, "particles", folder)["energy"]
     require("two values only" in particles["warnings"][0], f"warnings of particles: {particles['warnings']}")
 
@@ -206,6 +208,7 @@ def check_mistakes(program, studies, folder):
                         (text.replace("Columns", "Column"), "Did you mean 'Columns'"),
                         (text.replace("tip displacement x", "tip displacment x"), "similar: tip displacement x"),
                         (text.replace("Time/End", "Time/Ende"), "Did you mean 'End'"),
+                        (text.replace("Rate     = true", "Rate = true\n    set Share of step = 0.5"), "beside 'Rate'"),
                         (text.replace("over time", "in time"), "largest")):
         path = os.path.join(folder, "wrong.prm")
         with open(path, "w") as file:

@@ -130,6 +130,39 @@ class Quantities(unittest.TestCase):
         numpy.testing.assert_allclose(found.times, [0.5, 2])
         numpy.testing.assert_allclose(found.values[:, 0], [1, 2])
 
+    def test_rates_are_of_second_order_and_exact_for_parabolas(self):
+        times = numpy.array([0, 0.4, 1.1, 1.5, 2.3])
+        parabola = {"Time": times, "a": 3 + times - 2 * times ** 2, "b": times ** 2}
+        found = quantities.evaluate(quantity(columns=["a", "b"], factor=2.0, rate=True, evaluate="over time"), parabola)
+        numpy.testing.assert_allclose(found.times, times)
+        numpy.testing.assert_allclose(found.values[:, 0], 2 - 4 * times, atol=1e-12)
+        errors = []
+        for step in (0.02, 0.01):
+            times = numpy.arange(0, 1 + step / 2, step)
+            found = quantities.evaluate(quantity(rate=True, evaluate="over time"),
+                                        {"Time": times, "a": numpy.sin(3 * times)})
+            errors.append(numpy.abs(found.values[:, 0] - 3 * numpy.cos(3 * times)).max())
+        self.assertAlmostEqual(math.log2(errors[0] / errors[1]), 2, 1)
+
+    def test_rates_over_a_time_are_means_that_no_step_changes(self):
+        for step in (0.1, 0.05, 0.03):
+            times = numpy.arange(0, 2, step)
+            found = quantities.evaluate(quantity(rate=True, rate_over=0.4, evaluate="over time", start=0.5, until=1.5),
+                                        {"Time": times, "a": times ** 3})
+            inside = found.values[1:-1, 0]
+            numpy.testing.assert_allclose(inside, 3 * found.times[1:-1] ** 2 + 0.2 ** 2, atol=1e-10)
+            ends = quantities.evaluate(quantity(rate=True, rate_over=0.4, evaluate="over time"),
+                                       {"Time": times, "a": times ** 2})
+            numpy.testing.assert_allclose(ends.values[:, 0], 2 * times, atol=1e-10)
+
+    def test_rates_are_taken_before_the_window(self):
+        times = numpy.linspace(0, 1, 11)
+        kink = {"Time": times, "a": numpy.maximum(0, times - 0.5)}
+        found = quantities.evaluate(quantity(rate=True, evaluate="over time", start=0.5), kink)
+        self.assertAlmostEqual(found.values[0, 0], 0.5, 12)
+        with self.assertRaisesRegex(NotEvaluated, "a rate needs three rows"):
+            quantities.evaluate(quantity(rate=True), {name: values[:2] for name, values in kink.items()})
+
     def test_what_cannot_be_evaluated_says_why(self):
         with self.assertRaisesRegex(NotEvaluated, "no column 'c'.*similar"):
             quantities.evaluate(quantity(columns=["c"]), {"Time": numpy.zeros(1), "cc": numpy.zeros(1)})
@@ -175,9 +208,10 @@ class Cases(unittest.TestCase):
         several.settings["Quantities/p/Factor"] = "2"
         with self.assertRaisesRegex(SystemExit, "must not change 'Quantities/p/Factor'"):
             check_own_keys(several)
-        several.settings = {"Quantities/q/Factor": "two"}
-        with self.assertRaisesRegex(SystemExit, "two"):
-            check_own_keys(several)
+        for key, wrong in (("Factor", "two"), ("Rate", "yes")):
+            several.settings = {f"Quantities/q/{key}": wrong}
+            with self.assertRaisesRegex(SystemExit, wrong):
+                check_own_keys(several)
 
     def test_points_fill_their_box_evenly(self):
         field = quantity(columns=[], field="velocity", lower=[0, 0], upper=[1, 2], n_points=[2, 1])

@@ -25,13 +25,14 @@ namespace undine
   std::vector<dealii::Tensor<1, dim>>
   sums_over_bodies(const Surface<dim> &surface, const std::vector<dealii::Tensor<1, dim>> &values);
 
-  /// For each body and axis the sum of the forces in the nodes, "NAME ball x" [N], for the file
-  /// `statistics`.
+  /// For each body, of which `values` [bodies] has one vector, and axis "NAME ball x" of a unit,
+  /// for the file `statistics`.
   template <int dim>
   Columns
-  body_force_columns(const std::string                         &name,
-                     const Surface<dim>                        &surface,
-                     const std::vector<dealii::Tensor<1, dim>> &forces);
+  body_columns(const std::string                         &name,
+               const std::string                         &unit,
+               const Surface<dim>                        &surface,
+               const std::vector<dealii::Tensor<1, dim>> &values);
 
   /// For each body and axis the force of the fluid's pressure on it, "pressure force ball x" [N],
   /// and with gravity its parts: "reduced pressure force ball x" and "gravity load ball x".

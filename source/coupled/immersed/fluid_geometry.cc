@@ -250,7 +250,10 @@ namespace undine
       forces.gravity = gravity_forces(gravity);
     auto columns = pressure_force_columns(surface.surface(), forces);
     if (!friction.empty())
-      for (const auto &column : body_force_columns("viscous force", surface.surface(), friction))
+      for (const auto &column : body_columns("viscous force",
+                                             "N",
+                                             surface.surface(),
+                                             sums_over_bodies(surface.surface(), friction)))
         columns.push_back(column);
     columns.push_back({"Cut cells", "1", double(last_report.cut_cells)});
     columns.push_back({"Flagged cells", "1", double(last_report.flagged_cells)});

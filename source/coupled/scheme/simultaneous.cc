@@ -141,7 +141,8 @@ namespace undine
                                 settings.boundary_flux);
       const auto        solid = coupled.solve();
       solid_side.end(state, stage);
-      fluid->by_contact = coupled.velocity_by_contact();
+      fluid->by_contact        = coupled.velocity_by_contact();
+      fluid->forces_by_contact = coupled.forces_by_contact();
       balance(coupled, state, solid);
       fluid_side.finish(*fluid, state, report, coupled.divergence());
       budget.end_stage();

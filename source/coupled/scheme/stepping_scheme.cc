@@ -42,13 +42,23 @@ namespace undine
              "A step that fails is redone with half its length; the run stops where that would be "
              "less than Step halved so often.");
     energy_monitor.add_options(options, response_to_created_energy());
-    integrator = choose_time_integrator(options);
-    options.section("Output").add(
+    integrator        = choose_time_integrator(options);
+    const auto output = options.section("Output");
+    output.add(
       "Budget",
       keeps_budget,
       "",
       Allowed::anything(),
       "Write what energy and momentum of every step come from and go to, and what the sums lack.");
+    output.add(
+      "Impulses",
+      keeps_impulses,
+      "",
+      Allowed::anything(),
+      "Write what the fluid's forces on every body and obstacle have added up to since the "
+      "start of the run, 'pressure impulse NAME x' and 'viscous impulse NAME x' [N s], as "
+      "the integrator adds them up. The rate of an impulse is a mean force, with fewer "
+      "spikes than the force at the end of a step where surfaces cross cells.");
   }
 
 
@@ -81,6 +91,11 @@ namespace undine
         models,
         *integrator,
         typename StepError<dim>::Settings{tolerance, displacement, asked_step, shortest_step()});
+    if (keeps_impulses && models.fluid && models.surface)
+      {
+        const unsigned int n = models.surface->surface().body_names().size();
+        state.impulses       = {Impulse<dim>(n), Impulse<dim>(models.has_friction() ? n : 0)};
+      }
     physics->initialize(state, choose_dt(state), report);
     state.budget_rates = budget->rates_at_start();
     append(report.columns, budget->columns());

@@ -195,6 +195,9 @@ namespace undine
     fluid_by_contact = state.fluid.velocity;
     add(*fluid_by_contact, -1., state.fluid.velocity);
     pressures.accelerate(*fluid_by_contact, response.block(1));
+    if (state.impulses)
+      pressure_forces_by_contact =
+        parts.geometry.pressure_forces(pressures.field(response.block(1)));
     return response.block(0);
   }
 

@@ -3,6 +3,7 @@
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/physics.h>
 #include <undine/fluid/model/fluid_quantities.h>
+#include <undine/operators/body_forces.h>
 #include <undine/operators/static_pressure.h>
 
 #include <algorithm>
@@ -11,6 +12,22 @@
 
 namespace undine
 {
+  namespace
+  {
+    /// a + factor b, where an empty b is zero.
+    template <int dim>
+    std::vector<dealii::Tensor<1, dim>>
+    sum(std::vector<dealii::Tensor<1, dim>>        a,
+        const std::vector<dealii::Tensor<1, dim>> &b,
+        const double                               factor = 1)
+    {
+      for (std::size_t node = 0; node < b.size(); ++node)
+        a[node] += factor * b[node];
+      return a;
+    }
+  } // namespace
+
+
   template <int dim>
   FluidSide<dim>::FluidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
     : models(models)
@@ -172,7 +189,7 @@ namespace undine
       }
     if (cut)
       viscous_coupling.keep_loads(state, *cut, environment.gravity, time);
-    add_columns(report, state.fluid, projected.divergence, time);
+    add_columns(report, state, projected.divergence, time);
     count_memory(state.fluid);
   }
 
@@ -360,6 +377,12 @@ namespace undine
                      fluid.advected_from_begin());
     if (fluid.stage.is_last && report.account && fluid.advected)
       report.account->add_power(-kinetic_energy_outflow(model, state.fluid.velocity));
+    Vectors pressures; // those that have accelerated the fluid, before friction corrects them
+    if (state.impulses)
+      {
+        const auto phase = timing.section("measure");
+        pressures        = pressures_on_surfaces(state, fluid.end);
+      }
     fluid.finish();
     if (fluid.friction)
       {
@@ -370,46 +393,76 @@ namespace undine
       {
         report.warn(cut->cut_report().subject, cut->cut_report().message);
         state.surface_positions = cut->surface_positions();
+        if (state.impulses)
+          add_impulses(*state.impulses, fluid, pressures);
       }
     report.linear_iterations += fluid.linear_iterations;
     count_memory(state.fluid);
     if (!fluid.stage.is_last)
       return;
     const auto phase = timing.section("measure");
-    add_columns(report, state.fluid, divergence, fluid.end);
+    add_columns(report, state, divergence, fluid.end);
   }
 
 
   template <int dim>
-  std::vector<dealii::Tensor<1, dim>>
+  typename FluidSide<dim>::Vectors
   FluidSide<dim>::loads_on_surfaces(const State<dim> &state, const double time) const
   {
     if (!cut)
       return {};
-    auto       result = cut->pressure_forces(state.fluid.pressure);
-    const auto add    = [&](const auto &more) {
-      for (std::size_t node = 0; node < more.size(); ++node)
-        result[node] += more[node];
+    return sum(pressures_on_surfaces(state, time), viscous_coupling.forces());
+  }
+
+
+  /// Forces of pressure and weight in the nodes of all surfaces [N].
+  template <int dim>
+  typename FluidSide<dim>::Vectors
+  FluidSide<dim>::pressures_on_surfaces(const State<dim> &state, const double time) const
+  {
+    return sum(cut->pressure_forces(state.fluid.pressure),
+               cut->other_forces(environment.gravity, time));
+  }
+
+
+  /// Of a stage, of `pressures` and friction in the nodes of all surfaces [N].
+  template <int dim>
+  void
+  FluidSide<dim>::add_impulses(Impulses<dim>         &impulses,
+                               const FluidStage<dim> &fluid,
+                               const Vectors         &pressures) const
+  {
+    const auto &surface = models.surface->surface();
+    const auto  add     = [&](Impulse<dim> &impulse, const Vectors &forces, const Vectors &kept) {
+      impulse.add(fluid.stage, sums_over_bodies(surface, forces), sums_over_bodies(surface, kept));
     };
-    add(cut->other_forces(environment.gravity, time));
-    add(viscous_coupling.forces());
-    return result;
+    add(impulses.pressure, pressures, sum(pressures, fluid.forces_by_contact, -1));
+    if (fluid.friction)
+      add(impulses.friction, viscous_coupling.forces(), viscous_coupling.forces());
   }
 
 
   template <int dim>
   void
-  FluidSide<dim>::add_columns(Report                &report,
-                              const FluidState<dim> &state,
-                              const double           divergence,
-                              const double           time) const
+  FluidSide<dim>::add_columns(Report           &report,
+                              const State<dim> &state,
+                              const double      divergence,
+                              const double      time) const
   {
-    append(report.columns, fluid_columns(model, state, divergence));
+    const auto &fluid = state.fluid;
+    append(report.columns, fluid_columns(model, fluid, divergence));
     for (const auto &effect : models.effects)
-      append(report.columns, effect->columns(model, state, time));
+      append(report.columns, effect->columns(model, fluid, time));
     if (cut)
       append(report.columns,
-             cut->columns(state.pressure, environment.gravity, time, viscous_coupling.forces()));
+             cut->columns(fluid.pressure, environment.gravity, time, viscous_coupling.forces()));
+    if (!state.impulses)
+      return;
+    const auto add = [&](const std::string &name, const Impulse<dim> &impulse) {
+      append(report.columns, body_columns(name, "N s", models.surface->surface(), impulse.sum));
+    };
+    add("pressure impulse", state.impulses->pressure);
+    add("viscous impulse", state.impulses->friction);
   }
 
 

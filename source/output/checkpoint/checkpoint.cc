@@ -3,6 +3,7 @@
 #include <undine/output/checkpoint/budget_array.h>
 #include <undine/output/checkpoint/checkpoint.h>
 #include <undine/output/checkpoint/geometry_arrays.h>
+#include <undine/output/checkpoint/impulses_array.h>
 #include <undine/output/checkpoint/particle_arrays.h>
 #include <undine/output/checkpoint/state_arrays.h>
 #include <undine/output/files/files.h>
@@ -216,11 +217,18 @@ namespace undine
       const bool is_monitored = state.account.has_value();
       if (!file.contains(account_array))
         state.account.reset();
+      const auto no_impulses = state.impulses;
+      if (no_impulses && (!file.contains(impulses_array) ||
+                          file.size(impulses_array)[0] !=
+                            pack_impulses(*no_impulses, communicator).selection.size[0]))
+        state.impulses.reset(); // of a run without them, or with other bodies
       auto arrays = pack(models, state);
       read_arrays(arrays, file, slot, communicator);
       unpack(state, models, arrays);
       if (is_monitored && !state.account)
         state.account.emplace(); // of a run without a monitor: nothing is known yet
+      if (!state.impulses)
+        state.impulses = no_impulses;
       if (count_lasting_particles(state.particles) != lasting)
         throw FileError("'" + slot.string() +
                         "' has more or fewer particles of bodies and walls than the scene: it "

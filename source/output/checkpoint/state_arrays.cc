@@ -3,6 +3,7 @@
 #include <undine/output/checkpoint/account_array.h>
 #include <undine/output/checkpoint/budget_array.h>
 #include <undine/output/checkpoint/history_arrays.h>
+#include <undine/output/checkpoint/impulses_array.h>
 #include <undine/output/checkpoint/particle_arrays.h>
 #include <undine/output/checkpoint/sleep_array.h>
 #include <undine/output/checkpoint/state_arrays.h>
@@ -309,6 +310,8 @@ namespace undine
       arrays.push_back(pack_budget(state.budget_rates, models.communicator()));
     if (state.account)
       arrays.push_back(pack_account(*state.account, models.communicator()));
+    if (state.impulses)
+      arrays.push_back(pack_impulses(*state.impulses, models.communicator()));
     if (models.solid)
       {
         auto canonical = canonical_nodes(*models.solid);
@@ -351,6 +354,8 @@ namespace undine
       unpack_budget(state.budget_rates, *array++, models.communicator());
     if (state.account)
       state.account = unpack_account(*array++, models.communicator());
+    if (state.impulses)
+      unpack_impulses(*state.impulses, *array++, models.communicator());
     if (models.solid)
       {
         auto canonical = canonical_nodes(*models.solid);

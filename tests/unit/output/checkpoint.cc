@@ -12,6 +12,10 @@ using namespace undine_tests;
 namespace
 {
   template <int dim>
+  using Vectors = typename Impulse<dim>::Vectors;
+
+
+  template <int dim>
   State<dim>
   state_at(const SampleScene<dim> &scene, const unsigned int step)
   {
@@ -104,6 +108,48 @@ TEST_CASE("checkpoint: what the energy monitor knows is read back, or nothing is
   read_checkpoint(folder.path / "unwatched", scene.models, read);
   REQUIRE(read.account);
   CHECK(!read.account->known); // so that the first step is not judged
+}
+
+
+TEMPLATE_TEST_CASE_SIG(
+  "checkpoint: impulses are read back, or begin anew", "[checkpoint][mpi]", ((int dim), dim), 2, 3)
+{
+  TemporaryFolder        folder;
+  const SampleScene<dim> scene(MPI_COMM_WORLD);
+  auto                   state = state_at(scene, 11);
+  write_checkpoint(folder.path / "without", scene.models, state);
+  state.impulses = {Impulse<dim>(2), Impulse<dim>()};
+  for (unsigned int body = 0; body < 2; ++body)
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      state.impulses->pressure.sum[body][axis] = (body + 1) / (axis + 3.);
+  state.impulses->pressure.rates = {Vectors<dim>(2), state.impulses->pressure.sum};
+  state.impulses->friction.rates = {Vectors<dim>()};
+  write_checkpoint(folder.path / "with", scene.models, state);
+
+  auto read = scene.zero_state();
+  read_checkpoint(folder.path / "with", scene.models, read);
+  CHECK(!read.impulses); // the run that goes on does not ask for them
+  const Impulses<dim> none{Impulse<dim>(2), Impulse<dim>()};
+  read          = scene.zero_state();
+  read.impulses = none;
+  read_checkpoint(folder.path / "with", scene.models, read);
+  REQUIRE(read.impulses);
+  CHECK(read.impulses->pressure.sum == state.impulses->pressure.sum);
+  CHECK(read.impulses->pressure.rates ==
+        std::vector<Vectors<dim>>{state.impulses->pressure.rates.back()});
+
+  read          = scene.zero_state();
+  read.impulses = none;
+  read_checkpoint(folder.path / "without", scene.models, read);
+  REQUIRE(read.impulses);
+  CHECK(read.impulses->pressure.sum == Vectors<dim>(2));
+  CHECK(read.impulses->pressure.rates.empty());
+
+  read          = scene.zero_state();
+  read.impulses = {Impulse<dim>(3), Impulse<dim>()};
+  read_checkpoint(folder.path / "with", scene.models, read); // of other bodies
+  REQUIRE(read.impulses);
+  CHECK(read.impulses->pressure.sum == Vectors<dim>(3));
 }
 
 

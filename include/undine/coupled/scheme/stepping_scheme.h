@@ -88,11 +88,12 @@ namespace undine
     make_physics(const Models<dim> &models, TimingTree &timing) const;
 
     std::unique_ptr<TimeIntegrator> integrator;
-    double                          asked_step   = 0.01; // [s]
-    double                          tolerance    = 0;    // [1]
-    double                          displacement = 0;    // [m]
-    unsigned int                    maximum_cuts = 6;
-    bool                            keeps_budget = false;
+    double                          asked_step     = 0.01; // [s]
+    double                          tolerance      = 0;    // [1]
+    double                          displacement   = 0;    // [m]
+    unsigned int                    maximum_cuts   = 6;
+    bool                            keeps_budget   = false;
+    bool                            keeps_impulses = false;
     EnergyMonitor                   energy_monitor;
     std::unique_ptr<Budget<dim>>    budget;
     std::unique_ptr<Physics<dim>>   physics;

@@ -5,6 +5,7 @@
 #include <undine/base/core/clock.h>
 #include <undine/coupled/state/budget_amounts.h>
 #include <undine/coupled/state/energy_account.h>
+#include <undine/coupled/state/impulses.h>
 #include <undine/coupled/state/sleep_state.h>
 #include <undine/coupled/state/step_history.h>
 #include <undine/fluid/grid/fluid_state.h>
@@ -48,6 +49,9 @@ namespace undine
 
     /// Of the time that the state is at, if there is an EnergyMonitor.
     std::optional<EnergyAccount> account;
+
+    /// Of the fluid's forces, if they are asked for and there are surfaces in it.
+    std::optional<Impulses<dim>> impulses;
 
     StepHistory<dim> history;
     SleepState<dim>  sleep;

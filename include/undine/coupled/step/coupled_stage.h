@@ -56,6 +56,14 @@ namespace undine
       return fluid_by_contact;
     }
 
+    /// The forces on all nodes of surfaces by the pressures that this takes [N], if impulses are
+    /// asked for.
+    const typename SurfaceExchange<dim>::Vectors &
+    forces_by_contact() const
+    {
+      return pressure_forces_by_contact;
+    }
+
     /// v* with the velocities of inflows and walls [m/s].
     const Velocity<dim> &
     velocity_before_pressures() const
@@ -101,6 +109,7 @@ namespace undine
     BlockSystem::BlockVector                x;         ///< u^{n+1}, p
     Velocity<dim>                           predicted; ///< v*
     std::optional<Velocity<dim>>            fluid_by_contact;
+    typename SurfaceExchange<dim>::Vectors  pressure_forces_by_contact;
     Vector                                  bodies_by_contact;
     double                                  divergence_left = 0;
   };

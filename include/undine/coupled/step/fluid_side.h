@@ -23,6 +23,8 @@ namespace undine
   class FluidSide
   {
   public:
+    using Vectors = std::vector<dealii::Tensor<1, dim>>;
+
     /// The references must outlive it. Collective.
     FluidSide(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing);
 
@@ -74,7 +76,7 @@ namespace undine
 
     /// Forces of pressure, weight and friction in the nodes of all surfaces [N], after finish(), at
     /// `time` [s]; empty if there is no surface in the fluid. Collective.
-    std::vector<dealii::Tensor<1, dim>>
+    Vectors
     loads_on_surfaces(const State<dim> &state, double time) const;
 
     /// The grid as surfaces cut it; nullptr if there is no surface in the fluid.
@@ -102,6 +104,12 @@ namespace undine
     run_phase(FluidStage<dim> &fluid, const Action &act, const Book &book);
     void
     count_memory(const FluidState<dim> &state);
+    Vectors
+    pressures_on_surfaces(const State<dim> &state, double time) const;
+    void
+    add_impulses(Impulses<dim>         &impulses,
+                 const FluidStage<dim> &fluid,
+                 const Vectors         &pressures) const;
     SolidState
     expected_bodies(const State<dim> &state, const Stage &stage, double time) const;
     void
@@ -115,7 +123,7 @@ namespace undine
     double
     power_of_walls(const FluidStage<dim> &fluid, double gain) const;
     void
-    add_columns(Report &report, const FluidState<dim> &state, double divergence, double time) const;
+    add_columns(Report &report, const State<dim> &state, double divergence, double time) const;
 
     const Models<dim>                     &models;
     const FluidModel<dim>                 &model;
