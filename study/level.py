@@ -125,11 +125,12 @@ def order_between(before, difference, ratio, factor):
     """p of differences C s^-p (r^p - 1) at two factors; that of before if these are too close to tell one; None if none was
     seen, nan if differences do not fall."""
     earlier = convergence.norm(before.difference)
-    if factor < APART * before.factor or not (earlier > 0 and difference > 0):
-        return before.seen if before.falls and factor > 0.99 * before.factor else None
+    if 1 / APART < factor / before.factor < APART or not (earlier > 0 and difference > 0):
+        return before.seen if before.falls else None
+    coarse, fine = sorted(((before.factor, before.ratio, earlier), (factor, ratio, difference)))
 
     def fall(p):
-        return (factor / before.factor) ** p * (before.ratio ** p - 1) / (ratio ** p - 1) - earlier / difference
+        return (fine[0] / coarse[0]) ** p * (coarse[1] ** p - 1) / (fine[1] ** p - 1) - coarse[2] / fine[2]
 
     low, high = 0.01, 12.0
     if fall(low) > 0:
