@@ -224,3 +224,19 @@ TEST_CASE("margins are those of the worst step")
   CHECK(contains(text, "\"volume of room\", \"value\": 0.005, \"bound\": 0.01, \"margin\": 0.5,"));
   CHECK(certificate.text(5, "") == "stable; not kept: momentum of body plate");
 }
+
+
+TEST_CASE("an energy that ripples while it dies away does not grow")
+{
+  for (const double rate : {0.97, 0.99})
+    for (const double ripple : {0.5, 0.9})
+      {
+        History run;
+        for (int n = 0; n < 250; ++n)
+          {
+            run.add({0, std::pow(rate, n) * (1 + ripple * std::cos(0.3 * n))});
+            INFO("rate " << rate << ", ripple " << ripple << ", step " << n);
+            REQUIRE(run.verdict() == "stable");
+          }
+      }
+}
