@@ -19,6 +19,9 @@ namespace undine
     // Of works and powers, which are known at the ends of steps only.
     constexpr double share_uncertain = 0.1;
 
+    // Of the largest energy within the longest window: what ripples while it dies away has less.
+    constexpr double as_before = 0.9;
+
     constexpr double rounding = 1e-12; // of the energy there is
 
     // Of the energy at its peak: then what has grown has died away.
@@ -68,12 +71,23 @@ namespace undine
   EnergyGrowth::is_created(const Moment &begin, const double least) const
   {
     const auto &now = moments.back();
-    if (!now.input_known)
+    if (!now.input_known || now.energy < as_before * largest_before())
       return false;
     const double input  = std::max(now.input - begin.input, now.input_at_end - begin.input_at_end);
     const double excess = now.energy - begin.energy - input;
     return excess > least && excess >= least_share * now.energy &&
            excess >= share_uncertain * (now.exchange - begin.exchange);
+  }
+
+
+  /// But for the last steps of the shortest window.
+  double
+  EnergyGrowth::largest_before() const
+  {
+    double largest = 0;
+    for (std::size_t k = 0; k + windows.front() < moments.size(); ++k)
+      largest = std::max(largest, moments[k].energy);
+    return largest;
   }
 
 
@@ -85,7 +99,7 @@ namespace undine
     const auto  &now = moments.back(), &begin = before(window);
     const double gain = now.energy - begin.energy;
     if (!(begin.energy > least) || now.energy < least_factor * begin.energy ||
-        now.input - begin.input >= gain / 2)
+        now.energy < as_before * largest_before() || now.input - begin.input >= gain / 2)
       return false;
     const double middle = before(window / 2).energy;
     const double first = std::log(middle / begin.energy), second = std::log(now.energy / middle);

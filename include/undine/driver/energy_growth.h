@@ -74,6 +74,8 @@ namespace undine
 
     bool
     is_created(const Moment &begin, double least) const;
+    double
+    largest_before() const;
     bool
     is_unexplained(unsigned int window, double least) const;
     void

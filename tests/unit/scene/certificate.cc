@@ -241,3 +241,19 @@ TEST_CASE("what swings by less than the rounding of other forces does not matter
       CHECK((run.verdict() == "growing") == (size > 1e-9));
     }
 }
+
+
+TEST_CASE("an energy that ripples while it dies away does not grow")
+{
+  for (const double rate : {0.97, 0.99})
+    for (const double ripple : {0.5, 0.9})
+      {
+        History run;
+        for (int n = 0; n < 250; ++n)
+          {
+            run.add({0, std::pow(rate, n) * (1 + ripple * std::cos(0.3 * n))});
+            INFO("rate " << rate << ", ripple " << ripple << ", step " << n);
+            REQUIRE(run.verdict() == "stable");
+          }
+      }
+}
