@@ -46,6 +46,8 @@ def carry_out(options, file, folder):
     """The analysis of one study, after its results are written."""
     if description.read(options.program, file).ranges():
         found = stability.of_file(options.program, file, folder, options.jobs, 0 if options.results_only else options.within)
+        if not found.lines():
+            sys.exit(f"Error: no run of this study has a verdict in '{folder}'. Call it without --results-only, or with more time.")
         print(stability_report.text(found))
         print("written: " + ", ".join(stability_report.write(found, folder)))
         return found

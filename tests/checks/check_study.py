@@ -197,6 +197,8 @@ def check_map(program, studies, folder):
         stable = [density for density, verdict in in_turns if verdict == "stable"]
         bad = [density for density, verdict in in_turns if verdict != "stable"]
         require(stable and bad and max(stable) < min(bad) <= 2 * max(stable), f"stability: {in_turns}")
+    done = run(program, os.path.join(studies, "stability.prm"), os.path.join(folder, "nothing"), "--results-only")
+    require(done.returncode == 1 and "has a verdict" in done.stderr, f"a map of nothing: {done.stdout}{done.stderr}")
 
 
 def check_mistakes(program, studies, folder):
