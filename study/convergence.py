@@ -20,9 +20,13 @@ def norm(values):
 def order(lengths, coarse_difference, fine_difference):
     """p of differences between three values with errors C h^p; nan if they do not fall."""
     h1, h2, h3 = lengths
+    return order_of_pairs((h1, h2), (h2, h3), coarse_difference, fine_difference)
 
+
+def order_of_pairs(coarse, fine, coarse_difference, fine_difference):
+    """p of differences between values with errors C h^p, at two pairs of lengths; nan if they do not fall."""
     def excess(p):
-        return (h1 ** p - h2 ** p) / (h2 ** p - h3 ** p) - coarse_difference / fine_difference
+        return (coarse[0] ** p - coarse[1] ** p) / (fine[0] ** p - fine[1] ** p) - coarse_difference / fine_difference
 
     if not coarse_difference > 0 or not fine_difference > 0:
         return math.nan

@@ -128,14 +128,5 @@ def order_between(before, difference, ratio, factor):
     if 1 / APART < factor / before.factor < APART or not (earlier > 0 and difference > 0):
         return before.seen if before.falls else None
     coarse, fine = sorted(((before.factor, before.ratio, earlier), (factor, ratio, difference)))
-
-    def fall(p):
-        return (fine[0] / coarse[0]) ** p * (coarse[1] ** p - 1) / (fine[1] ** p - 1) - coarse[2] / fine[2]
-
-    low, high = 0.01, 12.0
-    if fall(low) > 0:
-        return math.nan
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if fall(middle) < 0 else (low, middle)
-    return low
+    pairs = [(ratio / factor, 1 / factor) for factor, ratio, _ in (coarse, fine)]
+    return convergence.order_of_pairs(*pairs, coarse[2], fine[2])

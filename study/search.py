@@ -12,8 +12,8 @@ from study.tables import percent
 FIRST = 0.25  # factor of the first settings, of those of the scene
 AIM = 0.9  # of the error asked for: the parts are estimates
 CHEAP = 8.0  # the last run, in costs of the one that foretells its error
-LARGEST_JUMP, CAREFUL_JUMP = 8.0, 4.0  # of cost, from one setting to the next; where the error is large
-LARGE = 0.3
+LARGEST_JUMP, CAREFUL_JUMP = 8.0, 4.0  # of cost, from one setting to the next; where the error is uncertain
+UNCERTAIN = 0.3  # a greater error
 SETTLING = 1.6  # refinement of what does not come closer yet
 SMALL_JUMP = 4.0  # where orders are less than hoped for
 FAR = 3.0  # a refinement of one thing beyond which nothing is foretold
@@ -38,7 +38,7 @@ def known_level(pilot):
 
 
 def first_level(pilot, all_knobs):
-    """Of settings an eighth as fine as the scene, or as fine as needed for the run and its coarser neighbours to succeed."""
+    """Of settings a quarter as fine as the scene, or as fine as needed for the run and its coarser neighbours to succeed."""
     factor, reason = FIRST, None
     while factor <= 2:
         setting = Setting(all_knobs, tuple(knob.nearest(max(factor, with_room(knob))) for knob in all_knobs))
@@ -94,7 +94,7 @@ def next_setting(level, wanted):
     way = cheapest(level, hope, wanted)
     jump = hope.expected_cost(way)
     if jump > 2 * CHEAP:
-        return between(level, way, min(jump / CHEAP, CAREFUL_JUMP if level.error() > LARGE else LARGEST_JUMP)), False
+        return between(level, way, min(jump / CHEAP, CAREFUL_JUMP if level.error() > UNCERTAIN else LARGEST_JUMP)), False
     if level.remarks:
         return settled(level), False
     factors = cheapest(level, level.model, wanted)

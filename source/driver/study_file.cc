@@ -141,6 +141,24 @@ namespace undine
     }
 
 
+    void
+    read_names(const Options &options, const std::size_t n_values)
+    {
+      std::vector<std::string> names;
+      options.add("Names",
+                  names,
+                  "",
+                  Allowed::anything(),
+                  "What the values are called in tables and plots; the values themselves if not "
+                  "given.");
+      if (!names.empty() && names.size() != n_values && n_values != 0)
+        options.mistake(options.error(
+          "Names",
+          fmt::format("has {} names, but there are {} values", names.size(), n_values),
+          "Give each value a name, with ',' between them."));
+    }
+
+
     /// Something that is varied. Is it a range?
     bool
     read_variation(const Options &options, const std::string &path)
@@ -178,18 +196,7 @@ namespace undine
                                       "says nothing that changes",
                                       "Add a subsection 'Settings' with keys of the scene, such as "
                                       "'set Time/Step = 1/20 | 1/40 | 1/80'."));
-      std::vector<std::string> names;
-      options.add("Names",
-                  names,
-                  "",
-                  Allowed::anything(),
-                  "What the values are called in tables and plots; the values themselves if not "
-                  "given.");
-      if (!names.empty() && names.size() != n_values && n_values != 0)
-        options.mistake(options.error(
-          "Names",
-          fmt::format("has {} names, but there are {} values", names.size(), n_values),
-          "Give each value a name, with ',' between them."));
+      read_names(options, n_values);
       std::vector<double> lengths;
       if (!settings.empty() && kind != "variant")
         lengths = lengths_of(settings.front());
@@ -326,12 +333,45 @@ namespace undine
     }
 
 
+    /// Which times the values belong to, or whether they are rates.
+    void
+    read_times(const Options &options)
+    {
+      double share = 1, over = 0;
+      bool   rate = false;
+      options.add("Rate",
+                  rate,
+                  "",
+                  Allowed::anything(),
+                  "The derivative in time of the sum is evaluated, at every row that of the "
+                  "parabola through this and the rows before and after; at the first and the last "
+                  "row that of the nearest parabola. Of an impulse it is a force of second order.");
+      options.add("Rate over",
+                  over,
+                  "s",
+                  Allowed::not_negative(),
+                  "Instead the mean rate over this time around a row, the same for runs of all "
+                  "steps, where there are rows so long before and after. 0: as above.");
+      if (over > 0 && !rate)
+        options.mistake(
+          options.error("Rate over", "is given without 'Rate'", "Set 'Rate = true'."));
+      options.add("Share of step",
+                  share,
+                  "1",
+                  Allowed::between(0, 1),
+                  "Which time of a step the values belong to: 1 its end, 0.5 its middle.");
+      if (rate && share != 1)
+        options.mistake(options.error("Share of step",
+                                      "is given beside 'Rate', which belongs to the times of rows",
+                                      "Remove one of them."));
+    }
+
+
     void
     read_quantity(const Options &options)
     {
       std::string columns, field = "none", evaluate = "end", unit;
-      double      factor = 1, share = 1, over = 0;
-      bool        rate = false;
+      double      factor = 1;
       options.add("Columns",
                   columns,
                   "",
@@ -350,22 +390,6 @@ namespace undine
           columns.empty() ? "or 'Field' must be given" : "and 'Field' are both given",
           "Name columns as the header of the run's file 'statistics' has them, without units."));
       options.add("Factor", factor, "", Allowed::anything(), "By which the sum is multiplied.");
-      options.add("Rate",
-                  rate,
-                  "",
-                  Allowed::anything(),
-                  "The derivative in time of the sum is evaluated, at every row that of the "
-                  "parabola through this and the rows before and after; at the first and the last "
-                  "row that of the nearest parabola. Of an impulse it is a force of second order.");
-      options.add("Rate over",
-                  over,
-                  "s",
-                  Allowed::not_negative(),
-                  "Instead the mean rate over this time around a row, the same for runs of all "
-                  "steps, where there are rows so long before and after. 0: as above.");
-      if (over > 0 && !rate)
-        options.mistake(
-          options.error("Rate over", "is given without 'Rate'", "Set 'Rate = true'."));
       options.add("Unit", unit, "", Allowed::anything(), "Of the result, for tables.");
       options.add(
         "Evaluate",
@@ -385,15 +409,7 @@ namespace undine
         "middle between these two or half of their difference, the frequency or period of "
         "upward passages of the middle, when the value is largest, or all values over time, "
         "compared in the norm over time.");
-      options.add("Share of step",
-                  share,
-                  "1",
-                  Allowed::between(0, 1),
-                  "Which time of a step the values belong to: 1 its end, 0.5 its middle.");
-      if (rate && share != 1)
-        options.mistake(options.error("Share of step",
-                                      "is given beside 'Rate', which belongs to the times of rows",
-                                      "Remove one of them."));
+      read_times(options);
       read_window(options);
       read_points(options, field);
       read_reference(options);
