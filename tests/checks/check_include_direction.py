@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-BASE = {"base/core", "base/options", "base/parallel"}
+BASE = {"base/core", "base/options", "base/parallel", "base/multigrid"}
 GEOMETRY = {"surface", "cutting", "operators", "contact"}
 PHYSICS = BASE | GEOMETRY | {"solid", "fluid", "particles"}
 
@@ -19,6 +19,7 @@ SEES = {
     "base/core": set(),
     "base/options": {"base/core"},
     "base/parallel": {"base/core"},
+    "base/multigrid": {"base/core", "base/parallel"},
 
     "solid/material": BASE,
     "solid/time": BASE,

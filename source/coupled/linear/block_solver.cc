@@ -105,8 +105,11 @@ namespace undine
 
 
   template <int dim>
-  BlockSolver<dim>::BlockSolver(const SolidModel<dim> &model, const BlockSolverSettings &settings)
+  BlockSolver<dim>::BlockSolver(const SolidModel<dim>     &model,
+                                const BlockSolverSettings &settings,
+                                const std::string         &multigrid)
     : settings(settings)
+    , multigrid(multigrid)
     , tangent_inverse(model)
   {
   }
@@ -114,8 +117,9 @@ namespace undine
 
   template <int dim>
   void
-  BlockSolver<dim>::start_step()
+  BlockSolver<dim>::start_step(const CellsOfUnknowns &new_places)
   {
+    places = &new_places;
     schur.reset();
     all_iterations = largest_iterations = 0;
     all_notes.clear();
@@ -132,10 +136,10 @@ namespace undine
     if (settings.solver == "iterative")
       {
         if (!schur)
-          schur = std::make_shared<const Matrix>(system.approximate_schur_complement());
+          schur = std::make_unique<const SchurComplement>(system, *places, multigrid);
         tangent_inverse.initialize(system.tangent(), displacement);
         settings.preconditioner->initialize(
-          system, schur, [&](Vector &x, const Vector &b) { tangent_inverse.vmult(x, b); });
+          system, *schur, [&](Vector &x, const Vector &b) { tangent_inverse.vmult(x, b); });
         auto       solution = system.vector();
         const bool converged =
           iterate(solution, system, right_side, std::max(reduction, settings.tolerance));
@@ -158,7 +162,7 @@ namespace undine
                             const BlockVector &right_side,
                             const double       reduction)
   {
-    const auto weights = square_roots_of_diagonal(system, *schur);
+    const auto weights = square_roots_of_diagonal(system, schur->matrix());
     auto       scaled  = right_side;
     divide(scaled, weights);
     dealii::SolverControl control(settings.maximum_iterations, reduction * scaled.l2_norm());

@@ -45,9 +45,9 @@ namespace undine
       , settings(settings)
       , fluid_side(models, budget, timing)
       , solid_side(models, budget, timing)
-      , solver(*models.solid, settings.solver)
+      , solver(*models.solid, settings.solver, models.fluid->pressure_solver().multigrid)
       , motion_solver(*models.solid)
-      , impulse_solver(*models.solid, settings.solver)
+      , impulse_solver(*models.solid, settings.solver, models.fluid->pressure_solver().multigrid)
     {
     }
 

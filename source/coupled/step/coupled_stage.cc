@@ -112,7 +112,7 @@ namespace undine
   {
     const auto       timed = parts.timing.section("couple");
     SolidReport<dim> report;
-    parts.solver.start_step();
+    parts.solver.start_step(pressures.places());
     Vector last_pressure = x.block(1);
     copy_to_vector(last_pressure, state.fluid.pressure);
     find_entering_speeds([&](const unsigned int round) {
@@ -189,7 +189,7 @@ namespace undine
     const BlockSystem system(inertia, surface->matrix(), surface->factor(), pressures.matrix());
     auto              right_side = problem.vector();
     right_side.block(0)          = forces;
-    parts.impulse_solver.start_step();
+    parts.impulse_solver.start_step(pressures.places());
     const auto response = parts.impulse_solver.solve(
       system, right_side, equations.displacement(x.block(0)), impulse_reduction);
     fluid_by_contact = state.fluid.velocity;

@@ -173,13 +173,59 @@ namespace undine
   }
 
 
+  /// The same as within(), where the cell and its faces are whole: half of the sum of two fluxes.
+  template <int dim>
+  void
+  DualFluxes<dim>::within_whole_cell(const GridIndex<dim> &cell,
+                                     const unsigned int    axis,
+                                     const Between        &action) const
+  {
+    const FacePlace<dim> below{cell, -1}, above{moved<dim>(cell, axis, 1), -1};
+    action(below, above, (flux(axis, below) + flux(axis, above)) / 2);
+  }
+
+
+  /// The same as across(), where all is whole.
+  template <int dim>
+  void
+  DualFluxes<dim>::across_whole_face(const GridIndex<dim> &face,
+                                     const unsigned int    d,
+                                     const unsigned int    axis,
+                                     const Between        &action) const
+  {
+    const double half = flux(d, {face, -1}) / 2;
+    for (const unsigned int end : {0, 1})
+      {
+        const auto above = moved<dim>(face, axis, end);
+        action({moved<dim>(above, d, -1), -1}, {above, -1}, half);
+      }
+  }
+
+
+  /// Is a whole cell between whole faces normal to `axis`?
+  template <int dim>
+  bool
+  DualFluxes<dim>::is_whole(const GridIndex<dim> &cell, const unsigned int axis) const
+  {
+    using Kind       = typename SubLattice<dim>::Kind;
+    const auto *open = flow.topology();
+    if (!open)
+      return true;
+    const auto &faces = open->faces[axis];
+    return open->cells.kind(cell) == Kind::whole && faces.kind(cell) == Kind::whole &&
+           faces.kind(moved<dim>(cell, axis, 1)) == Kind::whole;
+  }
+
+
   template <int dim>
   void
   DualFluxes<dim>::for_each_between(const unsigned int axis, const Between &action) const
   {
     const auto *open = flow.topology();
     undine::for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-      if (!open || open->cells.kind(cell) == SubLattice<dim>::Kind::whole)
+      if (!motion && is_whole(cell, axis))
+        within_whole_cell(cell, axis, action);
+      else if (!open || open->cells.kind(cell) == SubLattice<dim>::Kind::whole)
         within(shares({cell, -1}, axis), axis, action);
     });
     for (std::size_t c = 0; open && c < open->cells.all().size(); ++c)
@@ -189,7 +235,12 @@ namespace undine
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis)
         undine::for_each(grid.faces(d)->owned(), [&](const GridIndex<dim> &face) {
-          if (!grid.at_boundary(d, face))
+          if (grid.at_boundary(d, face))
+            return;
+          if ((!open || open->faces[d].kind(face) == SubLattice<dim>::Kind::whole) &&
+              is_whole(moved<dim>(face, d, -1), axis) && is_whole(face, axis))
+            across_whole_face(face, d, axis, action);
+          else
             undine::for_each_place(flow[d].divided(), face, [&](const FacePlace<dim> &place) {
               across(shares(beside(d, place, 0), axis),
                      shares(beside(d, place, 1), axis),

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/registry.h>
+#include <undine/base/multigrid/cell_preconditioner.h>
 #include <undine/fluid/grid/field_algebra.h>
 #include <undine/fluid/model/fluid_model.h>
 
@@ -18,6 +20,13 @@ namespace undine
                 "",
                 Allowed::between(1, 1e6),
                 "Of conjugate gradients; the step fails if they do not suffice.");
+    options.add(
+      "Multigrid",
+      multigrid,
+      "",
+      Allowed::one_of(Registry<CellPreconditioner>::instance().names()),
+      "For equations of pressures, of the fluid alone and with bodies: on blocks of cells, "
+      "or by smoothed aggregation (Trilinos ML).");
   }
 
 

@@ -2,6 +2,7 @@
 #include <undine/base/core/relative.h>
 #include <undine/fluid/boundary/boundary_condition.h>
 #include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/grid/places_of_pressures.h>
 #include <undine/fluid/model/fluid_quantities.h>
 #include <undine/fluid/pressure/divergence.h>
 #include <undine/fluid/pressure/pressure_equations.h>
@@ -20,6 +21,7 @@ namespace undine
     : model(model)
     , dt(dt)
     , all_numbers(numbers)
+    , cells(places_of_pressures(model.grid(), numbers))
     , regions(model, all_numbers, compliant)
     , flux(all_numbers.owned(), model.grid().communicator())
   {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/registry.h>
 #include <undine/base/core/relative.h>
 #include <undine/fluid/boundary/boundary_condition.h>
 #include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/grid/places_of_pressures.h>
 #include <undine/fluid/model/fluid_quantities.h>
 #include <undine/fluid/pressure/backflow_stabilisation.h>
 #include <undine/fluid/pressure/divergence.h>
@@ -72,8 +74,8 @@ namespace undine
       }
     matrix = std::make_unique<dealii::TrilinosWrappers::SparseMatrix>();
     build_pressure_matrix(*matrix, model, *new_numbers, closed_regions->pinned());
-    multigrid = std::make_unique<AlgebraicMultigrid>();
-    multigrid->initialize(*matrix);
+    multigrid = Registry<CellPreconditioner>::instance().make(model.pressure_solver().multigrid);
+    multigrid->initialize(*matrix, *matrix, places_of_pressures(model.grid(), *new_numbers));
     numbers = std::move(new_numbers);
   }
 

@@ -3,9 +3,12 @@
 #include <undine/fluid/viscosity/immersed_viscous_term.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace undine
@@ -40,52 +43,6 @@ namespace undine
   {
     if (viscosity > 0)
       terms.for_each(action);
-  }
-
-
-  /// action(row, column place, column number, coefficient [kg/s]) of what convection adds to the
-  /// equation of every place whose velocity is not prescribed: rho phi (v_to - v_from) / 2 in both,
-  /// phi being what flows from one to the other.
-  template <int dim>
-  template <class Action>
-  void
-  ImmersedViscousTerm<dim>::for_each_convective_row(const DualFluxes<dim> &fluxes,
-                                                    const Action          &action) const
-  {
-    const double half = model.density() / 2;
-    fluxes.for_each_between(
-      axis, [&](const FacePlace<dim> &from, const FacePlace<dim> &to, const double flux) {
-        for (const auto *row : {&from, &to})
-          if (!is_prescribed(*row))
-            {
-              action(*row, from, -half * flux);
-              action(*row, to, half * flux);
-            }
-      });
-  }
-
-
-  /// What enters through sides, and what prescribed velocities contribute.
-  template <int dim>
-  void
-  ImmersedViscousTerm<dim>::add_given_convection(Vector                &load,
-                                                 const DualFluxes<dim> &fluxes,
-                                                 const Field<dim>      &field) const
-  {
-    for_each_convective_row(
-      fluxes, [&](const FacePlace<dim> &row, const FacePlace<dim> &column, const double factor) {
-        if (is_prescribed(column))
-          load(number(row)) -= assembled_dt * factor * value_at(field, column);
-      });
-    if (const auto *start = fluxes.start())
-      for_each_owned([&](const FacePlace<dim> &place) {
-        load(number(place)) += shrinkage(number(place)) * value_at((*start)[axis], place);
-      });
-    fluxes.for_each_entering(
-      axis, [&](const FacePlace<dim> &place, const double flux, const double velocity) {
-        if (!is_prescribed(place))
-          load(number(place)) += assembled_dt * model.density() * flux * velocity;
-      });
   }
 
 
@@ -166,33 +123,65 @@ namespace undine
   }
 
 
+  /// The rows that terms and fluxes of this rank may have entries in: its own, and next to it.
   template <int dim>
-  dealii::TrilinosWrappers::SparsityPattern
-  ImmersedViscousTerm<dim>::pattern(const DualFluxes<dim> *fluxes) const
+  dealii::IndexSet
+  ImmersedViscousTerm<dim>::relevant_rows() const
+  {
+    std::vector<Number> rows(mine.begin(), mine.end());
+    const auto         &divided = open->faces[axis];
+    for_each(numbers.stored(), [&](const GridIndex<dim> &face) {
+      if (divided.kind(face) == SubLattice<dim>::Kind::whole)
+        rows.push_back(number({face, -1}));
+    });
+    for (const double number : numbers.parts())
+      rows.push_back(static_cast<Number>(number));
+    std::sort(rows.begin(), rows.end());
+    dealii::IndexSet result(mine.size());
+    result.add_indices(rows.begin(), std::unique(rows.begin(), rows.end()));
+    result.compress();
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::make_pattern(const DualFluxes<dim> *fluxes)
   {
     std::vector<std::pair<Number, double>> free;
     std::vector<Number>                    columns;
-    // A rank without fluid must not announce rows: their numbers would be taken for a huge range.
-    dealii::TrilinosWrappers::SparsityPattern result(
-      mine, model.grid().communicator(), mine.is_empty() ? 0 : 2 * dim + 1);
+    const auto                             relevant = relevant_rows();
+    dealii::DynamicSparsityPattern         pattern(mine.size(), mine.size(), relevant);
     for (const auto row : mine)
-      result.add(row, row);
+      pattern.add(row, row);
     for_each_viscous_term([&](const ViscousTerm<dim> &term) {
       collect(free, term);
       columns.clear();
       for (const auto &unknown : free)
         columns.push_back(unknown.first);
       for (const auto row : columns)
-        result.add_entries(row, columns.begin(), columns.end());
+        pattern.add_entries(row, columns.begin(), columns.end());
     });
     if (fluxes)
-      for_each_convective_row(
-        *fluxes, [&](const FacePlace<dim> &row, const FacePlace<dim> &column, const double) {
-          if (!is_prescribed(column))
-            result.add(number(row), number(column));
+      fluxes->for_each_between(
+        axis, [&](const FacePlace<dim> &from, const FacePlace<dim> &to, const double) {
+          if (is_prescribed(from) || is_prescribed(to))
+            return;
+          pattern.add(number(from), number(to));
+          pattern.add(number(to), number(from));
         });
+    // A rank without fluid must not announce rows: their numbers would be taken for a huge range.
+    dealii::TrilinosWrappers::SparsityPattern result(
+      mine, model.grid().communicator(), mine.is_empty() ? 0 : 4 * dim + 1);
+    for (const auto row : relevant)
+      {
+        columns.clear();
+        for (auto entry = pattern.begin(row); entry != pattern.end(row); ++entry)
+          columns.push_back(entry->column());
+        result.add_entries(row, columns.begin(), columns.end(), true);
+      }
     result.compress();
-    return result;
+    friction.reinit(result);
   }
 
 
@@ -224,52 +213,102 @@ namespace undine
   }
 
 
+  /// rho phi (v_to - v_from) / 2 in the equations of both places, phi being what flows from one to
+  /// the other, and what prescribed velocities contribute to the load. `leaving` gets what leaves
+  /// the dual volumes in a step [kg].
   template <int dim>
   void
-  ImmersedViscousTerm<dim>::add_convection(const DualFluxes<dim> &fluxes)
+  ImmersedViscousTerm<dim>::add_fluxes_between(const DualFluxes<dim> &fluxes,
+                                               const Field<dim>      &field,
+                                               Vector                &leaving)
   {
-    auto &matrix = solver.matrix;
-    for_each_convective_row(
-      fluxes, [&](const FacePlace<dim> &row, const FacePlace<dim> &column, const double factor) {
-        if (!is_prescribed(column))
-          matrix.add(number(row), number(column), assembled_dt * factor);
+    if (convective_entries.empty())
+      convective_entries.find(fluxes, axis, solver.matrix, [&](const FacePlace<dim> &place) {
+        if (is_prescribed(place) || !mine.is_element(number(place)))
+          return ConvectiveEntries<dim>::none;
+        return static_cast<int>(mine.index_within_set(number(place)));
       });
-    fluxes.for_each_entering(
-      axis, [&](const FacePlace<dim> &place, const double flux, const double) {
-        if (!is_prescribed(place))
-          matrix.add(number(place), number(place), assembled_dt * model.density() * flux);
+    const auto   rows = rows_of(solver.matrix);
+    double      *mass = leaving.begin();
+    std::size_t  k    = 0;
+    const double step = assembled_dt * model.density();
+    // A matrix must not get values by address while it collects those of other ranks.
+    std::vector<std::tuple<FacePlace<dim>, FacePlace<dim>, double>> others;
+    fluxes.for_each_between(
+      axis, [&](const FacePlace<dim> &from, const FacePlace<dim> &to, const double flux) {
+        const auto &pair = convective_entries[k++];
+        if (pair.from == ConvectiveEntries<dim>::none)
+          {
+            others.emplace_back(from, to, flux);
+            return;
+          }
+        const double half = step * flux / 2;
+        rows[pair.from][pair.places[0]] -= half;
+        rows[pair.from][pair.places[1]] += half;
+        rows[pair.to][pair.places[2]] -= half;
+        rows[pair.to][pair.places[3]] += half;
+        mass[pair.from] += 2 * half;
+        mass[pair.to] -= 2 * half;
       });
-    matrix.compress(dealii::VectorOperation::add);
-    if (!fluxes.start())
-      return;
-    find_shrinkage(fluxes);
-    for_each_owned([&](const FacePlace<dim> &place) {
-      matrix.add(number(place), number(place), shrinkage(number(place)));
-    });
-    matrix.compress(dealii::VectorOperation::add);
+    for (const auto &[from, to, flux] : others)
+      {
+        leaving(number(from)) += step * flux;
+        leaving(number(to)) -= step * flux;
+        for (const auto *row : {&from, &to})
+          for (const auto *column : {&from, &to})
+            if (const double factor = (column == &to ? 1 : -1) * step * flux / 2;
+                is_prescribed(*row))
+              continue;
+            else if (is_prescribed(*column))
+              right_side(number(*row)) -= factor * value_at(field, *column);
+            else
+              solver.matrix.add(number(*row), number(*column), factor);
+      }
+    leaving.compress(dealii::VectorOperation::add);
   }
 
 
-  /// What leaves the dual volumes in a step [kg]. V^0 is not negative, but for what the flow does
-  /// not fit.
+  /// To the matrix and the load, from fluxes with `field` = v*.
   template <int dim>
   void
-  ImmersedViscousTerm<dim>::find_shrinkage(const DualFluxes<dim> &fluxes)
+  ImmersedViscousTerm<dim>::add_convection(const DualFluxes<dim> &fluxes, const Field<dim> &field)
   {
-    shrinkage.reinit(mine, model.grid().communicator());
-    fluxes.for_each_between(
-      axis, [&](const FacePlace<dim> &from, const FacePlace<dim> &to, const double flux) {
-        shrinkage(number(from)) += assembled_dt * model.density() * flux;
-        shrinkage(number(to)) -= assembled_dt * model.density() * flux;
+    auto  &matrix = solver.matrix;
+    Vector leaving(mine, model.grid().communicator());
+    add_fluxes_between(fluxes, field, leaving);
+    fluxes.for_each_entering(
+      axis, [&](const FacePlace<dim> &place, const double flux, const double velocity) {
+        if (is_prescribed(place))
+          return;
+        const double mass = assembled_dt * model.density() * flux;
+        matrix.add(number(place), number(place), mass);
+        right_side(number(place)) += mass * velocity;
       });
+    matrix.compress(dealii::VectorOperation::add);
+    right_side.compress(dealii::VectorOperation::add);
+    if (fluxes.start())
+      add_shrinkage(fluxes, leaving);
+  }
+
+
+  /// What leaves the dual volumes in a step where surfaces move [kg], besides what crosses sides
+  /// in `leaving`. V^0 is not negative, but for what the flow does not fit.
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::add_shrinkage(const DualFluxes<dim> &fluxes, Vector &leaving)
+  {
     fluxes.for_each_leaving(axis, [&](const FacePlace<dim> &place, const double flux) {
-      shrinkage(number(place)) += assembled_dt * model.density() * flux;
+      leaving(number(place)) += assembled_dt * model.density() * flux;
     });
-    shrinkage.compress(dealii::VectorOperation::add);
+    leaving.compress(dealii::VectorOperation::add);
+    std::size_t k = 0;
     for_each_owned([&](const FacePlace<dim> &place) {
-      double &leaving = shrinkage.begin()[mine.index_within_set(number(place))];
-      leaving         = is_prescribed(place) ? 0. : std::max(leaving, -mass(place));
+      const double shrinkage =
+        is_prescribed(place) ? 0. : std::max(leaving.begin()[k], -mass(place));
+      solver.matrix.add(number(place), number(place), shrinkage);
+      right_side.begin()[k++] += shrinkage * value_at((*fluxes.start())[axis], place);
     });
+    solver.matrix.compress(dealii::VectorOperation::add);
   }
 
 
@@ -290,26 +329,23 @@ namespace undine
 
   template <int dim>
   void
-  ImmersedViscousTerm<dim>::set_up(const double dt, const DualFluxes<dim> *fluxes)
+  ImmersedViscousTerm<dim>::set_up_friction(const double dt, const DualFluxes<dim> *fluxes)
   {
-    using Matrices = DiffusionSolver::Matrices;
     if (dt != assembled_dt || by_diagonal)
       {
         by_diagonal = false;
-        friction.reinit(pattern(fluxes));
+        make_pattern(fluxes);
+        convective_entries.clear();
         assemble_friction(dt);
         if (!fluxes)
           {
             solver.matrix.copy_from(friction);
             friction.clear();
-            solver.set_up(diffusion_number(), Matrices::symmetric);
+            solver.set_up(diffusion_number(), DiffusionSolver::Matrices::symmetric);
           }
       }
-    if (!fluxes)
-      return;
-    solver.matrix.copy_from(friction);
-    add_convection(*fluxes);
-    solver.set_up(diffusion_number(), Matrices::with_convection);
+    if (fluxes)
+      solver.matrix.copy_from(friction);
   }
 
 
@@ -347,12 +383,11 @@ namespace undine
   {
     first = Vector(mine, model.grid().communicator());
     right_side.reinit(first);
+    std::size_t k = 0;
     for_each_owned([&](const FacePlace<dim> &place) {
-      first(number(place))      = value_at(field, place);
-      right_side(number(place)) = mass(place) * value_at(field, place);
+      first.begin()[k]        = value_at(field, place);
+      right_side.begin()[k++] = mass(place) * value_at(field, place);
     });
-    first.compress(dealii::VectorOperation::insert);
-    right_side.compress(dealii::VectorOperation::insert);
     by_given.assign(nodes.size(), 0.);
     std::vector<std::pair<Number, double>> free;
     for (const auto &term : given_terms)
@@ -390,14 +425,13 @@ namespace undine
     nodes.clear();
     for (const auto &velocity : node_velocities)
       nodes.push_back(velocity[axis]);
-    set_up(dt, fluxes);
+    set_up_friction(dt, fluxes);
     field.exchange(1);
     fill(field);
-    if (fluxes)
-      {
-        add_given_convection(right_side, *fluxes, field);
-        right_side.compress(dealii::VectorOperation::add);
-      }
+    if (!fluxes)
+      return;
+    add_convection(*fluxes, field);
+    solver.set_up(diffusion_number(), DiffusionSolver::Matrices::with_convection);
   }
 
 
@@ -405,8 +439,9 @@ namespace undine
   void
   ImmersedViscousTerm<dim>::set_values(Field<dim> &field, const Vector &values) const
   {
+    std::size_t k = 0;
     for_each_owned([&](const FacePlace<dim> &place) {
-      const double value = values(number(place));
+      const double value = values.begin()[k++];
       if (place.part < 0)
         field(place.face) = value;
       else
@@ -546,7 +581,8 @@ namespace undine
   ImmersedViscousTerm<dim>::memory_consumption() const
   {
     return solver.memory_consumption() + friction.memory_consumption() +
-           numbers.memory_consumption() + given_terms.capacity() * sizeof(ViscousTerm<dim>);
+           numbers.memory_consumption() + convective_entries.memory_consumption() +
+           given_terms.capacity() * sizeof(ViscousTerm<dim>);
   }
 
 

@@ -3,7 +3,7 @@
 #define undine_coupled_linear_block_preconditioner_h
 
 #include <undine/base/options/options.h>
-#include <undine/coupled/linear/block_system.h>
+#include <undine/coupled/linear/schur_complement.h>
 
 #include <functional>
 #include <memory>
@@ -27,12 +27,11 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
-    /// All that is given must outlive the calls of vmult(). What is built from `schur`, which
-    /// approximates the Schur complement, is reused as long as that is the same object. Collective.
+    /// All that is given must outlive the calls of vmult(). Collective.
     virtual void
-    initialize(const BlockSystem                   &system,
-               const std::shared_ptr<const Matrix> &schur,
-               const ApplyInverse                  &tangent_inverse) = 0;
+    initialize(const BlockSystem     &system,
+               const SchurComplement &schur,
+               const ApplyInverse    &tangent_inverse) = 0;
 
     /// result = about the inverse of the system times `right_side`. Collective.
     virtual void

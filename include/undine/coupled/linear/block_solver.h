@@ -35,12 +35,15 @@ namespace undine
     using BlockVector = BlockSystem::BlockVector;
     using Matrix      = BlockSystem::Matrix;
 
-    /// The references must outlive it.
-    BlockSolver(const SolidModel<dim> &model, const BlockSolverSettings &settings);
+    /// The references must outlive it. `multigrid`: name of the CellPreconditioner for pressures.
+    BlockSolver(const SolidModel<dim>     &model,
+                const BlockSolverSettings &settings,
+                const std::string         &multigrid);
 
-    /// A new step: forget the approximation of the Schur complement, iterations() and note().
+    /// A new step, with pressures in `places`: forget the approximation of the Schur complement,
+    /// iterations() and note(). `places` must outlive the calls of solve().
     void
-    start_step();
+    start_step(const CellsOfUnknowns &places);
 
     /// The solution up to `reduction` of the right side, at least the settings' tolerance.
     /// `displacement` [m] says where the bodies are. Collective. Throws SolveError if the system is
@@ -75,11 +78,13 @@ namespace undine
             const BlockVector &right_side,
             const double       reduction);
 
-    const BlockSolverSettings    &settings;
-    TangentPreconditioner<dim>    tangent_inverse;
-    std::shared_ptr<const Matrix> schur; ///< nullptr: of no system yet
-    unsigned int                  all_iterations = 0, largest_iterations = 0;
-    std::string                   all_notes;
+    const BlockSolverSettings             &settings;
+    const std::string                      multigrid;
+    TangentPreconditioner<dim>             tangent_inverse;
+    const CellsOfUnknowns                 *places = nullptr;
+    std::unique_ptr<const SchurComplement> schur; ///< nullptr: of no system yet
+    unsigned int                           all_iterations = 0, largest_iterations = 0;
+    std::string                            all_notes;
   };
 } // namespace undine
 

@@ -119,6 +119,15 @@ namespace undine
                       unsigned int          axis) const;
     double
     genuine_share(unsigned int d, const FacePlace<dim> &place, double entering) const;
+    bool
+    is_whole(const GridIndex<dim> &cell, unsigned int axis) const;
+    void
+    within_whole_cell(const GridIndex<dim> &cell, unsigned int axis, const Between &action) const;
+    void
+    across_whole_face(const GridIndex<dim> &face,
+                      unsigned int          d,
+                      unsigned int          axis,
+                      const Between        &action) const;
     void
     within(const Shares &shares, unsigned int axis, const Between &action) const;
     void

@@ -4,6 +4,8 @@
 
 #include <undine/base/options/options.h>
 
+#include <string>
+
 namespace undine
 {
   /// Numerics of the pressure equation.
@@ -11,7 +13,8 @@ namespace undine
   {
     /// Largest allowed |div v| dx / max |v| after a step [1], dx the smallest width of the cell.
     double       divergence_tolerance = 1e-10;
-    unsigned int maximum_iterations   = 300; ///< of conjugate gradients
+    unsigned int maximum_iterations   = 300;         ///< of conjugate gradients
+    std::string  multigrid            = "geometric"; ///< name of a CellPreconditioner
 
     /// `options` is the section of the pressure solver.
     void

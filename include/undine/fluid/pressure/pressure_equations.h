@@ -2,6 +2,7 @@
 #ifndef undine_fluid_pressure_pressure_equations_h
 #define undine_fluid_pressure_pressure_equations_h
 
+#include <undine/base/multigrid/cell_equations.h>
 #include <undine/fluid/grid/fluid_state.h>
 #include <undine/fluid/grid/pressure_numbers.h>
 #include <undine/fluid/pressure/backflow_stabilisation.h>
@@ -59,6 +60,13 @@ namespace undine
       return all_numbers;
     }
 
+    /// Where the pressures of this rank sit.
+    const CellsOfUnknowns &
+    places() const
+    {
+      return cells;
+    }
+
     /// D v* of every pressure, with what openings do [m^dim/s].
     const Vector &
     predicted_flux() const
@@ -106,6 +114,7 @@ namespace undine
     const FluidModel<dim>                 &model;
     const double                           dt;
     const PressureNumbers<dim>            &all_numbers;
+    const CellsOfUnknowns                  cells;
     const ClosedRegions<dim>               regions;
     dealii::TrilinosWrappers::SparseMatrix L, hL;
     Vector                                 flux;

@@ -2,7 +2,7 @@
 #ifndef undine_fluid_pressure_projection_h
 #define undine_fluid_pressure_projection_h
 
-#include <undine/base/parallel/algebraic_multigrid.h>
+#include <undine/base/multigrid/cell_preconditioner.h>
 #include <undine/fluid/grid/pressure_numbers.h>
 #include <undine/fluid/model/fluid_model.h>
 #include <undine/fluid/pressure/backflow_stabilisation.h>
@@ -25,9 +25,8 @@ namespace undine
   ///
   /// with L = D (rho V)^-1 D^T (F4), (F5), (F6), see build_pressure_matrix(). p acts as one impulse
   /// h p; the unknown is h p, so that matrix and multigrid hierarchy serve all step sizes.
-  /// Conjugate gradients with smoothed-aggregation multigrid (Trilinos ML), started from the last
-  /// pressure; repeated on the remaining divergence until that is below the tolerance in every
-  /// single cell.
+  /// Conjugate gradients with multigrid (CellPreconditioner), started from the last pressure;
+  /// repeated on the remaining divergence until that is below the tolerance in every single cell.
   template <int dim>
   class Projection
   {
@@ -120,7 +119,7 @@ namespace undine
     std::unique_ptr<const PressureNumbers<dim>>             numbers;
     std::unique_ptr<const ClosedRegions<dim>>               closed_regions;
     std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix> matrix; ///< none without fluid
-    std::unique_ptr<AlgebraicMultigrid>                     multigrid;
+    std::unique_ptr<CellPreconditioner>                     multigrid;
     double                                                  smallest_area = 0; ///< [m^(dim-1)]
   };
 } // namespace undine

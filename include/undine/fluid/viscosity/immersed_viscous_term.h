@@ -2,7 +2,7 @@
 #ifndef undine_fluid_viscosity_immersed_viscous_term_h
 #define undine_fluid_viscosity_immersed_viscous_term_h
 
-#include <undine/fluid/convection/dual_fluxes.h>
+#include <undine/fluid/viscosity/convective_entries.h>
 #include <undine/fluid/viscosity/diffusion_solver.h>
 #include <undine/fluid/viscosity/viscous_terms.h>
 
@@ -132,24 +132,21 @@ namespace undine
     Number
     number(const FacePlace<dim> &place) const;
     void
-    set_up(const double dt, const DualFluxes<dim> *fluxes);
-    dealii::TrilinosWrappers::SparsityPattern
-    pattern(const DualFluxes<dim> *fluxes) const;
+    set_up_friction(const double dt, const DualFluxes<dim> *fluxes);
+    dealii::IndexSet
+    relevant_rows() const;
+    void
+    make_pattern(const DualFluxes<dim> *fluxes);
     void
     assemble_friction(const double dt);
     void
-    add_convection(const DualFluxes<dim> &fluxes);
+    add_fluxes_between(const DualFluxes<dim> &fluxes, const Field<dim> &field, Vector &leaving);
     void
-    find_shrinkage(const DualFluxes<dim> &fluxes);
+    add_convection(const DualFluxes<dim> &fluxes, const Field<dim> &field);
+    void
+    add_shrinkage(const DualFluxes<dim> &fluxes, Vector &leaving);
     double
     diffusion_number() const;
-    template <class Action>
-    void
-    for_each_convective_row(const DualFluxes<dim> &fluxes, const Action &action) const;
-    void
-    add_given_convection(Vector                &load,
-                         const DualFluxes<dim> &fluxes,
-                         const Field<dim>      &field) const;
     double
     mass(const FacePlace<dim> &place) const;
     bool
@@ -186,8 +183,8 @@ namespace undine
     double                                           time         = 0; ///< [s]
     bool                                             by_diagonal  = false;
     DiffusionSolver                                  solver;
-    Vector                                           shrinkage; ///< if surfaces move [kg]
-    dealii::TrilinosWrappers::SparseMatrix           friction;  ///< of mass and friction
+    ConvectiveEntries<dim>                           convective_entries;
+    dealii::TrilinosWrappers::SparseMatrix           friction; ///< of mass and friction
     std::vector<ViscousTerm<dim>> given_terms; ///< in which something is not an unknown face
     Motion                        nodes;       ///< their velocities [m/s]
     Vector                        first;

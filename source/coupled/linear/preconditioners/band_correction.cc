@@ -53,9 +53,9 @@ namespace undine
     }
 
     void
-    initialize(const BlockSystem                   &new_system,
-               const std::shared_ptr<const Matrix> &schur,
-               const ApplyInverse                  &tangent_inverse) override
+    initialize(const BlockSystem     &new_system,
+               const SchurComplement &schur,
+               const ApplyInverse    &tangent_inverse) override
     {
       system = &new_system;
       triangular.initialize(new_system, schur, tangent_inverse);

@@ -11,23 +11,20 @@ namespace undine
 
 
   void
-  BlockTriangular::initialize(const BlockSystem                   &new_system,
-                              const std::shared_ptr<const Matrix> &new_schur,
-                              const ApplyInverse                  &new_tangent_inverse)
+  BlockTriangular::initialize(const BlockSystem     &new_system,
+                              const SchurComplement &new_schur,
+                              const ApplyInverse    &new_tangent_inverse)
   {
     system          = &new_system;
+    schur           = &new_schur;
     tangent_inverse = new_tangent_inverse;
-    if (schur == new_schur)
-      return;
-    schur = new_schur;
-    multigrid.initialize(*schur);
   }
 
 
   void
   BlockTriangular::vmult(BlockVector &result, const BlockVector &right_side) const
   {
-    multigrid.vmult(result.block(1), right_side.block(1));
+    schur->apply_inverse(result.block(1), right_side.block(1));
     Vector forces(right_side.block(0));
     system->flux().Tvmult(forces, result.block(1));
     forces.add(1., right_side.block(0));

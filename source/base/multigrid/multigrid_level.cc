@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/multigrid/multigrid_level.h>
+
+namespace undine
+{
+  MultigridLevel::MultigridLevel(const CellEquations &equations)
+    : partitioner(equations.partitioner)
+  {
+    const unsigned int n = equations.n_owned();
+    rows.reserve(n + 1);
+    inverse_diagonal.reserve(n);
+    columns.reserve(equations.entries.size());
+    values.reserve(equations.entries.size());
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        Row        row{static_cast<unsigned int>(columns.size()), 0};
+        const auto add_those = [&](const bool before) {
+          for (std::size_t k = equations.row_begins[i]; k < equations.row_begins[i + 1]; ++k)
+            if (const auto &entry = equations.entries[k]; (entry.column < i) == before)
+              {
+                columns.push_back(entry.column);
+                values.push_back(static_cast<float>(entry.rest - entry.coupling));
+              }
+        };
+        add_those(true);
+        row.after = columns.size();
+        add_those(false);
+        rows.push_back(row);
+        // An unknown without an equation has no right-hand side either.
+        const double diagonal = equations.diagonal(i);
+        inverse_diagonal.push_back(diagonal > 0 ? static_cast<float>(1 / diagonal) : 0.f);
+      }
+    rows.push_back({static_cast<unsigned int>(columns.size()), 0});
+  }
+
+
+  MultigridLevel::Vector
+  MultigridLevel::vector() const
+  {
+    return Vector(partitioner);
+  }
+
+
+  float
+  MultigridLevel::sum(const unsigned int begin, const unsigned int end, const Vector &x) const
+  {
+    float result = 0;
+    for (unsigned int k = begin; k < end; ++k)
+      result += values[k] * x.local_element(columns[k]);
+    return result;
+  }
+
+
+  void
+  MultigridLevel::relax_from_zero(Vector &x, const Vector &b) const
+  {
+    for (unsigned int i = 0; i < inverse_diagonal.size(); ++i)
+      x.local_element(i) =
+        inverse_diagonal[i] * (b.local_element(i) - sum(rows[i].begin, rows[i].after, x));
+  }
+
+
+  void
+  MultigridLevel::restrict_residual(Vector                 &coarse_b,
+                                    Vector                 &x,
+                                    const std::vector<int> &aggregates) const
+  {
+    x.update_ghost_values();
+    coarse_b = 0.f;
+    // What relaxation has left of row i is the part of later columns.
+    for (unsigned int i = 0; i < inverse_diagonal.size(); ++i)
+      if (aggregates[i] >= 0)
+        coarse_b.local_element(aggregates[i]) -= sum(rows[i].after, rows[i + 1].begin, x);
+  }
+
+
+  void
+  MultigridLevel::prolongate(Vector                 &x,
+                             const Vector           &coarse_x,
+                             const std::vector<int> &aggregates) const
+  {
+    for (unsigned int i = 0; i < inverse_diagonal.size(); ++i)
+      if (aggregates[i] >= 0)
+        x.local_element(i) += coarse_x.local_element(aggregates[i]);
+  }
+
+
+  void
+  MultigridLevel::relax_backward(Vector &x, const Vector &b) const
+  {
+    x.update_ghost_values();
+    for (unsigned int i = inverse_diagonal.size(); i-- > 0;)
+      x.local_element(i) =
+        inverse_diagonal[i] * (b.local_element(i) - sum(rows[i].begin, rows[i + 1].begin, x));
+  }
+
+
+  std::size_t
+  MultigridLevel::memory_consumption() const
+  {
+    return rows.capacity() * sizeof(Row) + columns.capacity() * sizeof(unsigned int) +
+           (values.capacity() + inverse_diagonal.capacity()) * sizeof(float);
+  }
+} // namespace undine
