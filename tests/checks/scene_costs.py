@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What scenes say of their time and size at their head, and whether it is still true.
+
+tests/scenes/costs.csv has for every scene what the whole run and its first two steps have cost, measured together, in core
+seconds and bytes, and how fast the machine was then. check_scene.py compares two steps with these two, on a machine as fast:
+like with like, so that neither a busy machine nor a scene whose later steps are dearer is taken for a change.
+
+usage: scene_costs.py PROGRAM SCENE.prm... [--limit SECONDS]     measure, write costs.csv and the heads of the scenes
+
+What takes longer than the limit is stopped, and its cost is that of its steps until then for all of them.
+"""
+import argparse
+import csv
+import json
+import math
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import time
+
+import scene_tools
+
+TABLE = pathlib.Path(scene_tools.ROOT, "tests", "scenes", "costs.csv")
+COLUMNS = ("scene", "core seconds", "bytes", "core seconds of two steps", "bytes of two steps", "seconds of the yardstick",
+           "share of the run that was made")
+HEAD = re.compile(r"^# Takes about (\S+ (?:s|min|h)) on one core and writes about (\S+ (?:MB|GB))\.$", re.M)
+FACTOR = 3
+LEAST_SECONDS, LEAST_BYTES = 0.3, 3e5  # of two steps: shares of what does not depend on the scene
+
+
+def yardstick():
+    """Core seconds of a fixed piece of work, the least of some: how slow this machine is now."""
+    import numpy
+    values = numpy.linspace(0, 1, 200000)
+    least = math.inf
+    for _ in range(5):
+        begin = time.process_time()
+        for _ in range(5):
+            numpy.sort(numpy.sin(1e5 * values)).cumsum()
+        least = min(least, time.process_time() - begin)
+    return least
+
+
+def size_of(folder):
+    return sum(file.stat().st_size for file in pathlib.Path(folder).rglob("*") if file.is_file())
+
+
+def cost_of(folder):
+    """Core seconds, steps and what has been reached of a finished or stopped run."""
+    with open(os.path.join(folder, "summary.json")) as file:
+        summary = json.load(file)
+    return summary["cost"]["core seconds"], summary["steps"], summary["time [s]"] / summary["end [s]"]
+
+
+def rows():
+    with open(TABLE) as file:
+        return {row["scene"]: row for row in csv.DictReader(line for line in file if not line.startswith("#"))}
+
+
+def in_words(seconds, size):
+    """("3 min", "40 MB"), rounded so that they can be remembered."""
+    unit, length = ("s", 1) if seconds < 100 else ("min", 60) if seconds < 6000 else ("h", 3600)
+    number = max(1, float(f"{seconds / length:.1g}" if seconds / length < 10 else f"{seconds / length:.2g}"))
+    megabytes = max(1, float(f"{size / 1e6:.2g}"))
+    return f"{number:.0f} {unit}", f"{megabytes:.0f} MB" if megabytes < 1000 else f"{megabytes / 1000:.1f} GB"
+
+
+def name_of(scene):
+    return pathlib.Path(scene).stem
+
+
+def faults(scene, folder):
+    """What is no longer true at the head of the scene, of which two steps were run in the folder."""
+    row = rows().get(name_of(scene))
+    if row is None:
+        return [f"tests/scenes/costs.csv has no row '{name_of(scene)}': scene_costs.py makes one"]
+    head = HEAD.search(pathlib.Path(scene).read_text())
+    wanted = in_words(float(row["core seconds"]), float(row["bytes"]))
+    if head is None or head.groups() != wanted:
+        return [f"the head of {name_of(scene)} must say '# Takes about {wanted[0]} on one core and writes about {wanted[1]}.'"]
+    seconds, _, _ = cost_of(folder)
+    found = []
+    for what, value, before, least in (
+            ("core seconds", seconds / yardstick(), float(row["core seconds of two steps"]) /
+             float(row["seconds of the yardstick"]), LEAST_SECONDS / yardstick()),
+            ("bytes", size_of(folder), float(row["bytes of two steps"]), LEAST_BYTES)):
+        ratio = max(value, least) / max(before, least)
+        if not 1 / FACTOR < ratio < FACTOR:
+            found.append(f"two steps have cost {ratio:.2g} times the {what} that costs.csv has: the scene's head is not true")
+    return found
+
+
+def run(program, scene, folder, limit, *settings):
+    """Run a scene, stopped after `limit` seconds."""
+    process = subprocess.Popen([program, scene, "--output", folder, *settings], env=scene_tools.environment(),
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        process.wait(limit)
+    except subprocess.TimeoutExpired:
+        process.send_signal(signal.SIGTERM)
+        process.wait()
+    if process.returncode not in (0, 7):
+        raise RuntimeError(f"{scene}: exit code {process.returncode}")
+
+
+def whole_size(folder, share):
+    """Bytes of a run of which a share was made: pictures and rows grow with it."""
+    path = pathlib.Path(folder)
+    growing = size_of(path / "solution") + (path / "statistics").stat().st_size
+    return size_of(path) + growing * (1 / share - 1)
+
+
+def measured(program, scene, limit, short):
+    """A row of the table."""
+    with tempfile.TemporaryDirectory() as folder:
+        run(program, scene, folder + "/two", None, *short)
+        seconds_of_two, _, _ = cost_of(folder + "/two")
+        scale = yardstick()
+        run(program, scene, folder + "/whole", limit)
+        seconds, _, share = cost_of(folder + "/whole")
+        return dict(zip(COLUMNS, (name_of(scene), f"{seconds / share:.3g}", f"{whole_size(folder + '/whole', share):.3g}",
+                                  f"{seconds_of_two:.3g}", f"{size_of(folder + '/two'):.3g}", f"{scale:.3g}", f"{share:.2g}")))
+
+
+def write_table(table):
+    with open(TABLE, "w") as file:
+        file.write("# Written by tests/checks/scene_costs.py, which says what it means.\n")
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(table[name] for name in sorted(table))
+
+
+def write_head(scene, row):
+    """Put the line at the end of the first comment of the scene."""
+    text = HEAD.sub("", pathlib.Path(scene).read_text()).lstrip("\n")
+    line = "# Takes about {} on one core and writes about {}.\n".format(*in_words(float(row["core seconds"]), float(row["bytes"])))
+    comment = re.match(r"(#[^\n]*\n)*", text).end()
+    pathlib.Path(scene).write_text(text[:comment] + line + text[comment:].lstrip("\n"))
+
+
+def main():
+    import check_scene
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("scenes", nargs="+")
+    parser.add_argument("--limit", type=float)
+    options = parser.parse_args()
+    for scene in options.scenes:
+        row = measured(options.program, scene, options.limit, check_scene.settings(scene))
+        table = rows() if TABLE.exists() else {}
+        table[row["scene"]] = row
+        write_table(table)
+        write_head(scene, row)
+        print(", ".join(row.values()), flush=True)
+
+
+if __name__ == "__main__":
+    main()
