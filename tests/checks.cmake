@@ -13,6 +13,8 @@ add_test(NAME sources/documents
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_documents.py
                  ${PROJECT_SOURCE_DIR})
 add_test(NAME sources/manual COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_manual.py)
+add_test(NAME sources/tutorials_find_faults
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_tutorials.py)
 add_test(NAME sources/release COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_release.py)
 add_test(NAME long/manual COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_manual.py --make)
 set_tests_properties(long/manual PROPERTIES LABELS long SKIP_RETURN_CODE 77 TIMEOUT 1800)

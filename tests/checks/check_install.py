@@ -59,7 +59,7 @@ def check_documents_there(doc):
 
 
 def main():
-    build = sys.argv[1]
+    build = os.path.abspath(sys.argv[1])
     version = pathlib.Path(scene_tools.ROOT, "VERSION").read_text().strip()
     with tempfile.TemporaryDirectory() as folder:
         call("cmake", "--install", build, "--prefix", os.path.join(folder, "first"), folder=folder)
@@ -70,8 +70,8 @@ def main():
         require("study STUDY.prm" in call(undine, "--help", folder=folder), "--help does not tell of studies")
         short = ["--set", "Time/Maximum steps=2"]
         call(undine, prm / "cavity.prm", *short, folder=folder)
-        call(undine, "-n", 2, prm / "balloon.prm", "--output", "balloon", *short, folder=folder)
-        for name, key in (("output/cavity", "Undine " + version), ("balloon", "2 rank(s)")):
+        call(undine, "-n", 2, prm / "closed_chamber.prm", "--output", "chamber", *short, folder=folder)
+        for name, key in (("output/cavity", "Undine " + version), ("chamber", "2 rank(s)")):
             require(key in pathlib.Path(folder, name, "log.txt").read_text(), f"{name}/log.txt lacks '{key}'")
         require("no scene" in call(undine, "--validate", folder=folder, code=2), "an error is not told")
 

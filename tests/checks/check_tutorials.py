@@ -2,17 +2,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Do what a tutorial says, command by command, in a folder that looks like that of the sources.
 
-usage: check_tutorials.py BUILD PAGE.md [--full]
+usage: check_tutorials.py BUILD PAGE.md [--full] [--in EMPTY_FOLDER]
 
 A comment before a block of the page says what the block is:
     <!-- run -->                     commands
     <!-- run: Time/End=0.1 | A/B=c -->  commands; in the short form every scene gets these settings
+    <!-- on a device: Time/End=0.1 -->  the same, left out where there is no CUDA device
     <!-- fails 2 -->                 a command that must end with this exit code
     <!-- prints -->                  lines that the commands before have printed, in this order; ... are left out
     <!-- file: NAME -->, <!-- more of: NAME -->   what to write to a file, or at its end
     <!-- not run: WHY -->
 The short form also makes one small picture in the place of all. With --full all is done as it is written, and what the page
-says of time, memory and disk must be true within a factor of 3.
+says of time, memory and disk must be true within a factor of 3. In a folder that is named all results stay, to look at.
 """
 import os
 import pathlib
@@ -80,6 +81,11 @@ def short(line, settings):
     return line
 
 
+def has_device(folder):
+    return subprocess.run(["./undine", "prm/elastic_sphere.prm", "--validate", "--set", "Particles/Executor=device"], cwd=folder,
+                          env=scene_tools.environment(), capture_output=True).returncode == 0
+
+
 def can_render():
     return (subprocess.run(["/usr/bin/python3", "-c", "import numpy, vtk"], capture_output=True).returncode == 0 and
             bool(shutil.which("Xvfb")))
@@ -114,9 +120,11 @@ def open_for_writing(folder, name, mode):
 
 
 def call(line, folder, code):
-    """What a command prints."""
-    result = subprocess.run(["sh", "-c", line], cwd=folder, env=scene_tools.environment(), stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT, text=True, errors="replace")
+    """What a command prints; `python3` is Debian's, as for users, whatever else is on the path."""
+    environment = scene_tools.environment()
+    environment["PATH"] = "/usr/bin:/bin:" + environment.get("PATH", "")
+    result = subprocess.run(["sh", "-c", line], cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                            text=True, errors="replace")
     if result.returncode != code:
         raise Fault(f"exit code {result.returncode} of: {line}\n{result.stdout[-3000:]}")
     return result.stdout
@@ -148,8 +156,11 @@ def follow(text, folder, build, full):
                 file.write(body)
         elif kind == "prints":
             assert_printed(body, printed)
-        elif kind == "run" or kind.startswith("fails "):
+        elif kind in ("run", "on a device") or kind.startswith("fails "):
             printed = ""
+            if kind == "on a device" and not has_device(folder):
+                print(f"left out, since there is no CUDA device: {body.strip()}")
+                continue
             for line in commands(body):
                 if line.startswith("contrib/render") and not pictures:
                     print(f"left out, since packages for pictures are missing: {line}")
@@ -176,9 +187,11 @@ def assert_costs(text, folder):
 
 
 def main():
-    build, page = sys.argv[1], pathlib.Path(sys.argv[2])
+    build, page = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2])
     text = page.read_text()
     with tempfile.TemporaryDirectory() as folder:
+        folder = sys.argv[sys.argv.index("--in") + 1] if "--in" in sys.argv else folder
+        os.makedirs(folder, exist_ok=True)
         try:
             if not TAKES.search(text):
                 raise Fault(f"no line like '{TAKES.pattern}'")
