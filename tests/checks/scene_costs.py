@@ -8,7 +8,7 @@ like with like, so that neither a busy machine nor a scene whose later steps are
 
 usage: scene_costs.py PROGRAM SCENE.prm... [--limit SECONDS]     measure, write costs.csv and the heads of the scenes
 
-What takes longer than the limit is stopped, and its cost is that of its steps until then for all of them.
+What takes longer than the limit is stopped, and goes on costing what its steps but the first two have cost.
 """
 import argparse
 import csv
@@ -129,15 +129,14 @@ def measured(program, scene, limit, short):
     """A row of the table."""
     with tempfile.TemporaryDirectory() as folder:
         run(program, scene, folder + "/two", None, *short)
-        seconds_of_two, _, _ = cost_of(folder + "/two")
-        scale, whole = yardstick(), folder + "/two"
-        stopped = limit and seconds_of_two > limit / 2
-        if not stopped:  # else two steps tell as much
-            whole = folder + "/whole"
-            stopped = run(program, scene, whole, limit)
-        seconds, _, share = cost_of(whole)
+        seconds_of_two, steps_of_two, _ = cost_of(folder + "/two")
+        scale, whole = yardstick(), folder + "/whole"
+        stopped = run(program, scene, whole, limit and limit + seconds_of_two)
+        seconds, steps, share = cost_of(whole)
         share = share if stopped else 1
-        return dict(zip(COLUMNS, (name_of(scene), f"{seconds / share:.3g}", f"{whole_size(whole, share):.3g}",
+        if steps > steps_of_two:  # the first steps are dearer than those after them
+            seconds += (seconds - seconds_of_two) / (steps - steps_of_two) * steps * (1 / share - 1)
+        return dict(zip(COLUMNS, (name_of(scene), f"{seconds:.3g}", f"{whole_size(whole, share):.3g}",
                                   f"{seconds_of_two:.3g}", f"{size_of(folder + '/two'):.3g}", f"{scale:.3g}", f"{share:.2g}")))
 
 
