@@ -58,8 +58,8 @@ class SceneCosts(unittest.TestCase):
             scene.write_text(head)
             results = pathlib.Path(folder, "results")
             results.mkdir()
-            (results / "summary.json").write_text(json.dumps({"cost": {"core seconds": seconds}, "steps": 2, "time [s]": 1,
-                                                              "end [s]": 1}))
+            (results / "summary.json").write_text(json.dumps({"cost": {"core seconds": seconds}, "steps": 2, "time [s]": 1}))
+            (results / "parameters.json").write_text(json.dumps({"Time": {"End": "1"}}))
             (results / "solution").write_bytes(bytes(int(size)))
             with mock.patch.object(scene_costs, "rows", lambda: {"a": self.ROW}), \
                     mock.patch.object(scene_costs, "yardstick", lambda: yardstick):
