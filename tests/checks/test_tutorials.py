@@ -49,7 +49,7 @@ class Tutorials(unittest.TestCase):
 
 
 class SceneCosts(unittest.TestCase):
-    ROW = {"core seconds": "200", "bytes": "3.2e7", "core seconds of two steps": "4", "bytes of two steps": "1e6",
+    ROW = {"core seconds": "200", "bytes": "3.2e7", "core seconds of two steps": "4",
            "seconds of the yardstick": "0.1"}
 
     def faults(self, head, seconds, size, yardstick=0.1):
@@ -59,8 +59,12 @@ class SceneCosts(unittest.TestCase):
             results = pathlib.Path(folder, "results")
             results.mkdir()
             (results / "summary.json").write_text(json.dumps({"cost": {"core seconds": seconds}, "steps": 2, "time [s]": 1}))
-            (results / "parameters.json").write_text(json.dumps({"Time": {"End": "1"}}))
-            (results / "solution").write_bytes(bytes(int(size)))
+            (results / "parameters.json").write_text(json.dumps({"Time": {"End": "1", "Step": "0.1"}, "Output":
+                                                                 {"Interval": "0.05"}}))
+            (results / "statistics").write_text("# 1: Step [1]\n0\n1\n")
+            (results / "solution").mkdir()
+            (results / "solution" / "fluid_000000.vtu").write_text("at the start nothing")
+            (results / "solution" / "fluid_000002.vtu").write_bytes(bytes(int(size / 21)))
             with mock.patch.object(scene_costs, "rows", lambda: {"a": self.ROW}), \
                     mock.patch.object(scene_costs, "yardstick", lambda: yardstick):
                 return scene_costs.faults(scene, results)
@@ -73,11 +77,11 @@ class SceneCosts(unittest.TestCase):
 
     def test_faults(self):
         head = "# A.\n# Takes about 3 min on one core and writes about 32 MB.\nset Title = A\n"
-        self.assertEqual(self.faults(head, 4, 1e6), [])
-        self.assertEqual(self.faults(head, 11, 1e6), [])
-        self.assertEqual(self.faults(head, 20, 1e6, yardstick=0.3), [], "a machine that is slower by 3")
-        for wrong, word in (((head, 13, 1e6), "core seconds"), ((head, 1, 1e6), "core seconds"), ((head, 4, 4e6), "bytes"),
-                            ((head.replace("3 min", "9 min"), 4, 1e6), "must say"), (("set Title = A\n", 4, 1e6), "must say")):
+        self.assertEqual(self.faults(head, 4, 3.2e7), [])
+        self.assertEqual(self.faults(head, 11, 3.2e7), [])
+        self.assertEqual(self.faults(head, 20, 3.2e7, yardstick=0.3), [], "a machine that is slower by 3")
+        for wrong, word in (((head, 13, 3.2e7), "core seconds"), ((head, 1, 3.2e7), "core seconds"), ((head, 4, 1e8), "bytes"),
+                            ((head.replace("3 min", "9 min"), 4, 3.2e7), "must say"), (("set Title = A\n", 4, 3.2e7), "must say")):
             found = self.faults(*wrong)
             self.assertEqual(len(found), 1, found)
             self.assertIn(word, found[0])
