@@ -12,12 +12,22 @@ add_test(NAME sources/style
 add_test(NAME sources/documents
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_documents.py
                  ${PROJECT_SOURCE_DIR})
+add_test(NAME sources/manual COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_manual.py)
+add_test(NAME sources/tutorials_find_faults
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_tutorials.py)
+add_test(NAME sources/release COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_release.py)
+add_test(NAME long/manual COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_manual.py --make)
+set_tests_properties(long/manual PROPERTIES LABELS long SKIP_RETURN_CODE 77 TIMEOUT 1800)
 add_test(NAME sources/layout COMMAND ${PROJECT_SOURCE_DIR}/contrib/indent --check)
 
 add_test(NAME malformed/scenes
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_malformed.py
                  $<TARGET_FILE:undine> ${CMAKE_CURRENT_SOURCE_DIR}/malformed)
 set_tests_properties(malformed/scenes PROPERTIES TIMEOUT 600)
+
+add_test(NAME runs/install
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_install.py ${PROJECT_BINARY_DIR})
+set_tests_properties(runs/install PROPERTIES PROCESSORS 2 TIMEOUT 300)
 
 add_test(NAME runs/splitting
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_splitting.py $<TARGET_FILE:undine>
@@ -41,6 +51,18 @@ add_test(NAME runs/long_frame
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_long_frame.py $<TARGET_FILE:undine>
                  ${PROJECT_SOURCE_DIR}/prm/dam_break_particles.prm)
 set_tests_properties(runs/long_frame PROPERTIES TIMEOUT 300)
+
+# Tutorials: all that their pages say, in a short form; and as it is written, with what it takes.
+file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/doc/tutorials/*.md)
+list(FILTER pages EXCLUDE REGEX "/README\\.md$")
+foreach(page ${pages})
+  get_filename_component(name ${page} NAME_WE)
+  set(command ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_tutorials.py ${PROJECT_BINARY_DIR} ${page})
+  add_test(NAME tutorials/${name} COMMAND ${command})
+  add_test(NAME long/tutorial_${name} COMMAND ${command} --full)
+  set_tests_properties(tutorials/${name} PROPERTIES TIMEOUT 300)
+  set_tests_properties(long/tutorial_${name} PROPERTIES LABELS long TIMEOUT 7200)
+endforeach()
 
 # Pictures need packages that the program does not: without them the test is skipped.
 add_test(NAME contrib/render

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The program's options do what the README says.
+"""The program's options do what doc/running.md says.
 
 usage: check_command_line.py PROGRAM SCENE.prm
 """
@@ -71,7 +71,7 @@ def main():
     program, scene = sys.argv[1:3]
     check_questions(program, scene)
     check_output(program, scene)
-    print("the command line does what the README says")
+    print("the command line does what doc/running.md says")
 
 
 main()

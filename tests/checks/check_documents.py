@@ -13,7 +13,7 @@ SUFFIXES = {".h", ".cc", ".cu", ".cuh"}
 NUMBER = r"[STFCIEPLV]\d+[a-z]?"
 CITED = re.compile(rf"\(({NUMBER})\)")
 TAG = re.compile(r"\\tag\{([^}]*)\}")
-LINK = re.compile(r"\[[^\]\n]*\]\(([^)\s]+)\)")
+LINK = re.compile(r"\]\(([^)\s]+)\)")  # its words may begin on the line before
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.S)
 # An escape that Markdown takes for its own, as \, and \{ are; \\ at the end of a row is none.
 ESCAPE = re.compile(r"(?<!\\)\\[!-/:-@\[\]^-`{-~]")
@@ -22,10 +22,11 @@ MARKER = re.compile(r"\s*([-+*>#|]|=+$|\d+[.)])(\s|$)")
 
 def documents(root):
     """All files whose links and formulas are looked at."""
-    for file in (root / "README.md", root / "CONTRIBUTING.md"):
+    for file in (root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md"):
         if file.exists():
             yield file
-    yield from sorted((root / "doc").glob("*.md"))
+    for folder in (root / "doc", root / "doc" / "tutorials"):
+        yield from sorted(folder.glob("*.md"))
 
 
 def without_code(text):
