@@ -9,12 +9,14 @@
 #include <undine/driver/log.h>
 #include <undine/driver/measured_costs.h>
 #include <undine/driver/progress.h>
+#include <undine/driver/report_page.h>
 #include <undine/driver/run.h>
 #include <undine/driver/run_directory.h>
 #include <undine/driver/run_summary.h>
 #include <undine/driver/size_check.h>
 #include <undine/driver/study_file.h>
 #include <undine/output/checkpoint/checkpoint.h>
+#include <undine/output/files/schedule.h>
 #include <undine/scene/scene.h>
 
 #include <functional>
@@ -25,19 +27,37 @@ namespace undine
 {
   namespace
   {
-    /// What watches a run: the step of the report has led to the state.
+    /// What watches a run.
     template <int dim>
-    using Observe = std::function<void(const State<dim> &, const Report &)>;
+    struct Watch
+    {
+      std::function<void(const State<dim> &, const Report &)> step;    ///< has led to the state
+      std::function<void(const State<dim> &)>                 outputs; ///< have been written
+    };
+
+
+    template <int dim>
+    void
+    write_outputs(const State<dim> &state,
+                  const Report     &report,
+                  Scene<dim>       &scene,
+                  TimingTree       &timing)
+    {
+      const auto timed = timing.section("output");
+      for (auto &output : scene.outputs)
+        if (output->due(state.clock))
+          output->write(state, report);
+    }
 
 
     /// The whole of a simulation. `state` is at its first time, initial or resumed.
     template <int dim>
     void
-    run_time_loop(State<dim>         &state,
-                  Scene<dim>         &scene,
-                  const Observe<dim> &observe,
-                  Log                &log,
-                  TimingTree         &timing)
+    run_time_loop(State<dim>       &state,
+                  Scene<dim>       &scene,
+                  const Watch<dim> &watch,
+                  Log              &log,
+                  TimingTree       &timing)
     {
       Progress      progress(log, state.clock);
       MeasuredCosts costs(log, state.clock, scene.models.communicator());
@@ -52,11 +72,9 @@ namespace undine
           const double dt     = scene.scheme->choose_dt(state);
           const Report report = scene.scheme->step(state, dt);
           state.clock.advance(report.dt); // what was accepted; retries happen inside step
-          observe(state, report);
-          const auto timed = timing.section("output");
-          for (auto &output : scene.outputs)
-            if (output->due(state.clock))
-              output->write(state, report);
+          watch.step(state, report);
+          write_outputs(state, report, scene, timing);
+          watch.outputs(state);
           progress.report(state.clock, report);
           costs.observe(state.clock);
         }
@@ -114,14 +132,14 @@ namespace undine
     void
     run_keeping_last_state(State<dim>         &state,
                            Scene<dim>         &scene,
-                           const Observe<dim> &observe,
+                           const Watch<dim>   &watch,
                            const ResultFolder &folder,
                            Log                &log,
                            TimingTree         &timing)
     {
       try
         {
-          run_time_loop(state, scene, observe, log, timing);
+          run_time_loop(state, scene, watch, log, timing);
         }
       catch (const FileError &error)
         {
@@ -150,6 +168,7 @@ namespace undine
                              const RunSummary<dim> &summary,
                              const Clock           &clock,
                              const Error           &failure,
+                             const TimingTree      &timing,
                              Log                   &log,
                              const MPI_Comm         communicator)
     {
@@ -159,11 +178,41 @@ namespace undine
       try
         {
           write_whole_file(folder, "summary.json", summary.json(clock, end), communicator);
+          write_whole_file(folder, "timing", timing_table(timing), communicator);
         }
       catch (const FileError &)
         {
           // The failure itself is what the user must hear of.
         }
+    }
+
+
+    /// Write the page about a run that goes on, if it is time for that, and what it is made of.
+    template <int dim>
+    void
+    refresh_page(ReportPage               &page,
+                 ResultFolder             &folder,
+                 const EffectsReport<dim> &effects,
+                 const Adviser<dim>       &adviser,
+                 const RunSummary<dim>    &summary,
+                 const Clock              &clock,
+                 TimingTree               &timing,
+                 const MPI_Comm            communicator)
+    {
+      if (!is_output_time(clock) || clock.ended() || !page.due())
+        return;
+      const auto timed = timing.section("report");
+      try
+        {
+          write_whole_file(folder, "effects.json", effects.json(adviser.advice()), communicator);
+          write_whole_file(folder, "summary.json", summary.json(clock, {}), communicator);
+          write_whole_file(folder, "timing", timing_table(timing), communicator);
+        }
+      catch (const FileError &)
+        {
+          // Without them the page says less.
+        }
+      page.write();
     }
 
 
@@ -316,6 +365,7 @@ namespace undine
       effects.print_start(log);
       write_whole_file(folder, "effects.json", effects.json({}), communicator);
       RunSummary<dim> summary(scene, options, state.clock);
+      ReportPage      page(folder, scene.has_report, log, communicator);
       try
         {
           run_keeping_last_state(state,
@@ -323,6 +373,16 @@ namespace undine
                                  {[&](const State<dim> &now, const Report &report) {
                                    adviser.observe(now, report);
                                    summary.observe(now.clock.time, report);
+                                 },
+                                 [&](const State<dim> &now) {
+                                   refresh_page(page,
+                                                folder,
+                                                effects,
+                                                adviser,
+                                                summary,
+                                                now.clock,
+                                                timing,
+                                                communicator);
                                  }},
                                  folder,
                                  log,
@@ -330,7 +390,9 @@ namespace undine
         }
       catch (const Error &failure)
         {
-          write_summary_of_failure(folder, summary, state.clock, failure, log, communicator);
+          write_summary_of_failure(
+            folder, summary, state.clock, failure, timing, log, communicator);
+          page.finish();
           throw;
         }
       write_checkpoint(folder.path(), scene.models, state, folder.statistics_digest);
@@ -343,6 +405,7 @@ namespace undine
       if (summary.has_steps())
         write_whole_file(folder, "summary.json", summary.json(state.clock, {}), communicator);
       folder.finish();
+      page.finish();
     }
 
 

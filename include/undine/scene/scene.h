@@ -23,6 +23,7 @@ namespace undine
   {
     std::string                               title;
     std::filesystem::path                     directory; ///< where results go
+    bool                                      has_report = true; ///< a page about the run
     Clock                                     clock;
     Models<dim>                               models;
     std::unique_ptr<Scheme<dim>>              scheme;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+#include <undine/base/core/version.h>
+#include <undine/driver/other_program.h>
+#include <undine/driver/report_page.h>
+
+#include <cstdlib>
+
+namespace undine
+{
+  namespace
+  {
+    constexpr int longest_share = 50; // a page is written anew after so many times what it takes
+
+    constexpr std::chrono::seconds limit(60); // for the first, for which fonts are searched
+
+
+    bool
+    is_switched_off()
+    {
+      const char *variable = std::getenv("UNDINE_REPORT");
+      return variable != nullptr && std::string(variable) == "off";
+    }
+  } // namespace
+
+
+  ReportPage::ReportPage(ResultFolder  &folder,
+                         const bool     wanted,
+                         Log           &log,
+                         const MPI_Comm communicator)
+    : folder(folder)
+    , log(log)
+    , communicator(communicator)
+    , is_on(dealii::Utilities::MPI::broadcast(communicator, wanted && !is_switched_off()))
+  {
+  }
+
+
+  bool
+  ReportPage::due() const
+  {
+    return is_on && dealii::Utilities::MPI::broadcast(
+                      communicator, Clockwork::now() - last > longest_share * of_page);
+  }
+
+
+  std::string
+  ReportPage::try_to_write()
+  {
+    try
+      {
+        folder.claim("report.html");
+      }
+    catch (const FileError &error)
+      {
+        return error.what();
+      }
+    std::string failure;
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      failure = call_program({"/usr/bin/python3", "-B", "-m", "report", folder.path().string()},
+                             {"PYTHONPATH=" UNDINE_SOURCE_FOLDER},
+                             limit);
+    return dealii::Utilities::MPI::broadcast(communicator, failure);
+  }
+
+
+  void
+  ReportPage::write()
+  {
+    if (!is_on)
+      return;
+    const auto begin   = Clockwork::now();
+    const auto failure = try_to_write();
+    last               = Clockwork::now();
+    of_page            = last - begin;
+    is_on              = failure.empty();
+    if (!is_on)
+      log.print("note: 'report.html' is not written: {}", failure);
+  }
+
+
+  void
+  ReportPage::finish()
+  {
+    write();
+    if (is_on)
+      log.print("\nreport: {}", (folder.path() / "report.html").string());
+  }
+} // namespace undine
