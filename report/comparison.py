@@ -20,16 +20,11 @@ def names_of(folders):
     return [f"{path[-1]} ({number})" for number, path in enumerate(paths, 1)]
 
 
-def probes_of(results):
-    probes = results.parameters.get("Probes", {})
-    return list(probes) if isinstance(probes, dict) else []
-
-
 def common_plots(runs):
     """Plots of the columns of all runs, each column once; stacks of several runs would hide each other, so they are lines."""
     found = {}
     for results in runs:
-        for plot in plots.of_table(results.statistics, probes_of(results))[0]:
+        for plot in plots.of_table(results.statistics, results.probes())[0]:
             into = found.setdefault((plot.section, plot.title, plot.unit), plots.Plot(plot.section, plot.title, plot.unit, [], [],
                                                                                       plot.kind))
             for name, label in zip(plot.names, plot.labels):
@@ -75,7 +70,7 @@ def write(runs):
     names = names_of([results.folder for results in runs])
     differing = [[name, *values] for name, values in parameters.differing(
         [results.parameters for results in runs])]
-    described = [{"name": name, "colour": figure.COLOURS[k % len(figure.COLOURS)], "verdict": verdict.of(results),
+    described = [{"name": name, "colour": figure.COLOURS[k % len(figure.COLOURS)], "verdict": verdict.of_any(results),
                   "picture": scene_picture.of_run(results)[0], "problems": list(dict.fromkeys(results.problems))}
                  for k, (results, name) in enumerate(zip(runs, names))]
     remark = "" if differing else "None: all parameters are the same."
@@ -83,5 +78,5 @@ def write(runs):
                 *sections_of_plots(runs, names)]
     return template.page("comparison.html", sections, title="Comparison of " + " and ".join(names) if len(names) < 4 else
                          f"Comparison of {len(names)} runs", subtitle=", ".join(results.title() for results in runs), runs=described,
-                         names=names, facts=side_by_side([facts.of_run(results) for results in runs]), differing=differing,
+                         names=names, facts=side_by_side([results.attempt("summary.json", facts.of_run, []) for results in runs]), differing=differing,
                          refresh=0, frames=[], footer="Written by 'undine report' from the files in the folders alone.")

@@ -58,8 +58,21 @@ class Results:
             self.problems.append(f"'{name}' cannot be read: {error.strerror}")
             return ""
 
+    def attempt(self, file, make, otherwise):
+        """make(self), or `otherwise` where the file has other contents than is expected, as older or spoilt ones may."""
+        try:
+            return make(self)
+        except (AttributeError, IndexError, KeyError, TypeError, ValueError):
+            self.problems.append(f"'{file}' has other contents than this version of Undine writes; what they tell is left out")
+            return otherwise
+
     def title(self):
-        return self.summary.get("title") or self.parameters.get("Title") or os.path.basename(os.path.abspath(self.folder))
+        return str(self.summary.get("title") or self.parameters.get("Title") or os.path.basename(os.path.abspath(self.folder)))
+
+    def probes(self):
+        """Their names."""
+        probes = self.parameters.get("Probes", {})
+        return list(probes) if isinstance(probes, dict) else []
 
     def dimension(self):
         try:

@@ -115,13 +115,12 @@ def subtitle(results):
 
 def write(results):
     """HTML about a run."""
-    found = verdict.of(results)
-    probes = list(results.parameters.get("Probes", {})) if isinstance(results.parameters.get("Probes", {}), dict) else []
-    drawn, constant, left_out = plots.of_table(results.statistics, probes)
+    found = verdict.of_any(results)
+    drawn, constant, left_out = plots.of_table(results.statistics, results.probes())
     of_plots = sections_of_plots(results, drawn)
     picture, no_picture = scene_picture.of_run(results)
     pictures, n_frames = frames.of_run(results)
-    on, off = effects(results)
+    on, off = results.attempt("effects.json", effects, ([], []))
     given = parameters.given(results.text("parameters.prm"))
     timing = phases.tree(results.path("timing"))
     units = dict(zip(results.statistics.names, results.statistics.units))
@@ -140,10 +139,11 @@ def write(results):
     sections += [Section("Columns that never change", "constant")] if constant else []
     sections.append(Section("Repeat, resume, cite", "cite"))
     return template.page(
-        "run.html", sections, title=results.title(), subtitle=subtitle(results), verdict=found, facts=facts.of_run(results),
-        picture=picture, no_picture=no_picture, frames=pictures, margins=margins(results), errors=errors(results),
-        error_remarks=error_remarks(results), advice=advice(results), effects_on=on, effects_off=off,
-        effect_numbers=effect_numbers(results), timing=timing, given=given,
+        "run.html", sections, title=results.title(), subtitle=results.attempt("summary.json", subtitle, results.folder), verdict=found, facts=results.attempt("summary.json", facts.of_run, []),
+        picture=picture, no_picture=no_picture, frames=pictures, margins=results.attempt("summary.json", margins, []),
+        errors=results.attempt("summary.json", errors, []),
+        error_remarks=error_remarks(results), advice=results.attempt("effects.json", advice, []), effects_on=on, effects_off=off,
+        effect_numbers=results.attempt("effects.json", effect_numbers, []), timing=timing, given=given,
         constant=[(name, f"{value:.6g}", units[name]) for name, value in constant.items()],
-        commands=commands(results, found), problems=list(dict.fromkeys(results.problems)),
+        commands=results.attempt("summary.json", lambda own: commands(own, found), []), problems=list(dict.fromkeys(results.problems)),
         refresh=REFRESH if results.is_running() else 0, footer="Written by 'undine report' from the files in the folder alone.")

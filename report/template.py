@@ -34,6 +34,10 @@ class PlotOfPage:
     data: dict
 
 
+ENVIRONMENT = jinja2.Environment(loader=jinja2.FileSystemLoader(FOLDER), autoescape=True, undefined=jinja2.StrictUndefined,
+                                 trim_blocks=True, lstrip_blocks=True)
+
+
 def own_file(name):
     """A style or a script, which is trusted."""
     with open(os.path.join(FOLDER, name), encoding="utf-8") as file:
@@ -47,11 +51,9 @@ def json_for_script(data):
 
 def page(name, sections, **values):
     """HTML of the template `name`; `plots` on it, and `frames`, if there are any, are also data of its script."""
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(FOLDER), autoescape=True, undefined=jinja2.StrictUndefined,
-                                     trim_blocks=True, lstrip_blocks=True)
     data = {figure.identifier: figure.data for section in sections for figure in section.figures}
     if values.get("frames"):
         data["frames"] = values["frames"]
-    return environment.get_template(name).render(
+    return ENVIRONMENT.get_template(name).render(
         sections=sections, plots=json_for_script(data), style=own_file("style.css"), script=own_file("hover.js"),
         generator=GENERATOR, **values)

@@ -66,6 +66,11 @@ def reached(results):
     return f"step {table.column('Step')[-1]:.0f}, t = {table.column('Time')[-1]:.6g} s" if len(table) else "no step"
 
 
+def of_any(results):
+    """The verdict of a run whose files may be anything."""
+    return results.attempt("summary.json", of, Verdict("neutral", "no verdict", "The certificate cannot be read."))
+
+
 def of(results):
     """The verdict of a run: by its certificate, its failure, and whether it is still going on."""
     certificate, failure = results.summary.get("certificate", {}), results.summary.get("failure", "")

@@ -10,16 +10,17 @@ namespace undine
 {
   namespace
   {
-    constexpr int longest_share = 50; // a page is written anew after so many times what it takes
+    constexpr int pause = 50; // before a page is written anew, in times of what that takes
 
     constexpr std::chrono::seconds limit(60); // for the first, for which fonts are searched
 
 
+    /// Is that what the environment asks for?
     bool
-    is_switched_off()
+    user_wants(const std::string &answer)
     {
       const char *variable = std::getenv("UNDINE_REPORT");
-      return variable != nullptr && std::string(variable) == "off";
+      return variable != nullptr && variable == answer;
     }
   } // namespace
 
@@ -31,7 +32,7 @@ namespace undine
     : folder(folder)
     , log(log)
     , communicator(communicator)
-    , is_on(dealii::Utilities::MPI::broadcast(communicator, wanted && !is_switched_off()))
+    , is_on(dealii::Utilities::MPI::broadcast(communicator, wanted && !user_wants("off")))
   {
   }
 
@@ -39,8 +40,8 @@ namespace undine
   bool
   ReportPage::due() const
   {
-    return is_on && dealii::Utilities::MPI::broadcast(
-                      communicator, Clockwork::now() - last > longest_share * of_page);
+    const bool is_old = Clockwork::now() - last > pause * of_page || user_wants("always");
+    return is_on && dealii::Utilities::MPI::broadcast(communicator, is_old);
   }
 
 

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Pages about runs by laws that they must obey: numbers are those of the files, nothing comes from outside or gets out of its
 place, what is missing is left out, and what is spoilt is named."""
-import html.parser
 import json
 import os
 import re
@@ -17,49 +16,9 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspa
 import sample_run  # noqa: E402
 from report import (comparison, facts, page_file, parameters, phases, plots, results, run_page, shapes, thinning,  # noqa: E402
                     verdict, vtu)
+from seen_page import Page  # noqa: E402
 
 LIMIT = 3_000_000  # bytes of a page without frames
-
-
-class Page(html.parser.HTMLParser):
-    """What a browser would see: text by section, links, and the data of scripts."""
-
-    VOID = {"meta", "link", "img", "input", "br"}
-
-    def __init__(self, text):
-        super().__init__()
-        self.sections, self.links, self.scripts, self.tags, self.styles = {"": ""}, [], [], [], ""
-        self.open, self.section, self.first = [], "", ""
-        self.feed(text)
-        self.plots = json.loads(self.scripts[0])
-
-    def handle_starttag(self, tag, attributes):
-        attributes = dict(attributes)
-        self.tags.append(tag)
-        self.links += [attributes[key] for key in ("src", "href", "xlink:href", "data", "action") if key in attributes]
-        if tag == "section":
-            self.section = attributes.get("id", "first")
-            self.sections.setdefault(self.section, "")
-        if tag == "script":
-            self.scripts.append("")
-        if tag in ("td", "th", "dd"):
-            self.sections[self.section] += " "  # as far apart as they are seen
-        if tag not in self.VOID:
-            self.open.append(tag)
-
-    def handle_endtag(self, tag):
-        while self.open and self.open.pop() != tag:
-            pass
-        if tag == "section":
-            self.section = ""
-
-    def handle_data(self, data):
-        if self.open[-1:] == ["script"]:
-            self.scripts[-1] += data
-        elif self.open[-1:] == ["style"]:
-            self.styles += data
-        else:
-            self.sections[self.section] += data
 
 
 class Folder(unittest.TestCase):
@@ -194,6 +153,15 @@ class Sections(Folder):
                 self.put(folder, name, whole[:length])
                 found = results.Results(folder)
                 self.assertIn("first", Page(run_page.write(found)).sections, f"{name} cut at {length}")
+
+    def test_contents_of_any_kind_make_a_page(self):
+        for name in ("summary.json", "effects.json", "parameters.json"):
+            whole = json.loads(sample_run.files()[name])
+            folder = self.folder()
+            for key in whole:
+                for other in (3, "x", None, [], {}, [3], {"x": 3}):
+                    self.put(folder, name, json.dumps({**whole, key: other}))
+                    self.assertIn("first", Page(self.text(folder)).sections, f"{name}: {key} = {other}")
 
     def test_rows_that_are_torn_are_left_out(self):
         folder = self.folder()

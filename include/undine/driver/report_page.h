@@ -13,7 +13,8 @@ namespace undine
 {
   /// The page `report.html` in the folder of a run, made of the files there by the Python package
   /// `report` beside the sources. It is a service: where it cannot be written the user is told
-  /// once, and the run goes on. With the environment variable `UNDINE_REPORT=off` there is none.
+  /// once, and the run goes on. With the environment variable `UNDINE_REPORT=off` there is none,
+  /// with `always` one at every output.
   class ReportPage
   {
   public:
