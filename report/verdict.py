@@ -35,14 +35,16 @@ def without_advice(failure):
     return " ".join(TRY.sub("", KEPT.sub("", failure).strip()).split()).rstrip(" .;:") + "."
 
 
-def of_failure(results, certificate, failure):
+def of_failure(certificate, failure):
     advice = advice_of(failure)
     if "growing since" in certificate.get("text", ""):
         advice += GROWING
     elif not advice:
         advice = [GROWING[0], "finer cells where bodies are bent most"]
-    return Verdict("bad", "failed", certificate.get("text", failure).split("\n")[0].split(" Try")[0], without_advice(failure),
-                   advice)
+    at = re.match(r"failed (at t = \S+ s)", certificate.get("text", ""))
+    grew = re.search(r"; (growing since .*)", certificate.get("text", ""))
+    sentence = f"{at[1] if at else ''}{', after something was ' + grew[1] if grew else ''}".strip(", ")
+    return Verdict("bad", "failed", sentence, without_advice(failure), advice)
 
 
 def negative_margins(certificate):
@@ -78,7 +80,7 @@ def of(results):
         running = Verdict("neutral", "running", f"has reached {reached(results)}")
         return of_certificate(certificate, "running, so far ") if certificate else running
     if certificate.get("verdict") == "failed":
-        return of_failure(results, certificate, failure)
+        return of_failure(certificate, failure)
     if failure:
         stopped = of_certificate(certificate, "stopped, ")
         stopped.failure = without_advice(failure)
