@@ -26,7 +26,7 @@ def common_plots(runs):
     for results in runs:
         for plot in plots.of_table(results.statistics, results.probes())[0]:
             into = found.setdefault((plot.section, plot.title, plot.unit), plots.Plot(plot.section, plot.title, plot.unit, [], [],
-                                                                                      plot.kind))
+                                                                                      plot.kind, plot.first))
             for name, label in zip(plot.names, plot.labels):
                 if name not in into.names:
                     into.names.append(name)
@@ -38,13 +38,12 @@ def figure_of(plot, runs, names, identifier, most_rows):
     curves = []
     for group, (results, run) in enumerate(zip(runs, names)):
         table = results.statistics
-        times = table.column("Time") if "Time" in table else None
+        times = table.column("Time")[plot.first:] if "Time" in table else None
         for style, (name, label) in enumerate(zip(plot.names, plot.labels)):
             if name in table and times is not None:
-                values = table.column(name).cumsum() if plot.kind == "stack" else table.column(name)
                 several = len(plot.names) > 1
-                curves.append(figure.Curve(f"{run}, {label}" if several else run, times, values, group, style))
-    kind = "lines" if plot.kind == "stack" else plot.kind
+                curves.append(figure.Curve(f"{run}, {label}" if several else run, times, plot.values(table, name), group, style))
+    kind = "sums" if plot.kind == "stack" else plot.kind
     svg, data = figure.draw(curves, plot.unit, kind, identifier, most_rows)
     styles = ", ".join(f"{LINES[k % len(LINES)]}: {label}" for k, label in enumerate(plot.labels)) if len(plot.labels) > 1 else ""
     return PlotOfPage(identifier, plot.title + (f" ({styles})" if styles else ""), plot.unit, Markup(svg), data)

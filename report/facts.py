@@ -28,6 +28,14 @@ def memory(value):
     return f"{value:.3g} GB"
 
 
+def short(text):
+    """Six digits of a number that has more."""
+    try:
+        return f"{float(text):.6g}"
+    except ValueError:
+        return text
+
+
 def extent(results):
     summary, table = results.summary, results.statistics
     rows = []
@@ -64,7 +72,7 @@ def cost(results):
 
 def settings(results):
     values = flat(results.parameters)
-    return [(name, values[key]) for name, key in SETTINGS if values.get(key, "") not in ("", "0")]
+    return [(name, short(str(values[key]))) for name, key in SETTINGS if values.get(key, "") not in ("", "0")]
 
 
 def written(results):

@@ -10,16 +10,13 @@ from report import facts, figure, frames, parameters, phases, plots, scene_pictu
 from report.template import PlotOfPage, Section
 
 REFRESH = 60  # seconds between two looks of a browser at the page of a run that goes on
-REMARKS = {"Ledger": "Added up since the first row of the file. Above zero: gained; below: lost; the line: what there is more of. "
+REMARKS = {"Ledger": "Added up since the first row of the file. Above zero: gained; below: lost; the black line: what there is more of. "
                      "Point at the plot for the sums, click a name to hide it."}
 
 
 def figure_of(plot, table, identifier, most_rows):
-    times = table.column("Time")
-    values = [table.column(name) for name in plot.names]
-    if plot.kind == "stack":
-        values = [each.cumsum() for each in values]
-    curves = [figure.Curve(label, times, each, k) for k, (label, each) in enumerate(zip(plot.labels, values))]
+    times = table.column("Time")[plot.first:]
+    curves = [figure.Curve(label, times, plot.values(table, name), k) for k, (name, label) in enumerate(zip(plot.names, plot.labels))]
     svg, data = figure.draw(curves, plot.unit, plot.kind, identifier, most_rows)
     return PlotOfPage(identifier, plot.title, plot.unit, Markup(svg), data)
 
@@ -71,7 +68,7 @@ def effects(results):
 def advice(results):
     lines = [f"{each['effect']} is {'on' if each['on'] else 'off'} and {'would matter' if each['matters'] else 'does not matter'}: "
              f"{each['number']} = {each['value']:.3g}; {each['rule']}" for each in results.effects.get("advice", [])]
-    return lines or ["No advice: nothing that is on is idle by its numbers, and nothing that is off would matter."]
+    return lines
 
 
 def effect_numbers(results):

@@ -72,10 +72,11 @@ def whole(moment):
 
 
 def by_pixels(flat, values, weights=None):
-    """Means, or sums with weights, of values at places (n, 2) on a raster of about two places a pixel; its rows go upwards."""
+    """On a raster, whose rows go upwards, means of values at places (n, 2), of which it has about two a pixel; or sums with
+    weights, of about ten places."""
     low, high = flat.min(axis=0), flat.max(axis=0)
     extent = numpy.maximum(high - low, 1e-12)
-    across = max(8, min(400, int(numpy.sqrt(len(flat) * extent[0] / extent[1] / 2))))
+    across = max(8, min(400, int(numpy.sqrt(len(flat) * extent[0] / extent[1] / (2 if weights is None else 10)))))
     along = max(8, min(400, int(across * extent[1] / extent[0])))
     bins, frame = [along, across], [[low[1], high[1]], [low[0], high[0]]]
     amount, _, _ = numpy.histogram2d(flat[:, 1], flat[:, 0], bins, frame, weights=values if weights is None else values * weights)
@@ -98,8 +99,10 @@ class Painter:
             part, field, _, carried = self.coloured
             values = numpy.concatenate([moment.values(part, field) for moment in moments if part in moment.parts])
             low = float(values.min()) if carried else 0.0
-            self.norm = Normalize(low, max(float(values.max()), low + 1e-30))
+            self.norm = Normalize(low, float(values.max()))
             self.colours = matplotlib.colormaps["magma_r" if carried else "viridis"]
+            if part != "fluid" and not values.max() > low:
+                self.coloured = None  # nothing has moved
 
     def paint(self, axes, moment):
         if "fluid" in moment.parts:
@@ -117,7 +120,9 @@ class Painter:
         if self.dimension == 3:
             axes.set_axis_off()
         else:
-            axes.tick_params(labelsize=7, length=2)
+            axes.tick_params(labelsize=7, length=2, colors="#444a52")
+            for spine in axes.spines.values():
+                spine.set(color="#c6ccd4", linewidth=0.6)
             axes.set_xlabel("x [m]", fontsize=7.5, labelpad=1)
             axes.set_ylabel("y [m]", fontsize=7.5, labelpad=1)
 
@@ -145,7 +150,7 @@ class Painter:
         density = amount / max(amount.max(), 1e-300)
         shade = numpy.zeros(density.shape + (4,))
         shade[..., :3], shade[..., 3] = (0.25, 0.28, 0.35), 1 - numpy.exp(-3 * density)
-        axes.imshow(shade, origin="lower", extent=frame, interpolation="bilinear", aspect="auto")
+        axes.imshow(shade, origin="lower", extent=frame, interpolation="bicubic", aspect="auto")
 
     def add_polygons(self, axes, polygons, values, alpha=1.0):
         axes.add_collection(PolyCollection(polygons, array=values, norm=self.norm, cmap=self.colours, alpha=alpha,
@@ -153,7 +158,7 @@ class Painter:
 
     def paint_surface(self, axes, moment, name, colour):
         mesh = moment.parts[name]
-        is_coloured = self.coloured[0] == name
+        is_coloured = self.coloured is not None and self.coloured[0] == name
         at_rest = vtu.Mesh(moment.rest if name == "bodies" else mesh.points, mesh.cells, mesh.fields)
         for faces in shapes.surface(at_rest, self.dimension):
             corners = mesh.points[faces]

@@ -32,7 +32,7 @@ def advice_of(failure):
 
 
 def without_advice(failure):
-    return " ".join(TRY.sub("", KEPT.sub("", failure).strip()).split()).rstrip(" .;:") + "."
+    return " ".join(TRY.sub("", KEPT.sub("", failure).strip()).split()).rstrip(" .;:").replace(". .", ".") + "."
 
 
 def of_failure(certificate, failure):
@@ -60,6 +60,8 @@ def of_certificate(certificate, prefix):
         return Verdict("warning", prefix + word, text, advice=UNDECIDED)
     if violated:
         return Verdict("warning", prefix + (word or "stable"), text, advice=VIOLATED)
+    if text == "stable":
+        text = "Nothing grows that nobody has put in, and what is conserved is kept."
     return Verdict("good" if not prefix else "neutral", prefix + word, text)
 
 

@@ -57,16 +57,23 @@ def rows_of(folder):
 
 
 def check_numbers(name, folder):
-    """Every curve is a column of the file, or the sum of one over its rows."""
+    """Every curve is a column of the file, perhaps without the initial state, or the sum of one over its rows, which add up."""
     page, (names, rows) = page_of(folder), rows_of(folder)
     times = rows[:, names.index("Time")]
     for plot in page.plots.values():
-        sums = rows.cumsum(axis=0) if plot["kind"] == "stack" else rows
+        sums = rows.cumsum(axis=0) if plot["kind"] in ("stack", "sums") else rows
         for curve in plot["curves"]:
-            require(numpy.array_equal(times, plot["times"][curve["times"]]), f"{name}: times of {curve['name']} are not the file's")
-            require(any(numpy.allclose(column, curve["values"], rtol=1e-9, atol=0) for column in sums.T),
+            first = len(times) - len(curve["values"])
+            require(first in (0, 1) and numpy.array_equal(times[first:], plot["times"][curve["times"]]),
+                    f"{name}: times of {curve['name']} are not the file's")
+            require(any(numpy.allclose(column[first:], curve["values"], rtol=1e-9, atol=0) for column in sums.T),
                     f"{name}: {curve['name']} is no column of 'statistics'")
-    require(len(page.plots) > 4, f"{name}: only {len(page.plots)} plots")
+        if plot["kind"] == "stack":
+            by_name = {curve["name"]: numpy.array(curve["values"]) for curve in plot["curves"]}
+            gain = by_name.pop("gain")
+            size = sum(numpy.abs(each).max() for each in by_name.values())
+            require(numpy.abs(sum(by_name.values()) - gain).max() < 1e-7 * size, f"{name}: the ledger does not add up to the gain")
+    require(len(page.plots) > 2 or name == "failed", f"{name}: only {len(page.plots)} plots")
 
 
 def check_file(name, folder, verdict, printed):

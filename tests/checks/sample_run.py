@@ -10,7 +10,7 @@ import numpy
 
 COLUMNS = [("Step", "1"), ("Time", "s"), ("Step length", "s"), ("Newton iterations", "1"), ("Fluid kinetic energy", "J"),
            ("Fluid divergence", "1"), ("solid elastic energy", "J"), ("energy gain", "J"), ("energy by forces", "J"),
-           ("energy by friction", "J"), ("centre of mass bar x", "m"), ("centre of mass bar y", "m"),
+           ("energy by friction", "J"), ("energy by sides", "J"), ("energy by gravity", "J"), ("centre of mass bar x", "m"), ("centre of mass bar y", "m"),
            ("tip displacement x", "m"), ("tip displacement y", "m"), ("Cut cells", "1")]
 FAILURE = ("step 8, which begins at 0.07 s: body 'bar': the volume ratio is -0.1 <b>. Try: a shorter 'Time / Step'.\n"
            "The state before it is kept; 'undine resume DIR --set \"Section/Key=value\"' continues it.")
@@ -22,7 +22,7 @@ def rows_of(n_rows, seed=1):
     forces, friction = random.normal(size=n_rows), -random.random(n_rows)
     values = [numpy.arange(n_rows), times, numpy.where(times > 0, 0.01, 0), 3 + random.integers(0, 3, n_rows),
               1 + numpy.sin(times), 10.0 ** random.uniform(-9, -3, n_rows), random.random(n_rows), forces + friction, forces,
-              friction, numpy.sin(times), numpy.cos(times), random.normal(size=n_rows), times**2, numpy.full(n_rows, 8)]
+              friction, 0 * times, forces / 2, numpy.sin(times), numpy.cos(times), random.normal(size=n_rows), times**2, numpy.full(n_rows, 8)]
     return numpy.array([[float(f"{value:.9e}") for value in column] for column in values]).T
 
 
