@@ -31,7 +31,7 @@ def common_plots(runs):
                 if name not in into.names:
                     into.names.append(name)
                     into.labels.append(label)
-    return sorted(found.values(), key=lambda plot: plots.SECTIONS.index(plot.section))
+    return sorted(found.values(), key=lambda plot: (plots.SECTIONS.index(plot.section), plot.title != "Energies"))
 
 
 def figure_of(plot, runs, names, identifier, most_rows):

@@ -91,6 +91,6 @@ def of_table(table, probes=()):
         plot = groups.setdefault((section, title, unit), Plot(section, title, unit, [], [], kind, first))
         plot.names.append(name)
         plot.labels.append(label)
-    plots = sorted(groups.values(), key=lambda plot: SECTIONS.index(plot.section))
+    plots = sorted(groups.values(), key=lambda plot: (SECTIONS.index(plot.section), plot.title != "Energies"))
     left_out = [name for plot in plots[MOST_PLOTS:] for name in plot.names]
     return plots[:MOST_PLOTS], constant, left_out

@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass, field
 
+BRIEF = 300  # characters
 TRY = re.compile(r"(?:(?<=[.:;)] )|(?<=\n)|^)Try:? +(.+?)(?=\.\s|\.?$)", re.S)
 KEPT = re.compile(r"(The state before it .*)", re.S)
 
@@ -24,6 +25,14 @@ class Verdict:
     sentence: str
     failure: str = ""
     advice: list = field(default_factory=list)
+
+    def brief(self):
+        """The first sentences of the failure, so that what to try is on the first screen, too."""
+        ends = [end.end() for end in re.finditer(r"\.(?= |$)", self.failure) if end.end() <= BRIEF]
+        return self.failure[:max(ends)] if ends else self.failure
+
+    def rest(self):
+        return self.failure[len(self.brief()):].strip()
 
 
 def advice_of(failure):

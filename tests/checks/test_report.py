@@ -241,6 +241,12 @@ class Verdicts(Folder):
                          ["a shorter Time/Step; 'statistics' ends"])
         self.assertEqual(verdict.advice_of("Trying hard did not help"), [])
 
+    def test_a_long_failure_begins_with_whole_sentences(self):
+        text = "It broke at 0.5 s. " + "Because of this and that. " * 30
+        found = verdict.Verdict("bad", "failed", "", text.strip())
+        self.assertTrue(found.brief().endswith(".") and len(found.brief()) <= verdict.BRIEF)
+        self.assertEqual(f"{found.brief()} {found.rest()}", text.strip())
+
 
 class Safety(Folder):
     EVIL = "</script><script>alert(1)</script><img src=x onerror=alert(2)> \" ' & $x$ {{ 7 * 7 }}"
