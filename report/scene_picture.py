@@ -53,8 +53,13 @@ class Moment:
 
     def values(self, part, name):
         """A number for each point: of vectors their length."""
-        return numpy.linalg.norm(self.parts[part].fields[name], axis=1) if self.parts[part].fields[name].shape[1] > 1 else (
-            self.parts[part].fields[name][:, 0])
+        values = self.parts[part].fields[name]
+        return numpy.linalg.norm(values, axis=1) if values.shape[1] > 1 else values[:, 0]
+
+    def coloured_values(self, part, name):
+        """The same without particles of bodies and walls, which have colours of their own."""
+        values = self.values(part, name)
+        return values[self.parts[part].fields["kind"][:, 0] == 0] if part == "particles" else values
 
 
 def three(vectors):
@@ -97,8 +102,8 @@ class Painter:
         self.norm, self.colours = None, matplotlib.colormaps["viridis"]
         if self.coloured:
             part, field, _, carried = self.coloured
-            values = numpy.concatenate([moment.values(part, field) for moment in moments if part in moment.parts])
-            low = float(values.min()) if carried else 0.0
+            values = numpy.concatenate([[0.0], *(moment.coloured_values(part, field) for moment in moments if part in moment.parts)])
+            low = float(values[1:].min()) if carried else 0.0
             self.norm = Normalize(low, float(values.max()))
             self.colours = matplotlib.colormaps["magma_r" if carried else "viridis"]
             if part != "fluid" and not values.max() > low:
@@ -183,6 +188,9 @@ class Painter:
         some = some[numpy.argsort(self.view.nearness(mesh.points[some]))]
         colours = self.colours(self.norm(moment.values("particles", "velocity")))
         colours[kind == 1], colours[kind > 1] = matplotlib.colors.to_rgba(BODY), matplotlib.colors.to_rgba(WALL)
+        if self.dimension == 3:  # what is farther away is darker
+            nearness = self.view.nearness(mesh.points)
+            colours[:, :3] *= (0.55 + 0.45 * (nearness - nearness.min()) / max(numpy.ptp(nearness), 1e-12))[:, None]
         area = numpy.prod(self.high - self.low)
         density = len(some) ** (-0.5 if self.dimension == 2 else -0.38)
         size = (0.8 * density * numpy.sqrt(area) * self.points_per_metre(axes)) ** 2

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Pages about runs by laws that they must obey: numbers are those of the files, nothing comes from outside or gets out of its
 place, what is missing is left out, and what is spoilt is named."""
+import base64
+import io
 import json
 import os
 import re
@@ -11,6 +13,7 @@ import unittest
 import unittest.mock
 
 import numpy
+from PIL import Image
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 import sample_run  # noqa: E402
@@ -179,6 +182,23 @@ class Sections(Folder):
         page = Page(self.text(self.folder()))
         for each in ("gravity", "20.0 %", "viscosity is off and would matter", "Reynolds number = 120"):
             self.assertIn(each, page.sections["effects"])
+
+    def test_frames_are_a_film(self):
+        folder = self.folder()
+        os.mkdir(os.path.join(folder, "frames"))
+        for number in range(130):
+            Image.new("RGB", (1280, 40), (number, 0, 0)).save(os.path.join(folder, "frames", f"frame_{number:04d}.png"))
+        self.put(folder, "frames/frame_0003.png", "no picture")
+        page = Page(self.text(folder))
+        pictures = page.plots["frames"]
+        self.assertIn("43 of 130 frames", page.sections["frames"])
+        self.assertIn("frame_0003", page.sections["first"])
+        reds = []
+        for picture in pictures:
+            with Image.open(io.BytesIO(base64.b64decode(picture.partition(",")[2]))) as found:
+                self.assertEqual(found.size[0], 720)
+                reds.append(found.getpixel((5, 5))[0])
+        numpy.testing.assert_allclose(reds, [number for number in range(0, 130, 3) if number != 3], atol=3)
 
     def test_phases_are_a_tree(self):
         top = phases.tree(os.path.join(self.folder(), "timing"))
