@@ -98,7 +98,7 @@ namespace undine
         {
           const auto left =
             std::chrono::duration_cast<std::chrono::milliseconds>(end - Clockwork::now()).count();
-          pollfd waiting{pipe, POLLIN, 0};
+          pollfd    waiting{pipe, POLLIN, 0};
           const int ready = left > 0 ? ::poll(&waiting, 1, static_cast<int>(left)) : 0;
           if (ready == 0)
             {
@@ -129,9 +129,9 @@ namespace undine
 
 
   std::string
-  call_program(const std::vector<std::string>  &words,
-               const std::vector<std::string>  &environment,
-               const std::chrono::milliseconds  limit)
+  call_program(const std::vector<std::string> &words,
+               const std::vector<std::string> &environment,
+               const std::chrono::milliseconds limit)
   {
     std::array<int, 2> pipe{};
     if (::pipe2(pipe.data(), O_CLOEXEC) != 0)

@@ -12,7 +12,7 @@ namespace undine
   {
     constexpr int pause = 50; // before a page is written anew, in times of what that takes
 
-    constexpr std::chrono::seconds limit(60); // for the first, for which fonts are searched
+    constexpr std::chrono::seconds limit(120); // for a busy machine that searches its fonts first
 
 
     /// Is that what the environment asks for?
@@ -41,7 +41,7 @@ namespace undine
   ReportPage::due() const
   {
     const bool is_old = Clockwork::now() - last > pause * of_page || user_wants("always");
-    return is_on && dealii::Utilities::MPI::broadcast(communicator, is_old);
+    return is_on && !has_failed && dealii::Utilities::MPI::broadcast(communicator, is_old);
   }
 
 
@@ -74,8 +74,8 @@ namespace undine
     const auto failure = try_to_write();
     last               = Clockwork::now();
     of_page            = last - begin;
-    is_on              = failure.empty();
-    if (!is_on)
+    has_failed         = !failure.empty();
+    if (has_failed)
       log.print("note: 'report.html' is not written: {}", failure);
   }
 
@@ -84,7 +84,7 @@ namespace undine
   ReportPage::finish()
   {
     write();
-    if (is_on)
+    if (is_on && !has_failed)
       log.print("\nreport: {}", (folder.path() / "report.html").string());
   }
 } // namespace undine

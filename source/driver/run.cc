@@ -53,11 +53,8 @@ namespace undine
     /// The whole of a simulation. `state` is at its first time, initial or resumed.
     template <int dim>
     void
-    run_time_loop(State<dim>       &state,
-                  Scene<dim>       &scene,
-                  const Watch<dim> &watch,
-                  Log              &log,
-                  TimingTree       &timing)
+    run_time_loop(
+      State<dim> &state, Scene<dim> &scene, const Watch<dim> &watch, Log &log, TimingTree &timing)
     {
       Progress      progress(log, state.clock);
       MeasuredCosts costs(log, state.clock, scene.models.communicator());
@@ -368,25 +365,20 @@ namespace undine
       ReportPage      page(folder, scene.has_report, log, communicator);
       try
         {
-          run_keeping_last_state(state,
-                                 scene,
-                                 {[&](const State<dim> &now, const Report &report) {
-                                   adviser.observe(now, report);
-                                   summary.observe(now.clock.time, report);
-                                 },
-                                 [&](const State<dim> &now) {
-                                   refresh_page(page,
-                                                folder,
-                                                effects,
-                                                adviser,
-                                                summary,
-                                                now.clock,
-                                                timing,
-                                                communicator);
-                                 }},
-                                 folder,
-                                 log,
-                                 timing);
+          run_keeping_last_state(
+            state,
+            scene,
+            {[&](const State<dim> &now, const Report &report) {
+               adviser.observe(now, report);
+               summary.observe(now.clock.time, report);
+             },
+             [&](const State<dim> &now) {
+               refresh_page(
+                 page, folder, effects, adviser, summary, now.clock, timing, communicator);
+             }},
+            folder,
+            log,
+            timing);
         }
       catch (const Error &failure)
         {

@@ -12,9 +12,9 @@
 namespace undine
 {
   /// The page `report.html` in the folder of a run, made of the files there by the Python package
-  /// `report` beside the sources. It is a service: where it cannot be written the user is told
-  /// once, and the run goes on. With the environment variable `UNDINE_REPORT=off` there is none,
-  /// with `always` one at every output.
+  /// `report` beside the sources. It is a service: where it cannot be written the user is told,
+  /// and it is not tried again but at the end; the run goes on. With the environment variable
+  /// `UNDINE_REPORT=off` there is none, with `always` one at every output.
   class ReportPage
   {
   public:
@@ -41,12 +41,13 @@ namespace undine
     std::string
     try_to_write();
 
-    ResultFolder          &folder;
-    Log                   &log;
-    MPI_Comm               communicator;
-    bool                   is_on;
-    Clockwork::time_point  last    = Clockwork::now();
-    Clockwork::duration    of_page = std::chrono::seconds(1); ///< what writing took, first a guess
+    ResultFolder         &folder;
+    Log                  &log;
+    MPI_Comm              communicator;
+    bool                  is_on;
+    bool                  has_failed = false;
+    Clockwork::time_point last       = Clockwork::now();
+    Clockwork::duration   of_page = std::chrono::seconds(1); ///< what writing took, first a guess
   };
 } // namespace undine
 

@@ -201,7 +201,7 @@ namespace undine
   bool
   write_reference_of(std::ostream &out, const Options &options, const std::string &names)
   {
-    return write_reference_section(
-             out, sort_by_section(options.entries()), "", comparable(names)) > 0;
+    return write_reference_section(out, sort_by_section(options.entries()), "", comparable(names)) >
+           0;
   }
 } // namespace undine

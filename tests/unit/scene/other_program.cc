@@ -6,7 +6,7 @@
 #include <chrono>
 
 using namespace undine;
-using namespace std::chrono_literals;
+using std::chrono_literals::operator""s;
 
 TEST_CASE("a program that succeeds has no reason, whatever it prints")
 {
@@ -35,9 +35,8 @@ TEST_CASE("more errors than a pipe holds do not block")
 
 TEST_CASE("variables are added to the environment or replaced in it")
 {
-  REQUIRE(call_program({"sh", "-c", "test \"$UNDINE_A\" = 'b c' && test -n \"$PATH\""},
-                       {"UNDINE_A=b c"},
-                       10s)
+  REQUIRE(call_program(
+            {"sh", "-c", "test \"$UNDINE_A\" = 'b c' && test -n \"$PATH\""}, {"UNDINE_A=b c"}, 10s)
             .empty());
   REQUIRE(call_program({"sh", "-c", "test \"$HOME\" = /other"}, {"HOME=/other"}, 10s).empty());
 }
