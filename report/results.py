@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import socket
 
 import numpy
@@ -40,6 +41,8 @@ class Results:
         self.statistics = self._statistics()
         said = [line for line in self.text("record.txt").splitlines() if line.startswith("run ")]
         self.has_ended = said[-1:] == ["run has ended"]
+        if self.has_process() and not self.is_of_this_process("summary.json"):
+            self.summary = {}  # of the run before, which this one continues
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
@@ -81,13 +84,17 @@ class Results:
             return 3
 
     def is_running(self):
-        """As its lock says; of a run on another host that cannot be known, so it counts as running."""
-        words = self.text("lock").split()
-        if "process" not in words or self.has_ended:
-            return False
-        if words[words.index("host") + 1:][:1] != [socket.gethostname()]:
-            return True
-        return os.path.exists(f"/proc/{words[words.index('process') + 1]}")
+        """Its process lives, and has not said yet that the run is over."""
+        return self.has_process() and not self.has_ended and not self.summary.get("failure")
+
+    def is_of_this_process(self, name):
+        """Is the file younger than the lock?"""
+        return self.has(name) and os.path.getmtime(self.path(name)) >= os.path.getmtime(self.path("lock"))
+
+    def has_process(self):
+        """As its lock says; of a run on another host that cannot be known, so it counts as there."""
+        found = re.search(r"^host (\S+)\nprocess (\d+)$", self.text("lock"), re.M)
+        return bool(found) and (found[1] != socket.gethostname() or os.path.exists(f"/proc/{found[2]}"))
 
     def _json(self, name):
         text = self.text(name)

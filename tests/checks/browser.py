@@ -55,7 +55,7 @@ def seen(program, page, **size):
     """What PROBE has seen of a page, and the lines of the console."""
     with open(page, encoding="utf-8") as file:
         text = file.read()
-    probed = page + ".probed.html"
+    probed = f"{page}.probed.html"
     with open(probed, "w", encoding="utf-8") as file:
         file.write(text.replace("</body>", PROBE))
     printed, console = call(program, probed, "--dump-dom", **size)

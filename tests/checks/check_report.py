@@ -28,8 +28,8 @@ SCENES = {  # name: (scene, settings, exit code, verdict)
     "jet": ("jet_two_sheets_2d", ["Domain/Cells=24, 12", "Time/Maximum steps=10", "Output/Budget=true"], 0, "stable"),
     "viscous": ("cavity", ["Domain/Cells=16, 16", "Time/Maximum steps=10"], 0, "stable"),
     "particles": ("dam_break_particles", ["Particles/Spacing=0.146/8", "Time/Maximum steps=4"], 0, "stable"),
-    "failed": ("cook_membrane", ["Time/Step=1", "Time/Maximum cuts=0", "Bodies/membrane/Boundaries/edge/Traction=0; -1e9"], 3,
-               "failed"),
+    "failed": ("cook_membrane", ["Time/Step=0.1", "Time/Maximum cuts=0", "Bodies/membrane/Cells=6, 6",
+                                 "Bodies/membrane/Boundaries/edge/Traction=0; -5e8*t^4"], 3, "failed"),
 }
 
 
@@ -73,7 +73,7 @@ def check_numbers(name, folder):
             gain = by_name.pop("gain")
             size = sum(numpy.abs(each).max() for each in by_name.values())
             require(numpy.abs(sum(by_name.values()) - gain).max() < 1e-7 * size, f"{name}: the ledger does not add up to the gain")
-    require(len(page.plots) > 2 or name == "failed", f"{name}: only {len(page.plots)} plots")
+    require(len(page.plots) > 2, f"{name}: only {len(page.plots)} plots")
 
 
 def check_file(name, folder, verdict, printed):

@@ -249,6 +249,16 @@ class Verdicts(Folder):
         self.put(folder, "lock", f"# A run of Undine is in this folder.\nhost {host}\nprocess 99999999\n")
         self.assertNotIn('http-equiv="refresh"', self.text(folder))
 
+    def test_a_run_that_has_just_failed_does_not_go_on(self):
+        """Its process writes the page. One that continues it has another verdict before its end."""
+        folder = self.folder(verdict="failed", failure=sample_run.FAILURE)
+        self.put(folder, "record.txt", "# Files\nrun has begun\n")
+        self.put(folder, "lock", f"# A run of Undine is in this folder.\nhost {os.uname().nodename}\nprocess {os.getpid()}\n")
+        for age, expected in ((-10, ("bad", "failed")), (10, ("neutral", "running"))):
+            now = os.path.getmtime(os.path.join(folder, "summary.json"))
+            os.utime(os.path.join(folder, "lock"), (now + age, now + age))
+            self.assertEqual(self.kind(folder), expected)
+
     def test_a_failure_is_told_first_with_what_to_try(self):
         page = Page(self.text(self.folder(verdict="failed", failure=sample_run.FAILURE)))
         for words in ("failed", "the volume ratio is -0.1 <b>", "a shorter 'Time / Step'"):
