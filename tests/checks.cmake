@@ -115,4 +115,4 @@ set_tests_properties(report/laws PROPERTIES TIMEOUT 300)
 add_test(NAME report/pages
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_report.py $<TARGET_FILE:undine>
                  ${PROJECT_SOURCE_DIR}/prm)
-set_tests_properties(report/pages PROPERTIES SKIP_RETURN_CODE 77 PROCESSORS 2 TIMEOUT 300)
+set_tests_properties(report/pages PROPERTIES SKIP_RETURN_CODE 77 PROCESSORS 2 TIMEOUT 600)

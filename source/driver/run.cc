@@ -158,57 +158,75 @@ namespace undine
     }
 
 
-    /// Leave what the run knows of itself, and why it has failed, if that can be written.
+    /// What a run finds out about itself. The references must outlive it.
+    template <int dim>
+    struct Findings
+    {
+      const EffectsReport<dim> &effects;
+      const Adviser<dim>       &adviser;
+      const RunSummary<dim>    &summary;
+      const TimingTree         &timing;
+    };
+
+
+    /// Leave what the run knows of itself so far, at its end or on the way, if that can be written:
+    /// if not, there is more important news for the user, or the page about the run says less.
     template <int dim>
     void
-    write_summary_of_failure(ResultFolder          &folder,
-                             const RunSummary<dim> &summary,
-                             const Clock           &clock,
-                             const Error           &failure,
-                             const TimingTree      &timing,
-                             Log                   &log,
-                             const MPI_Comm         communicator)
+    try_to_write(const Findings<dim>                 &findings,
+                 ResultFolder                        &folder,
+                 const Clock                         &clock,
+                 const typename RunSummary<dim>::End &end,
+                 const MPI_Comm                       communicator)
     {
-      const bool is_stopped = dynamic_cast<const Interruption *>(&failure) != nullptr;
-      const typename RunSummary<dim>::End end{failure.what(), !is_stopped};
-      summary.print_failure(log, clock.time, end);
       try
         {
-          write_whole_file(folder, "summary.json", summary.json(clock, end), communicator);
-          write_whole_file(folder, "timing", timing_table(timing), communicator);
+          write_whole_file(folder, "summary.json", findings.summary.json(clock, end), communicator);
+          write_whole_file(folder, "timing", timing_table(findings.timing), communicator);
+          if (findings.summary.has_steps())
+            write_whole_file(folder,
+                             "effects.json",
+                             findings.effects.json(findings.adviser.advice()),
+                             communicator);
         }
       catch (const FileError &)
         {
-          // The failure itself is what the user must hear of.
+          // See above.
         }
+    }
+
+
+    /// The last that there is to say about a run that has failed or was stopped.
+    template <int dim>
+    void
+    conclude_failure(const Findings<dim> &findings,
+                     ResultFolder        &folder,
+                     const Clock         &clock,
+                     const Error         &failure,
+                     Log                 &log,
+                     const MPI_Comm       communicator)
+    {
+      const bool is_stopped = dynamic_cast<const Interruption *>(&failure) != nullptr;
+      const typename RunSummary<dim>::End end{failure.what(), !is_stopped};
+      findings.summary.print_failure(log, clock.time, end);
+      try_to_write(findings, folder, clock, end, communicator);
     }
 
 
     /// Write the page about a run that goes on, if it is time for that, and what it is made of.
     template <int dim>
     void
-    refresh_page(ReportPage               &page,
-                 ResultFolder             &folder,
-                 const EffectsReport<dim> &effects,
-                 const Adviser<dim>       &adviser,
-                 const RunSummary<dim>    &summary,
-                 const Clock              &clock,
-                 TimingTree               &timing,
-                 const MPI_Comm            communicator)
+    refresh_page(ReportPage          &page,
+                 const Findings<dim> &findings,
+                 ResultFolder        &folder,
+                 const Clock         &clock,
+                 TimingTree          &timing,
+                 const MPI_Comm       communicator)
     {
       if (!is_output_time(clock) || clock.ended() || !page.due())
         return;
       const auto timed = timing.section("report");
-      try
-        {
-          write_whole_file(folder, "effects.json", effects.json(adviser.advice()), communicator);
-          write_whole_file(folder, "summary.json", summary.json(clock, {}), communicator);
-          write_whole_file(folder, "timing", timing_table(timing), communicator);
-        }
-      catch (const FileError &)
-        {
-          // Without them the page says less.
-        }
+      try_to_write(findings, folder, clock, {}, communicator);
       page.write();
     }
 
@@ -361,29 +379,28 @@ namespace undine
       Adviser<dim>             adviser(scene.models, state);
       effects.print_start(log);
       write_whole_file(folder, "effects.json", effects.json({}), communicator);
-      RunSummary<dim> summary(scene, options, state.clock);
-      ReportPage      page(folder, scene.has_report, log, communicator);
+      RunSummary<dim>     summary(scene, options, state.clock);
+      ReportPage          page(folder, scene.has_report, log, communicator);
+      const Findings<dim> findings{effects, adviser, summary, timing};
       try
         {
-          run_keeping_last_state(
-            state,
-            scene,
-            {[&](const State<dim> &now, const Report &report) {
-               adviser.observe(now, report);
-               summary.observe(now.clock.time, report);
-             },
-             [&](const State<dim> &now) {
-               refresh_page(
-                 page, folder, effects, adviser, summary, now.clock, timing, communicator);
-             }},
-            folder,
-            log,
-            timing);
+          run_keeping_last_state(state,
+                                 scene,
+                                 {[&](const State<dim> &now, const Report &report) {
+                                    adviser.observe(now, report);
+                                    summary.observe(now.clock.time, report);
+                                  },
+                                  [&](const State<dim> &now) {
+                                    refresh_page(
+                                      page, findings, folder, now.clock, timing, communicator);
+                                  }},
+                                 folder,
+                                 log,
+                                 timing);
         }
       catch (const Error &failure)
         {
-          write_summary_of_failure(
-            folder, summary, state.clock, failure, timing, log, communicator);
+          conclude_failure(findings, folder, state.clock, failure, log, communicator);
           page.finish();
           throw;
         }
