@@ -49,9 +49,8 @@ asks_for_accuracy() {
 # hand_over ARGUMENTS...   to a script in Python, to several ranks, or to the program
 hand_over() {
   case $1 in
-    study)
-      shift
-      run_script study "$@"
+    study | report)
+      run_script "$@"
       ;;
     -n)
       case ${2:-} in

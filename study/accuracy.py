@@ -9,6 +9,7 @@ settings for the error asked for follow, and whether their run changes the value
 """
 import argparse
 import os
+import subprocess
 import sys
 import tempfile
 import time
@@ -111,6 +112,8 @@ def main(words):
             sys.exit(130)
         print(report(search))
         print(f"results: {output}")
+        if found.get("Output/Report") == "true" and os.environ.get("UNDINE_REPORT") != "off":
+            subprocess.run([sys.executable, "-m", "report", output], check=False)  # runs of the search write none
 
 
 if __name__ == "__main__":

@@ -53,13 +53,17 @@ def body(text, figures):
     return "\n".join(result)
 
 
-def figure(found, name, path):
-    with open(path) as file:
-        svg = file.read()
-    svg = svg[svg.index("<svg"):]
+def inline_svg(text, name):
+    """The text of a file, to stand in a page; `name`: of this picture among those of the page."""
+    svg = text[text.index("<svg"):]
     prefix = re.sub(r"\W", "_", name)  # identifiers of several pictures must not meet
     svg = re.sub(r'id="', f'id="{prefix}_', svg)
-    svg = re.sub(r'(href="#|url\(#)', rf"\1{prefix}_", svg)
+    return re.sub(r'(href="#|url\(#)', rf"\1{prefix}_", svg)
+
+
+def figure(found, name, path):
+    with open(path) as file:
+        svg = inline_svg(file.read(), name)
     return (f"<figure>{svg}<figcaption>Relative error of {html.escape(name)} over {found.study.cost}. Circles: no other "
             "run is both cheaper and more accurate.</figcaption></figure>")
 

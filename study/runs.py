@@ -22,9 +22,10 @@ KEPT_FILES = ("statistics", "summary.json", "timing")
 
 
 def environment():
-    """MPI allowed for root and on few cores; one thread a rank."""
+    """MPI allowed for root and on few cores; one thread a rank; no pages."""
     return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                 OMPI_MCA_rmaps_base_oversubscribe="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
+                UNDINE_REPORT="off",  # pages about single runs would cost more than many of them
                 OMPI_MCA_hwloc_base_binding_policy="none")  # else runs at the same time would share processors
 
 

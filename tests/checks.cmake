@@ -130,3 +130,11 @@ add_test(NAME long/memory_particles
                  "Particles/Spacing=0.03" "Output/Interval=1")
 set_tests_properties(long/memory_coupled long/memory_obstacle long/memory_particles PROPERTIES
   LABELS long TIMEOUT 3600)
+
+# Pages about runs: by laws, and of whole runs in a browser, which is skipped where there is none.
+add_test(NAME report/laws COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_report.py)
+set_tests_properties(report/laws PROPERTIES TIMEOUT 300)
+add_test(NAME report/pages
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_report.py $<TARGET_FILE:undine>
+                 ${PROJECT_SOURCE_DIR}/prm)
+set_tests_properties(report/pages PROPERTIES SKIP_RETURN_CODE 77 PROCESSORS 2 TIMEOUT 600)

@@ -15,7 +15,7 @@ install(TARGETS undine DESTINATION ${UNDINE_PROGRAM_DIR})
 install(PROGRAMS ${PROJECT_BINARY_DIR}/installed/undine DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES contrib/launch.sh DESTINATION ${UNDINE_SHARE_DIR})
 # Studies name values of the literature by ../../tests/reference.
-install(DIRECTORY study prm DESTINATION ${UNDINE_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY study report prm DESTINATION ${UNDINE_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY tests/reference DESTINATION ${UNDINE_SHARE_DIR}/tests)
 install(PROGRAMS contrib/render DESTINATION ${UNDINE_SHARE_DIR}/contrib)
 install(DIRECTORY contrib/rendering DESTINATION ${UNDINE_SHARE_DIR}/contrib

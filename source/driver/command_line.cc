@@ -89,12 +89,19 @@ namespace undine
     app.set_version_flag("--version",
                          std::string("undine " UNDINE_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION
                                      ", " UNDINE_BUILD_TYPE ")"));
-    bool validate = false, reference = false;
+    bool validate = false;
     app.add_option("scene", request.scene_file, "the parameter file to run")
       ->type_name("SCENE.prm");
     add_run_options(app, request, "folder for the results");
     app.add_flag("--validate", validate, "check the scene, run nothing");
-    app.add_flag("--reference", reference, "print every parameter with unit, range and default");
+    const auto *reference =
+      app
+        .add_option("--reference",
+                    request.section,
+                    "print every parameter with unit, range and default, or those of a section: "
+                    "--reference \"Output/vtu\"")
+        ->type_name("[SECTION]")
+        ->expected(0, 1);
 
     CLI::App *resume = app.add_subcommand("resume", "continue a run from its last checkpoint");
     resume->add_option("directory", request.directory, "folder of the run")
@@ -108,7 +115,7 @@ namespace undine
     try
       {
         app.parse(argc, argv);
-        if (app.get_subcommands().empty() && !reference && request.scene_file.empty())
+        if (app.get_subcommands().empty() && reference->count() == 0 && request.scene_file.empty())
           throw CLI::ValidationError(
             "no scene", "name a parameter file, for example prm/cantilever.prm; see --help");
       }
@@ -127,7 +134,7 @@ namespace undine
                      : answers.study->parsed()      ? Request::Action::study
                      : answers.parameters->parsed() ? Request::Action::parameters
                      : answers.evaluate->parsed()   ? Request::Action::evaluate
-                     : reference                    ? Request::Action::reference
+                     : reference->count() > 0       ? Request::Action::reference
                      : validate                     ? Request::Action::validate
                                                     : Request::Action::run;
     return request;

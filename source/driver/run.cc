@@ -9,12 +9,14 @@
 #include <undine/driver/log.h>
 #include <undine/driver/measured_costs.h>
 #include <undine/driver/progress.h>
+#include <undine/driver/report_page.h>
 #include <undine/driver/run.h>
 #include <undine/driver/run_directory.h>
 #include <undine/driver/run_summary.h>
 #include <undine/driver/size_check.h>
 #include <undine/driver/study_file.h>
 #include <undine/output/checkpoint/checkpoint.h>
+#include <undine/output/files/schedule.h>
 #include <undine/scene/scene.h>
 
 #include <functional>
@@ -25,19 +27,34 @@ namespace undine
 {
   namespace
   {
-    /// What watches a run: the step of the report has led to the state.
+    /// What watches a run.
     template <int dim>
-    using Observe = std::function<void(const State<dim> &, const Report &)>;
+    struct Watch
+    {
+      std::function<void(const State<dim> &, const Report &)> step;    ///< has led to the state
+      std::function<void(const State<dim> &)>                 outputs; ///< have been written
+    };
+
+
+    template <int dim>
+    void
+    write_outputs(const State<dim> &state,
+                  const Report     &report,
+                  Scene<dim>       &scene,
+                  TimingTree       &timing)
+    {
+      const auto timed = timing.section("output");
+      for (auto &output : scene.outputs)
+        if (output->due(state.clock))
+          output->write(state, report);
+    }
 
 
     /// The whole of a simulation. `state` is at its first time, initial or resumed.
     template <int dim>
     void
-    run_time_loop(State<dim>         &state,
-                  Scene<dim>         &scene,
-                  const Observe<dim> &observe,
-                  Log                &log,
-                  TimingTree         &timing)
+    run_time_loop(
+      State<dim> &state, Scene<dim> &scene, const Watch<dim> &watch, Log &log, TimingTree &timing)
     {
       Progress      progress(log, state.clock);
       MeasuredCosts costs(log, state.clock, scene.models.communicator());
@@ -52,11 +69,9 @@ namespace undine
           const double dt     = scene.scheme->choose_dt(state);
           const Report report = scene.scheme->step(state, dt);
           state.clock.advance(report.dt); // what was accepted; retries happen inside step
-          observe(state, report);
-          const auto timed = timing.section("output");
-          for (auto &output : scene.outputs)
-            if (output->due(state.clock))
-              output->write(state, report);
+          watch.step(state, report);
+          write_outputs(state, report, scene, timing);
+          watch.outputs(state);
           progress.report(state.clock, report);
           costs.observe(state.clock);
         }
@@ -114,14 +129,14 @@ namespace undine
     void
     run_keeping_last_state(State<dim>         &state,
                            Scene<dim>         &scene,
-                           const Observe<dim> &observe,
+                           const Watch<dim>   &watch,
                            const ResultFolder &folder,
                            Log                &log,
                            TimingTree         &timing)
     {
       try
         {
-          run_time_loop(state, scene, observe, log, timing);
+          run_time_loop(state, scene, watch, log, timing);
         }
       catch (const FileError &error)
         {
@@ -143,27 +158,76 @@ namespace undine
     }
 
 
-    /// Leave what the run knows of itself, and why it has failed, if that can be written.
+    /// What a run finds out about itself. The references must outlive it.
+    template <int dim>
+    struct Findings
+    {
+      const EffectsReport<dim> &effects;
+      const Adviser<dim>       &adviser;
+      const RunSummary<dim>    &summary;
+      const TimingTree         &timing;
+    };
+
+
+    /// Leave what the run knows of itself so far, at its end or on the way, if that can be written:
+    /// if not, there is more important news for the user, or the page about the run says less.
     template <int dim>
     void
-    write_summary_of_failure(ResultFolder          &folder,
-                             const RunSummary<dim> &summary,
-                             const Clock           &clock,
-                             const Error           &failure,
-                             Log                   &log,
-                             const MPI_Comm         communicator)
+    try_to_write(const Findings<dim>                 &findings,
+                 ResultFolder                        &folder,
+                 const Clock                         &clock,
+                 const typename RunSummary<dim>::End &end,
+                 const MPI_Comm                       communicator)
     {
-      const bool is_stopped = dynamic_cast<const Interruption *>(&failure) != nullptr;
-      const typename RunSummary<dim>::End end{failure.what(), !is_stopped};
-      summary.print_failure(log, clock.time, end);
       try
         {
-          write_whole_file(folder, "summary.json", summary.json(clock, end), communicator);
+          write_whole_file(folder, "summary.json", findings.summary.json(clock, end), communicator);
+          write_whole_file(folder, "timing", timing_table(findings.timing), communicator);
+          if (findings.summary.has_steps())
+            write_whole_file(folder,
+                             "effects.json",
+                             findings.effects.json(findings.adviser.advice()),
+                             communicator);
         }
       catch (const FileError &)
         {
-          // The failure itself is what the user must hear of.
+          // See above.
         }
+    }
+
+
+    /// The last that there is to say about a run that has failed or was stopped.
+    template <int dim>
+    void
+    conclude_failure(const Findings<dim> &findings,
+                     ResultFolder        &folder,
+                     const Clock         &clock,
+                     const Error         &failure,
+                     Log                 &log,
+                     const MPI_Comm       communicator)
+    {
+      const bool is_stopped = dynamic_cast<const Interruption *>(&failure) != nullptr;
+      const typename RunSummary<dim>::End end{failure.what(), !is_stopped};
+      findings.summary.print_failure(log, clock.time, end);
+      try_to_write(findings, folder, clock, end, communicator);
+    }
+
+
+    /// Write the page about a run that goes on, if it is time for that, and what it is made of.
+    template <int dim>
+    void
+    refresh_page(ReportPage          &page,
+                 const Findings<dim> &findings,
+                 ResultFolder        &folder,
+                 const Clock         &clock,
+                 TimingTree          &timing,
+                 const MPI_Comm       communicator)
+    {
+      if (!is_output_time(clock) || clock.ended() || !page.due())
+        return;
+      const auto timed = timing.section("report");
+      try_to_write(findings, folder, clock, {}, communicator);
+      page.write();
     }
 
 
@@ -315,22 +379,29 @@ namespace undine
       Adviser<dim>             adviser(scene.models, state);
       effects.print_start(log);
       write_whole_file(folder, "effects.json", effects.json({}), communicator);
-      RunSummary<dim> summary(scene, options, state.clock);
+      RunSummary<dim>     summary(scene, options, state.clock);
+      ReportPage          page(folder, scene.has_report, log, communicator);
+      const Findings<dim> findings{effects, adviser, summary, timing};
       try
         {
           run_keeping_last_state(state,
                                  scene,
                                  {[&](const State<dim> &now, const Report &report) {
-                                   adviser.observe(now, report);
-                                   summary.observe(now.clock.time, report);
-                                 }},
+                                    adviser.observe(now, report);
+                                    summary.observe(now.clock.time, report);
+                                  },
+                                  [&](const State<dim> &now) {
+                                    refresh_page(
+                                      page, findings, folder, now.clock, timing, communicator);
+                                  }},
                                  folder,
                                  log,
                                  timing);
         }
       catch (const Error &failure)
         {
-          write_summary_of_failure(folder, summary, state.clock, failure, log, communicator);
+          conclude_failure(findings, folder, state.clock, failure, log, communicator);
+          page.finish();
           throw;
         }
       write_checkpoint(folder.path(), scene.models, state, folder.statistics_digest);
@@ -343,15 +414,35 @@ namespace undine
       if (summary.has_steps())
         write_whole_file(folder, "summary.json", summary.json(state.clock, {}), communicator);
       folder.finish();
+      page.finish();
+    }
+
+
+    /// The parameters of every part of a scene.
+    Options
+    all_of_scenes()
+    {
+      auto options = Options::for_reference();
+      declare_scene<3>(options);
+      declare_scene<2>(options); // adds the few keys that only plane scenes have
+      return options;
+    }
+
+
+    void
+    print_reference_of(const std::string &section)
+    {
+      if (!write_reference_of(std::cout, all_of_scenes(), section))
+        throw InputError("no section of a scene is called '" + section +
+                         "'. Try one of those that 'undine --reference' lists, or a part of its "
+                         "path, such as 'Output', 'Output/vtu' or 'viscosity'.");
     }
 
 
     void
     print_reference()
     {
-      const auto options = Options::for_reference();
-      declare_scene<3>(options);
-      declare_scene<2>(options); // adds the few keys that only plane scenes have
+      const auto options = all_of_scenes();
       std::cout << "# Parameters\n\nGenerated by `undine --reference`. `<name>` stands for a name "
                    "that the scene chooses;\nan *italic condition* says when a key exists. "
                    "Vectors are listed with three numbers; plane scenes give\ntwo.\n";
@@ -414,7 +505,7 @@ namespace undine
     answer(const Request &request)
     {
       if (request.action == Request::Action::reference)
-        print_reference();
+        request.section.empty() ? print_reference() : print_reference_of(request.section);
       else if (request.action == Request::Action::parameters)
         print_parameters(request);
       else if (request.action == Request::Action::study)

@@ -125,16 +125,23 @@ namespace undine
   }
 
 
+  std::string
+  timing_table(const TimingTree &timing)
+  {
+    std::ostringstream table;
+    timing.write(table);
+    return table.str();
+  }
+
+
   void
   write_timing(ResultFolder     &folder,
                const TimingTree &timing,
                Log              &log,
                const MPI_Comm    communicator)
   {
-    std::ostringstream table;
-    timing.write(table);
-    write_whole_file(folder, "timing", table.str(), communicator);
-    log.print("\n{}", table.str());
+    write_whole_file(folder, "timing", timing_table(timing), communicator);
+    log.print("\n{}", timing_table(timing));
   }
 
 

@@ -100,6 +100,13 @@ namespace undine
                   Allowed::not_negative(),
                   "Simulated time between pictures; steps are shortened to land on its multiples. "
                   "0: only the first and the last time.");
+      section.add("Report",
+                  scene.has_report,
+                  "",
+                  Allowed::anything(),
+                  "Write 'report.html' into the folder, a page about the run: at its end, and anew "
+                  "at times of outputs, for which at most 2 % of the run's time is taken. The "
+                  "environment variable UNDINE_REPORT=off overrides it.");
       std::vector<std::string> parts{"vtu", "checkpoint"};
       section.add("Parts",
                   parts,

@@ -43,6 +43,36 @@ def check_questions(program, scene):
                result.returncode == code and word in result.stderr, result)
 
 
+def check_reference_of_sections(program):
+    """Of a section: what the whole has of it, and no other."""
+    whole = call(program, "--reference").stdout
+    for section, headings in (("output/VTU", ["Output / vtu"]), ("Output", ["Output", "Output / checkpoint", "Output / vtu"]),
+                              ("viscosity", ["Effects / viscosity"])):
+        result = call(program, "--reference", section)
+        found = [line[3:] for line in result.stdout.splitlines() if line.startswith("## ")]
+        expect(f"--reference {section} must print {headings}, not {found}", found == headings, result)
+        expect(f"--reference {section} must be a part of all", all(block.strip() in whole for block in
+                                                                   result.stdout.split("\n## ")), result)
+    result = call(program, "--reference", "put")
+    expect("a section that is not there is refused", result.returncode == 2 and "'put'" in result.stderr, result)
+
+
+def check_new_scenes(program):
+    """What './undine new' writes is without mistakes, bears its name, and nothing is replaced."""
+    script = os.path.join(scene_tools.ROOT, "undine")
+    with tempfile.TemporaryDirectory() as folder:
+        for kind in ("grid", "particles", "solid"):
+            result = call(script, "new", f"my {kind} & more", kind, folder=folder)
+            expect(f"'new' must write a scene: {kind}", result.returncode == 0, result)
+            result = call(program, f"my {kind} & more.prm", "--validate", folder=folder)
+            expect(f"the scene must be good: {kind}", result.returncode == 0 and "no mistakes" in result.stdout, result)
+            with open(os.path.join(folder, f"my {kind} & more.prm")) as file:
+                expect("its title must be its name", f"= my {kind} & more\n" in file.read(), result)
+        for arguments, word in ((["my solid & more"], "is there already"), (["other", "no-kind"], "three kinds"), ([], "a name")):
+            result = call(script, "new", *arguments, folder=folder)
+            expect(f"'new {arguments}' must be refused", result.returncode == 1 and word in result.stderr, result)
+
+
 def check_output(program, scene):
     with tempfile.TemporaryDirectory() as folder:
         results = os.path.join(folder, "new", "results")
@@ -70,6 +100,8 @@ def check_output(program, scene):
 def main():
     program, scene = sys.argv[1:3]
     check_questions(program, scene)
+    check_reference_of_sections(program)
+    check_new_scenes(program)
     check_output(program, scene)
     print("the command line does what doc/running.md says")
 

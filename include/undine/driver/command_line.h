@@ -29,6 +29,7 @@ namespace undine
     std::string              scene_file;
     std::string              directory;         ///< of the run to resume
     std::string              expression;        ///< to evaluate
+    std::string              section;           ///< of --reference; empty: all
     std::string              output;            ///< --output; empty: not given
     std::vector<std::string> assignments;       ///< of --set
     bool                     overwrite = false; ///< an unfinished run in the folder for results

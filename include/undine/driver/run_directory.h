@@ -47,6 +47,10 @@ namespace undine
   void
   print_unknowns(Log &log, const Scene<dim> &scene);
 
+  /// Seconds by phase, as text.
+  std::string
+  timing_table(const TimingTree &timing);
+
   /// Write the table of seconds by phase to the log and to the file `timing`. Collective. Throws
   /// FileError.
   void

@@ -22,7 +22,8 @@ namespace undine
   struct Scene
   {
     std::string                               title;
-    std::filesystem::path                     directory; ///< where results go
+    std::filesystem::path                     directory;         ///< where results go
+    bool                                      has_report = true; ///< a page about the run
     Clock                                     clock;
     Models<dim>                               models;
     std::unique_ptr<Scheme<dim>>              scheme;

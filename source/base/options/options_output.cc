@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <ostream>
 #include <set>
 
@@ -128,10 +129,36 @@ namespace undine
     }
 
 
-    void
-    write_reference_section(std::ostream &out, const SectionTree &tree, const std::string &path)
+    /// What a path and names that are looked for have in common: "/output/vtu/".
+    std::string
+    comparable(const std::string &path)
     {
-      if (!tree.entries.empty())
+      std::string result = "/";
+      for (const char sign : path)
+        if (sign == '/')
+          {
+            while (result.back() == ' ')
+              result.pop_back();
+            result += '/';
+          }
+        else if (sign != ' ' || result.back() != '/')
+          result += std::tolower(static_cast<unsigned char>(sign));
+      while (result.back() == ' ')
+        result.pop_back();
+      return result + '/';
+    }
+
+
+    /// Sections whose path contains `names`, as comparable(). Returns how many there are.
+    unsigned int
+    write_reference_section(std::ostream      &out,
+                            const SectionTree &tree,
+                            const std::string &path,
+                            const std::string &names)
+    {
+      const bool   is_wanted = comparable(path).find(names) != std::string::npos;
+      unsigned int n_found   = is_wanted && !tree.entries.empty();
+      if (n_found > 0)
         {
           out << "\n## " << (path.empty() ? "Top level" : escaped(path)) << "\n\n"
               << "| key | default | allowed | unit | meaning |\n|---|---|---|---|---|\n";
@@ -143,8 +170,9 @@ namespace undine
                 << escaped(entry.help) << " |\n";
         }
       for (const auto &[name, section] : tree.sections)
-        write_reference_section(
-          out, section, path.empty() ? name : fmt::format("{} / {}", path, name));
+        n_found += write_reference_section(
+          out, section, path.empty() ? name : fmt::format("{} / {}", path, name), names);
+      return n_found;
     }
   } // namespace
 
@@ -166,6 +194,14 @@ namespace undine
   void
   write_reference(std::ostream &out, const Options &options)
   {
-    write_reference_section(out, sort_by_section(options.entries()), "");
+    write_reference_section(out, sort_by_section(options.entries()), "", "/");
+  }
+
+
+  bool
+  write_reference_of(std::ostream &out, const Options &options, const std::string &names)
+  {
+    return write_reference_section(out, sort_by_section(options.entries()), "", comparable(names)) >
+           0;
   }
 } // namespace undine

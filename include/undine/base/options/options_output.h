@@ -19,6 +19,11 @@ namespace undine
   /// All entries with unit, range, default and help, as Markdown.
   void
   write_reference(std::ostream &out, const Options &options);
+
+  /// The same of sections whose path has these names next to each other, whatever their case
+  /// ("output/vtu", "viscosity"), and of sections in them. Is there one?
+  bool
+  write_reference_of(std::ostream &out, const Options &options, const std::string &names);
 } // namespace undine
 
 #endif

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Frames that contrib/render has left in the folder of a run, small enough to be part of its page."""
+import base64
+import glob
+import io
+import os
+
+MOST = 60
+WIDTH = 720  # pixels
+
+
+def small(path):
+    """A data URI of the picture, not wider than WIDTH."""
+    from PIL import Image  # only runs with frames need it
+    with Image.open(path) as picture:
+        picture = picture.convert("RGB")
+        if picture.width > WIDTH:
+            picture = picture.resize((WIDTH, round(picture.height * WIDTH / picture.width)))
+        stream = io.BytesIO()
+        picture.save(stream, "JPEG", quality=75, optimize=True)
+    return "data:image/jpeg;base64," + base64.b64encode(stream.getvalue()).decode()
+
+
+def of_run(results):
+    """([data URI], number of frames that there are): all frames, or MOST of them evenly."""
+    files = sorted(glob.glob(os.path.join(glob.escape(results.folder), "frames", "frame_*.png")))
+    step = -(-len(files) // MOST) or 1
+    pictures = []
+    for file in files[::step]:
+        try:
+            pictures.append(small(file))
+        except (OSError, ImportError) as error:
+            results.problems.append(f"'frames/{os.path.basename(file)}' cannot be shown: {error}")
+    return pictures, len(files)
