@@ -278,7 +278,7 @@ namespace undine::particles
     __device__ __forceinline__ Vector<dim, float>
                                acceleration()
     {
-      auto result = step.force.acceleration(point.x) + pressure;
+      auto result = step.body_force(own.material, point.x) + pressure;
       result += touch.acceleration;
       return result += step.elasticity.acceleration(own, now.T, WarpLanes(), [&](const auto &f) {
         for_each_bond([&](const auto &bond) {

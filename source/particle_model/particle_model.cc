@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/particle_model/fluid_parts.h>
 #include <undine/particle_model/particle_model.h>
 #include <undine/particle_model/plain_vector.h>
 
@@ -113,10 +114,6 @@ namespace undine
       }
     apply(effects, scene);
 
-    if (bodies.size() >= particles::inflow_material)
-      throw scene.error("Bodies",
-                        fmt::format("there are {} bodies", bodies.size()),
-                        fmt::format("Allowed: at most {}.", particles::inflow_material - 1));
     place_bodies(bodies, obstacles);
     add_moving_walls(bodies);
     auto                             walls = box.wall_particles();
@@ -186,7 +183,8 @@ namespace undine
                                        "Try: move them apart.");
             });
             for (unsigned int other = 0; other < b; ++other)
-              if (bodies[other].surface->nearest(place).distance < -inside * box.spacing)
+              if (bodies[other].surface->box().point_inside(place) &&
+                  bodies[other].surface->nearest(place).distance < -inside * box.spacing)
                 throw body.options.error("",
                                          "the body is in the body '" + names[other] + "' at (" +
                                            write_value(place) + ")",
@@ -341,6 +339,53 @@ namespace undine
 
   template <int dim>
   void
+  ParticleModel<dim>::find_surface(const ParticleFluid<dim>     &fluid,
+                                   const ParticleObstacles<dim> &obstacles)
+  {
+    using Cube = typename FluidParts<dim>::Cube;
+    const FluidParts<dim> parts(box, fluid, [&](const dealii::Point<dim> &place) {
+      Cube cube = obstacles.contain(place) ? Cube::wall : Cube::free;
+      occupied.for_each_near(place, apart * box.spacing, [&](const std::size_t k) {
+        if (cube == Cube::free)
+          cube = k < constants.reference.size() ? Cube::body : Cube::wall;
+      });
+      return cube;
+    });
+    if (parts.n_full == 0)
+      return;
+    if (parts.n > 1)
+      throw fluid.options.error(
+        "Region",
+        fmt::format("the fluid around ({}) fills a part of the domain that walls and obstacles "
+                    "close, and there is more fluid elsewhere",
+                    write_value(*parts.in_full)),
+        "Try: compute it by itself, or leave a layer of a spacing without fluid there.");
+    const auto &numerics = constants.numerics;
+    if (numerics.pair_force != particles::PairForce::balanced ||
+        numerics.coupling != particles::Coupling::simultaneous)
+      throw fluid.options.error(
+        "Region",
+        "the fluid fills a closed domain, where pressures are known up to a constant",
+        "Allowed: only with 'Particles / Pressure / Pair force = balanced' and 'Coupling = "
+        "simultaneous'. Try: them, or leave a layer of a spacing without fluid.");
+    constants.is_full = true;
+    const particles::BodyForce<dim, double> force{
+      constants.gravity, constants.attraction, constants.centre};
+    for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+      {
+        auto place = plain<dim>(box.lower);
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          if (corner >> axis & 1)
+            place[axis] = box.upper[axis];
+        const double potential = force.potential(place);
+        constants.top_potential =
+          corner == 0 ? potential : std::max(constants.top_potential, potential);
+      }
+  }
+
+
+  template <int dim>
+  void
   ParticleModel<dim>::add_fluid(ParticleFluid<dim>                     &fluid,
                                 const std::vector<InflowParticle<dim>> &inflow,
                                 const ParticleObstacles<dim>           &obstacles)
@@ -353,6 +398,7 @@ namespace undine
     };
     fluid.fill(box, taken);
     check_room(fluid, taken);
+    find_surface(fluid, obstacles);
     dealii::Tensor<1, dim> gravity;
     for (unsigned int axis = 0; axis < dim; ++axis)
       gravity[axis] = constants.gravity[axis];

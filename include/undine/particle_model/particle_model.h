@@ -138,6 +138,9 @@ namespace undine
     void
     check_room(const ParticleFluid<dim>                              &fluid,
                const std::function<bool(const dealii::Point<dim> &)> &taken);
+    /// Whether the fluid has a surface. Throws InputError if one of several parts has none.
+    void
+    find_surface(const ParticleFluid<dim> &fluid, const ParticleObstacles<dim> &obstacles);
     void
     check_inflow(const ParticleFluid<dim>               &fluid,
                  const std::vector<InflowParticle<dim>> &inflow,

@@ -3,6 +3,7 @@
 #include <undine/base/parallel/interruption.h>
 #include <undine/coupled/scheme/particle_scheme.h>
 #include <undine/particles/execution/phases.h>
+#include <undine/particles/setup/disorder.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -102,6 +103,7 @@ namespace undine
       model->numerics().precision, model->numerics().device);
 
     state.particles = model->initial_state();
+    particles::disorder(model->setup(), state.particles);
     load(state);
     if (name == "host")
       engine->time_phases(); // which costs nothing there

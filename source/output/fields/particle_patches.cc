@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/fields/particle_patches.h>
+#include <undine/particles/setup/make_constants.h>
 
 namespace undine
 {
@@ -27,7 +28,8 @@ namespace undine
         patch.data(row++, 0) = tag.kind() == particles::Kind::solid
                                  ? state.positions[k][axis] - rest[identity][axis]
                                  : 0;
-      patch.data(row++, 0) = state.pressures[k];
+      patch.data(row++, 0) =
+        state.pressures[k] + pressure_at_rest(model.setup(), state.positions[k]);
       patch.data(row++, 0) = static_cast<int>(tag.kind());
       patch.data(row++, 0) = tag.kind() == particles::Kind::solid ? tag.material() - 1 : -1;
       patch.data(row++, 0) = identity;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/output/probes/probe.h>
+#include <undine/particles/setup/make_constants.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,13 +40,14 @@ namespace undine
     }
 
     Columns
-    columns(const Models<dim> &, const State<dim> &state) const override
+    columns(const Models<dim> &models, const State<dim> &state) const override
     {
       const auto &particles = state.particles;
       double      sum       = 0;
       for (std::size_t k = 0; k < particles.identities.size(); ++k)
         if (std::binary_search(identities.begin(), identities.end(), particles.identities[k]))
-          sum += particles.pressures[k];
+          sum += particles.pressures[k] +
+                 pressure_at_rest(models.particles->setup(), particles.positions[k]);
       return {{name + " pressure", "Pa", sum / identities.size()}};
     }
 

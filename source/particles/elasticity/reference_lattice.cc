@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace undine::particles
 {
@@ -70,6 +71,15 @@ namespace undine::particles
       }
     for (const auto &body : setup.bodies)
       materials.push_back(material_of<Real>(body, dim, spacing));
+    members.resize(bodies.size());
+    std::iota(members.begin(), members.end(), 0);
+    std::stable_sort(members.begin(), members.end(), [&](const int a, const int b) {
+      return bodies[a] < bodies[b];
+    });
+    starts.assign(materials.size() + 1, 0);
+    for (const int body : bodies)
+      ++starts[body + 1];
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
     find_neighbours(setup.numerics.reach, setup.reference);
   }
 

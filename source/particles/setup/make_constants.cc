@@ -15,24 +15,13 @@ namespace undine::particles
     void
     set_materials(Constants<dim, Real> &constants, const Setup<dim> &setup)
     {
-      const std::size_t most = inflow_material - 1;
-      if (setup.bodies.size() > most)
-        throw InputError("the scene has " + std::to_string(setup.bodies.size()) +
-                         " elastic bodies; at most " + std::to_string(most) + " are possible.");
-      constants.densities[0] = static_cast<Real>(setup.fluid_density);
-      constants.compressibilities[0] =
+      constants.fluid_density = static_cast<Real>(setup.fluid_density);
+      constants.fluid_compressibility =
         setup.fluid_bulk_modulus > 0 ? static_cast<Real>(1 / setup.fluid_bulk_modulus) : Real(0);
-      for (const int material : {inflow_material, moving_material, inactive_material})
-        {
-          constants.densities[material]         = constants.densities[0];
-          constants.compressibilities[material] = constants.compressibilities[0];
-        }
-      for (std::size_t b = 0; b < setup.bodies.size(); ++b)
-        {
-          const auto &body                   = setup.bodies[b];
-          constants.densities[b + 1]         = static_cast<Real>(body.density);
-          constants.compressibilities[b + 1] = Real(0);
-        }
+      constants.lightest_density = constants.fluid_density;
+      for (const auto &body : setup.bodies)
+        constants.lightest_density =
+          minimum(constants.lightest_density, static_cast<Real>(body.density));
     }
 
     /// The longest sub-step that gravity waves allow [s]; 0 without any.
@@ -69,35 +58,46 @@ namespace undine::particles
         constants.force.gravity[axis] = static_cast<Real>(setup.gravity[axis]);
         constants.force.centre[axis]  = static_cast<Real>(setup.centre[axis]);
       }
-    constants.force.attraction = static_cast<Real>(setup.attraction);
-    constants.viscosity        = static_cast<Real>(setup.fluid_viscosity);
-    constants.wall_friction    = {static_cast<Real>(setup.wall_viscosity),
-                                  static_cast<Real>(setup.wall_roughness)};
+    constants.force.attraction  = static_cast<Real>(setup.attraction);
+    constants.is_full           = setup.is_full;
+    constants.displaced_density = static_cast<Real>(setup.is_full ? setup.fluid_density : 0.);
+    constants.top_potential     = static_cast<Real>(setup.top_potential);
+    constants.viscosity         = static_cast<Real>(setup.fluid_viscosity);
+    constants.wall_friction     = {static_cast<Real>(setup.wall_viscosity),
+                                   static_cast<Real>(setup.wall_roughness)};
     set_materials(constants, setup);
-    constants.source        = numerics.source;
-    constants.density_share = static_cast<Real>(numerics.density_share);
+    constants.source = numerics.source;
+    // In a full domain particles are moved to even spacing instead, see EvenSpacing.
+    const double corrected  = setup.is_full ? 0. : 1.;
+    constants.density_share = static_cast<Real>(corrected * numerics.density_share);
     const double gravity    = std::sqrt(norm_square(setup.gravity));
     constants.relaxation_time =
-      gravity > 0 ? static_cast<Real>(numerics.relaxation_time * std::sqrt(l0 / gravity)) : Real(0);
+      gravity > 0 && !setup.is_full
+        ? static_cast<Real>(numerics.relaxation_time * std::sqrt(l0 / gravity))
+        : Real(0);
     constants.crowd_excess = static_cast<Real>(numerics.crowd_excess);
-    constants.crowd_share  = static_cast<Real>(numerics.crowd_share);
+    constants.crowd_share  = static_cast<Real>(corrected * numerics.crowd_share);
     const double longest   = longest_by_waves(setup);
     constants.crowd_rate =
-      longest > 0 ? static_cast<Real>(numerics.crowd_share / longest) : Real(0);
+      longest > 0 ? static_cast<Real>(corrected * numerics.crowd_share / longest) : Real(0);
     constants.surface_density       = static_cast<Real>(numerics.surface_density);
     constants.body_surface_density  = static_cast<Real>(numerics.body_surface_density);
     constants.one_sided_density     = static_cast<Real>(numerics.one_sided_density);
     constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);
     constants.surface_fade          = static_cast<Real>(numerics.surface_fade);
     constants.air                   = static_cast<Real>(numerics.air);
-    constants.path_weight =
-      numerics.position_update == PositionUpdate::mean_velocity ? Real(0.5) : Real(1);
-    constants.collision_distance = static_cast<Real>(numerics.collision_distance * l0);
-    constants.restitution        = static_cast<Real>(numerics.restitution);
-    constants.pair_force         = numerics.pair_force;
-    constants.coupling           = numerics.coupling;
-    constants.shifting           = static_cast<Real>(numerics.shifting);
-    constants.shifting_limit     = static_cast<Real>(numerics.shifting_limit * l0);
+    constants.path_weight           = numerics.position_update == PositionUpdate::mean_velocity
+                                        ? Real(setup.is_full ? 0.6 : 0.5)
+                                        : Real(1);
+    constants.collision_distance    = static_cast<Real>(numerics.collision_distance * l0);
+    constants.fluid_collision_distance =
+      setup.is_full ? minimum(constants.collision_distance, static_cast<Real>(0.5 * l0))
+                    : constants.collision_distance;
+    constants.restitution    = static_cast<Real>(numerics.restitution);
+    constants.pair_force     = numerics.pair_force;
+    constants.coupling       = numerics.coupling;
+    constants.shifting       = static_cast<Real>(numerics.shifting);
+    constants.shifting_limit = static_cast<Real>(numerics.shifting_limit * l0);
     return constants;
   }
 
@@ -118,6 +118,15 @@ namespace undine::particles
                                    static_cast<Real>(side.depth),
                                    side.is_inflow};
     return open;
+  }
+
+
+  template <int dim>
+  double
+  pressure_at_rest(const Setup<dim> &setup, const Vector<dim, double> &x)
+  {
+    const BodyForce<dim, double> force{setup.gravity, setup.attraction, setup.centre};
+    return setup.is_full ? setup.fluid_density * (setup.top_potential - force.potential(x)) : 0.;
   }
 
 
@@ -166,6 +175,10 @@ namespace undine::particles
   make_constants(const Setup<3> &);
   template Constants<3, double>
   make_constants(const Setup<3> &);
+  template double
+  pressure_at_rest(const Setup<2> &, const Vector<2, double> &);
+  template double
+  pressure_at_rest(const Setup<3> &, const Vector<3, double> &);
   template StepBounds
   make_bounds(const Setup<2> &, double);
   template StepBounds

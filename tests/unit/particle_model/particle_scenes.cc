@@ -57,6 +57,7 @@ TEMPLATE_TEST_CASE_SIG(
   CHECK(count(model, Kind::wall) == power(6, dim) - power(4, dim));
   CHECK(count(model, Kind::dummy) == power(10, dim) - power(6, dim));
   CHECK(least_distance(state) == Approx(1).epsilon(1e-12));
+  CHECK(model.setup().is_full);
   std::set<int> identities(state.identities.begin(), state.identities.end());
   CHECK(identities.size() == state.positions.size());
   CHECK(*identities.rbegin() + 1 == int(state.positions.size()));
@@ -197,4 +198,35 @@ TEST_CASE("particles: two bodies have materials of their own")
   CHECK(model.setup().bodies[1].youngs_modulus == 2e5);
   CHECK(model.setup().body_of == std::vector<int>{0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1});
   CHECK(model.initial_state().tags[4].material() == 2);
+}
+
+
+TEST_CASE("particles: a domain is full if no cube in it is free and nothing can leave it")
+{
+  const auto is_full = [](const std::string &domain, const std::string &rest) {
+    return read_particles<2>(particle_box<2>(8, domain) + rest).setup().is_full;
+  };
+  const auto fluid = [](const std::string &keys) {
+    return section("Fluid", "set Density = 1000\n" + keys);
+  };
+  const std::string ball = "set Shape = ball\n set Centre = 4.2, 4\n set Radius = 2";
+  const std::string lid =
+    section("Obstacles",
+            section("lid", "set Shape = box\n set Lower corner = 0, 3\n set Upper corner = 8, 5"));
+  CHECK(is_full("", water));
+  CHECK(is_full("set Periodic sides = left, right, bottom, top", water));
+  CHECK(is_full("", water + body("one", ball)));
+  CHECK(is_full("", fluid("set Region = 3 - y") + lid));
+  CHECK(!is_full("", fluid("set Region = 7 - y")));
+  CHECK(!is_full("set Open sides = top", water));
+  CHECK(!is_full(
+    "", fluid(section("Boundaries", section("drain", "set Sides = left\n set Kind = outflow")))));
+  // With fluid above the lid that has a surface, and with none that has.
+  CHECK_THROWS_WITH(is_full("", fluid("set Region = 7 - y") + lid), Catch::Contains("close"));
+  CHECK_THROWS_WITH(is_full("", water + lid), Catch::Contains("close"));
+  CHECK_THROWS_WITH(
+    read_particles<2>(
+      section("Particles", "set Spacing = 1\n" + section("Pressure", "set Pair force = minimum")) +
+      section("Domain", "set Lower corner = 0, 0\n set Upper corner = 8, 8") + water),
+    Catch::Contains("balanced"));
 }

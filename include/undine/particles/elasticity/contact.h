@@ -123,6 +123,32 @@ namespace undine::particles
         });
     }
 
+    /// The change of the acceleration as particles move along u, by identity; walls stay. Of each
+    /// pair the part along its line, which the barrier makes stiff [1/s^2 times that of u].
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    acceleration_change(const int identity, const Vector<dim, Real> *u) const
+    {
+      const auto point = bodies.points[identity];
+      auto       force = Vector<dim, Real>::zero();
+      for (int k = 0; k < counts[identity]; ++k)
+        {
+          const int  partner = partners[list_slot(identity, k, neighbours.capacity)];
+          const bool is_wall = partner < 0;
+          const auto other = is_wall ? neighbours.places[-1 - partner].x : bodies.points[partner].x;
+          const auto r     = neighbours.grid.difference(point.x, other);
+          const Real square = norm_square(r);
+          const Real touch  = touching_distance(identity, is_wall ? identity : partner);
+          if (!(square < touch * touch))
+            continue;
+          const Real q       = touch * inverse_square_root(square);
+          const auto closing = is_wall ? u[identity] : u[identity] - u[partner];
+          force -=
+            (stiffness(identity, partner) * (3 * q - 2) * q * q * q * (closing * r) / square) * r;
+        }
+      return (1 / (bodies.materials[bodies.bodies[identity]].density * volume)) * force;
+    }
+
   private:
     /// Of the softer one; a wall does not give [N/m, in the plane per m].
     UNDINE_HOST_DEVICE

@@ -24,6 +24,8 @@ namespace undine::particles
       , reference(executor, lattice.points)
       , bodies(executor, lattice.bodies)
       , materials(executor, lattice.materials)
+      , members(executor, lattice.members)
+      , starts(executor, lattice.starts)
       , clamped(executor, lattice.clamped)
       , inside(executor, lattice.inside)
       , counts(executor, lattice.counts)
@@ -45,6 +47,7 @@ namespace undine::particles
       , where(executor, n)
       , implicit_work(executor, 4 * n)
       , implicit_tensors(executor, 2 * n)
+      , rigid(executor, lattice.materials.size())
     {
     }
 
@@ -55,6 +58,9 @@ namespace undine::particles
               reference.data(),
               bodies.data(),
               materials.data(),
+              static_cast<int>(materials.size()),
+              members.data(),
+              starts.data(),
               clamped.data(),
               capacity,
               counts.data(),
@@ -73,7 +79,13 @@ namespace undine::particles
     implicit_vectors() const
     {
       Vector<dim, Real> *const w = implicit_work.data();
-      return {w, w + n, w + 2 * n, w + 3 * n, implicit_tensors.data(), implicit_tensors.data() + n};
+      return {w,
+              w + n,
+              w + 2 * n,
+              w + 3 * n,
+              implicit_tensors.data(),
+              implicit_tensors.data() + n,
+              rigid.data()};
     }
 
     int n, capacity;
@@ -82,6 +94,7 @@ namespace undine::particles
     Buffer<Executor, ReferencePoint<dim, Real>> reference;
     Buffer<Executor, int>                       bodies;
     Buffer<Executor, ElasticMaterial<Real>>     materials;
+    Buffer<Executor, int>                       members, starts; ///< of ElasticBodies
     Buffer<Executor, unsigned char>             clamped;
     Buffer<Executor, unsigned char>             inside; ///< surrounded by their own body
     Buffer<Executor, int>                       counts, indices;
@@ -106,6 +119,7 @@ namespace undine::particles
     Buffer<Executor, int>                     where;         ///< sorted place of each identity
     Vectors                                   implicit_work; ///< of ImplicitVectors
     Matrices                                  implicit_tensors;
+    Buffer<Executor, RigidMotion<dim, Real>>  rigid;
     /// @}
   };
 } // namespace undine::particles

@@ -219,7 +219,8 @@ namespace undine::particles
       });
     }
 
-    /// Changes of F and of P A^{-1} with places that move along u, R and the cofactors of F held.
+    /// Changes of F and of P A^{-1} with places that move along u; the cofactors of F are held, and
+    /// R turns as it does where F is a rotation: rigid motions change no stress.
     UNDINE_HOST_DEVICE
     void
     differentiate(const int                i,
@@ -236,10 +237,11 @@ namespace undine::particles
       const auto        C          = cofactors(bodies.deformations[i]);
       const Real        J          = determinant(bodies.deformations[i]);
       const Real        pull       = volume_law(properties).stiffness(J) * double_contraction(C, F);
+      const auto        stretch    = without_turn(bodies.rotations[i], F);
       Matrix<dim, Real> stress;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
-          stress[a][b] = 2 * properties.mu * F[a][b] + pull * C[a][b];
+          stress[a][b] = 2 * properties.mu * stretch[a][b] + pull * C[a][b];
       F_changes[i]      = F;
       stress_changes[i] = stress * bodies.inverse_moments[i];
     }
@@ -322,6 +324,23 @@ namespace undine::particles
               Vector<dim, Real>::zero(),
               exists ? weight : Real(0),
               other.inverse_mean};
+    }
+
+    /// The part of a change of F that is no rotation, R sym(R^T dF).
+    UNDINE_HOST_DEVICE
+    static Matrix<dim, Real>
+    without_turn(const Matrix<dim, Real> &R, const Matrix<dim, Real> &change)
+    {
+      auto in_body = Matrix<dim, Real>::diagonal(0);
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          for (int c = 0; c < dim; ++c)
+            {
+              const Real entry = R[c][a] * change[c][b] / 2;
+              in_body[a][b] += entry;
+              in_body[b][a] += entry;
+            }
+      return R * in_body;
     }
 
     /// Not zero, as it would be of a particle with itself, with which lists are filled up.

@@ -3,21 +3,10 @@
 #define undine_particles_elasticity_elastic_state_h
 
 #include <undine/particles/math/matrix.h>
+#include <undine/particles/model/elastic_material.h>
 
 namespace undine::particles
 {
-  /// Of one elastic body.
-  template <class Real>
-  struct ElasticMaterial
-  {
-    Real lambda, mu; ///< Lame's parameters [Pa]
-    Real density;    ///< [kg/m^3]
-    Real hourglass;  ///< alpha: stiffness against motions that deformation gradients do not see [1]
-    Real damping;    ///< zeta: share of critical damping of neighbours' relative motion [1]
-    Real bulk_damping; ///< bulk viscosity over rho c_p l0, which damps sound [1]
-    Real contact; ///< stiffness of contact with walls and other bodies [N/m, in the plane per m]
-  };
-
   /// Words that the device reads at once. @{
 
   /// Of the reference configuration.
@@ -55,8 +44,11 @@ namespace undine::particles
     const ReferencePoint<dim, Real> *reference;
     const int                       *bodies;    ///< number of the body
     const ElasticMaterial<Real>     *materials; ///< of the bodies
-    const unsigned char             *clamped;   ///< does not move
-    int                              capacity;  ///< of the list of neighbours in the reference
+    int                              n_bodies;
+    const int                       *members; ///< by body
+    const int                       *starts; ///< of the bodies' particles in `members`, and its end
+    const unsigned char             *clamped;  ///< does not move
+    int                              capacity; ///< of the list of neighbours in the reference
     const int                       *counts;
     const int                       *indices;
     const Matrix<dim, Real>         *inverse_moments; ///< A^{-1}, A = sum w X_ij X_ij^T [1/m^2]

@@ -2,6 +2,7 @@
 #ifndef undine_particles_elasticity_elastic_step_h
 #define undine_particles_elasticity_elastic_step_h
 
+#include <undine/particles/elasticity/body_sums.h>
 #include <undine/particles/elasticity/contact.h>
 #include <undine/particles/elasticity/elastic_bodies.h>
 #include <undine/particles/elasticity/explicit_steps.h>
@@ -28,15 +29,16 @@ namespace undine::particles
     Elasticity<dim, Real>      elasticity;
     Contact<dim, Real>         contact;
     BodyForce<dim, Real>       force;
-    Vector<dim, Real>         *x_start;     ///< [m]
-    const Vector<dim, Real>   *v_start;     ///< [m/s]
-    ElasticPoint<dim, Real>   *points_next; ///< while others still read the points
+    Real                       displaced_density; ///< of Constants [kg/m^3]
+    Real                       top_potential;     ///< of Constants [J/kg]
+    Vector<dim, Real>         *x_start;           ///< [m]
+    const Vector<dim, Real>   *v_start;           ///< [m/s]
+    ElasticPoint<dim, Real>   *points_next;       ///< while others still read the points
     ImplicitVectors<dim, Real> implicit_vectors;
     const Vector<dim, Real>   *pressure_accelerations; ///< [m/s^2]
-    int                        n_bodies;
-    Real                      *carried;     ///< of ElasticBodies [Pa]
-    Real                       carry_share; ///< of the difference, in a sub-step [1]
-    Place<dim, Real>          *places;      ///< of the sorted particles; receives the result
+    Real                      *carried;                ///< of ElasticBodies [Pa]
+    Real                       carry_share;            ///< of the difference, in a sub-step [1]
+    Place<dim, Real>          *places; ///< of the sorted particles; receives the result
     Motion<dim, Real>         *motions;
     StepBounds                 bounds;
     StepControl               *control;
@@ -91,6 +93,15 @@ namespace undine::particles
     {
       const auto v = is_clamped ? Vector<dim, Real>::zero() : point.v + h * a;
       return {point.x + h * v, v};
+    }
+
+    /// By the body force; in a full domain what is left after the displaced fluid has been borne
+    /// [m/s^2].
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    body_force(const ElasticMaterial<Real> &material, const Vector<dim, Real> &x) const
+    {
+      return (1 - displaced_density / material.density) * force.acceleration(x);
     }
 
     /// By the fluid's pressure [m/s^2].
@@ -167,26 +178,30 @@ namespace undine::particles
     {
       if (purpose != ElasticRun::final || !(carry_share > 0))
         return;
-      for (int body = 0; body < n_bodies; ++body)
-        {
-          const auto sums =
-            team.template sum<2>(elasticity.bodies.n, [&](const int i, Sums<2> &add) {
-              if (elasticity.bodies.bodies[i] != body)
-                return;
-              add[0] += motions[contact.where[i]].pressure;
-              add[1] += 1;
-            });
-          if (team.is_first())
-            {
-              const Real pressure = static_cast<Real>(sums[0] / sums[1]);
-              const Real gone     = maximum(Real(0), carried[body] - 2 * pressure);
-              carried[body] += carry_share * (pressure - carried[body]) -
-                               minimum(release * carry_share, Real(1)) * gone;
-            }
-        }
+      for_each_body_sum<2>(
+        team,
+        elasticity.bodies,
+        [&](const int i, Sums<2> &add) {
+          add[0] += motions[contact.where[i]].pressure + pressure_at_rest(i);
+          add[1] += 1;
+        },
+        [&](const int body, const Sums<2> &sums) {
+          const Real pressure = static_cast<Real>(sums[0] / sums[1]);
+          const Real gone     = maximum(Real(0), carried[body] - 2 * pressure);
+          carried[body] += carry_share * (pressure - carried[body]) -
+                           minimum(release * carry_share, Real(1)) * gone;
+        });
     }
 
   private:
+    /// What pressures lack in a full domain (P11) [Pa].
+    UNDINE_HOST_DEVICE
+    Real
+    pressure_at_rest(const int i) const
+    {
+      return displaced_density * (top_potential - force.potential(elasticity.bodies.points[i].x));
+    }
+
     static constexpr Real release = 10;
 
     /// Square of the highest frequency of a lattice of particles over c_p / l0: explicit steps are
@@ -271,7 +286,7 @@ namespace undine::particles
         points_next[i] = moved(point, elasticity.bodies.clamped[i], h, a);
     }
 
-    /// One step of backward Euler; what contacts and pressures do is kept constant.
+    /// One step of backward Euler; what pressures do is kept constant.
     template <class Team>
     UNDINE_HOST_DEVICE
     int
@@ -283,7 +298,7 @@ namespace undine::particles
       team.for_each_by_lanes(n,
                              [&](const int i, const auto &lanes) { elasticity.deform(i, lanes); });
       team.sync();
-      ImplicitElasticity<dim, Real>{elasticity, implicit_vectors, h}.step(
+      ImplicitElasticity<dim, Real>{elasticity, contact, implicit_vectors, h}.step(
         team, v_start, [&](const int i) { return acceleration(i, OneLane()); });
       team.sync();
       team.for_each(n, [&](const int i) {
@@ -303,7 +318,8 @@ namespace undine::particles
     Vector<dim, Real>
     acceleration(const int i, const Lanes &lanes) const
     {
-      auto result = force.acceleration(elasticity.bodies.points[i].x) + pressure_acceleration(i);
+      auto result = body_force(elasticity.material(i), elasticity.bodies.points[i].x) +
+                    pressure_acceleration(i);
       result += contact.response(i, lanes).acceleration;
       return result += elasticity.acceleration(i, lanes);
     }

@@ -2,33 +2,48 @@
 #ifndef undine_particles_elasticity_implicit_elasticity_h
 #define undine_particles_elasticity_implicit_elasticity_h
 
+#include <undine/particles/elasticity/body_sums.h>
+#include <undine/particles/elasticity/contact.h>
 #include <undine/particles/elasticity/elastic_bodies.h>
 #include <undine/particles/execution/sums.h>
 
 namespace undine::particles
 {
-  /// Arrays that an implicit step needs, one entry a particle.
+  /// Of a body: how its velocities change as a whole.
+  template <int dim, class Real>
+  struct RigidMotion
+  {
+    Vector<dim, Real> centre;   ///< of its particles [m]
+    Vector<dim, Real> velocity; ///< there [m/s]
+    Matrix<dim, Real> spin;     ///< antisymmetric [1/s]
+    bool              is_free;  ///< nowhere clamped
+  };
+
+  /// Arrays that an implicit step needs, one entry a particle; of `rigid` one a body.
   template <int dim, class Real>
   struct ImplicitVectors
   {
-    Vector<dim, Real> *change, *residual, *direction, *product;
-    Matrix<dim, Real> *deformations, *stresses; ///< that belong to a direction
+    Vector<dim, Real>      *change, *residual, *direction, *product;
+    Matrix<dim, Real>      *deformations, *stresses; ///< that belong to a direction
+    RigidMotion<dim, Real> *rigid;
   };
 
 
-  /// A step of backward Euler for stiff bodies, linearised with the rotations kept:
-  ///     (1 - h^2 A) dv = h a + h^2 A v,   A = da/dx at fixed R,
+  /// A step of backward Euler for stiff bodies, linearised:
+  ///     (1 - h^2 A) dv = h a + h^2 A v,   A = da/dx, of elasticity and contact,
   /// by conjugate gradients in the scalar product of mass, for which A is symmetric and not
-  /// positive.
+  /// positive. They begin with the rigid motion of each free body that is next to h a: it is what A
+  /// does not feel, so that they would find it last, and forces on stiff bodies would be lost.
   template <int dim, class Real>
   struct ImplicitElasticity
   {
     Elasticity<dim, Real>      elasticity;
+    Contact<dim, Real>         contact;
     ImplicitVectors<dim, Real> vectors;
     Real                       h; ///< [s]
 
     static constexpr double tolerance      = 1e-4; ///< of |residual| over the right-hand side's
-    static constexpr int    max_iterations = 200;
+    static constexpr int    max_iterations = 500;
 
     /// The change of velocities v, on which a = accelerations(i) acts; clamped particles stay.
     template <class Team, class Accelerations>
@@ -38,15 +53,22 @@ namespace undine::particles
     {
       const int n = elasticity.bodies.n;
       differentiate(team, v);
-      double       square = team.template sum<1>(n, [&](const int i, Sums<1> &sums) {
-        vectors.change[i]    = Vector<dim, Real>::zero();
-        vectors.residual[i]  = is_clamped(i)
-                                       ? Vector<dim, Real>::zero()
-                                       : h * accelerations(i) + (h * h) * acceleration_change(i, v);
+      const double enough =
+        tolerance * tolerance * team.template sum<1>(n, [&](const int i, Sums<1> &sums) {
+          vectors.residual[i] = is_clamped(i)
+                                  ? Vector<dim, Real>::zero()
+                                  : h * accelerations(i) + (h * h) * acceleration_change(i, v);
+          sums[0] += product(i, vectors.residual, vectors.residual);
+        })[0];
+      begin_rigidly(team);
+      differentiate(team, vectors.change);
+      double square = team.template sum<1>(n, [&](const int i, Sums<1> &sums) {
+        if (!is_clamped(i))
+          vectors.residual[i] -=
+            vectors.change[i] - (h * h) * acceleration_change(i, vectors.change);
         vectors.direction[i] = vectors.residual[i];
         sums[0] += product(i, vectors.residual, vectors.residual);
       })[0];
-      const double enough = tolerance * tolerance * square;
       for (int iteration = 0; iteration < max_iterations && square > enough; ++iteration)
         {
           differentiate(team, vectors.direction);
@@ -73,6 +95,8 @@ namespace undine::particles
     }
 
   private:
+    using Rigid = RigidMotion<dim, Real>;
+
     UNDINE_HOST_DEVICE
     bool
     is_clamped(const int i) const
@@ -85,6 +109,71 @@ namespace undine::particles
     product(const int i, const Vector<dim, Real> *a, const Vector<dim, Real> *b) const
     {
       return static_cast<double>(elasticity.material(i).density) * (a[i] * b[i]);
+    }
+
+    /// Changes of velocities as those of rigid bodies under the right-hand side; of bodies that are
+    /// clamped somewhere none. In space the spin is exact for bodies that are round.
+    template <class Team>
+    UNDINE_HOST_DEVICE
+    void
+    begin_rigidly(Team &team) const
+    {
+      const auto &bodies = elasticity.bodies;
+      for_each_body_sum<2 * dim + 2>(
+        team,
+        bodies,
+        [&](const int i, Sums<2 * dim + 2> &sums) {
+          for (int axis = 0; axis < dim; ++axis)
+            {
+              sums[axis] += bodies.points[i].x[axis];
+              sums[dim + axis] += vectors.residual[i][axis];
+            }
+          sums[2 * dim] += 1;
+          sums[2 * dim + 1] += is_clamped(i) ? 1 : 0;
+        },
+        [&](const int body, const Sums<2 * dim + 2> &sums) {
+          Rigid rigid = {Vector<dim, Real>::zero(),
+                         Vector<dim, Real>::zero(),
+                         Matrix<dim, Real>::diagonal(0),
+                         !(sums[2 * dim + 1] > 0)};
+          for (int axis = 0; axis < dim; ++axis)
+            {
+              rigid.centre[axis]   = static_cast<Real>(sums[axis] / sums[2 * dim]);
+              rigid.velocity[axis] = static_cast<Real>(sums[dim + axis] / sums[2 * dim]);
+            }
+          vectors.rigid[body] = rigid;
+        });
+      team.sync();
+      constexpr int planes = dim * (dim - 1) / 2;
+      for_each_body_sum<planes + 1>(
+        team,
+        bodies,
+        [&](const int i, Sums<planes + 1> &sums) {
+          const auto r = bodies.points[i].x - vectors.rigid[bodies.bodies[i]].centre;
+          const auto b = vectors.residual[i];
+          for (int first = 0, plane = 0; first < dim; ++first)
+            for (int second = first + 1; second < dim; ++second)
+              sums[plane++] += static_cast<double>(b[first] * r[second] - b[second] * r[first]);
+          sums[planes] += static_cast<double>(norm_square(r));
+        },
+        [&](const int body, const Sums<planes + 1> &sums) {
+          auto &spin = vectors.rigid[body].spin;
+          for (int first = 0, plane = 0; first < dim; ++first)
+            for (int second = first + 1; second < dim; ++second)
+              {
+                const double rate = sums[planes] > 0 ? dim / (2 * sums[planes]) * sums[plane] : 0.;
+                spin[first][second] = static_cast<Real>(rate);
+                spin[second][first] = static_cast<Real>(-rate);
+                ++plane;
+              }
+        });
+      team.sync();
+      team.for_each(bodies.n, [&](const int i) {
+        const Rigid rigid = vectors.rigid[bodies.bodies[i]];
+        vectors.change[i] = rigid.is_free
+                              ? rigid.velocity + rigid.spin * (bodies.points[i].x - rigid.centre)
+                              : Vector<dim, Real>::zero();
+      });
     }
 
     /// Of deformation gradients and stresses, in the direction u.
@@ -104,7 +193,8 @@ namespace undine::particles
     Vector<dim, Real>
     acceleration_change(const int i, const Vector<dim, Real> *u) const
     {
-      return elasticity.acceleration_change(i, u, vectors.deformations, vectors.stresses);
+      return elasticity.acceleration_change(i, u, vectors.deformations, vectors.stresses) +
+             contact.acceleration_change(i, u);
     }
   };
 } // namespace undine::particles

@@ -18,6 +18,7 @@ namespace undine::particles
     std::vector<ReferencePoint<dim, Real>> points;
     std::vector<int>                       bodies;
     std::vector<ElasticMaterial<Real>>     materials;
+    std::vector<int>                       members, starts; ///< of ElasticBodies
     std::vector<unsigned char>             clamped;
     std::vector<unsigned char>     inside; ///< has nearly as many neighbours as in a full lattice
     int                            capacity;

@@ -57,7 +57,7 @@ namespace undine::particles
     virtual ~Engine() = default;
 
     /// Take up a state. Throws InputError if it makes no sense: particles outside the box or on top
-    /// of each other, more bodies than materials.
+    /// of each other.
     virtual void
     load(const Setup<dim> &setup, const ParticleState<dim> &state) = 0;
 

@@ -2,6 +2,7 @@
 #ifndef undine_particles_engine_measure_balance_h
 #define undine_particles_engine_measure_balance_h
 
+#include <undine/particles/elasticity/body_sums.h>
 #include <undine/particles/elasticity/elastic_bodies.h>
 #include <undine/particles/engine/engine.h>
 #include <undine/particles/execution/buffer.h>
@@ -51,10 +52,9 @@ namespace undine::particles
         const auto place = particles.places[i];
         if (!place.tag.is_free())
           return;
-        const double mass =
-          static_cast<double>(constants.densities[place.tag.material()]) * constants.volume;
-        const auto v      = particles.motions[i].v;
-        double     square = 0;
+        const double mass   = static_cast<double>(constants.density(place.tag)) * constants.volume;
+        const auto   v      = particles.motions[i].v;
+        double       square = 0;
         for (int axis = 0; axis < dim; ++axis)
           {
             square += static_cast<double>(v[axis]) * v[axis];
@@ -85,15 +85,14 @@ namespace undine::particles
 
 
   /// Volume over that at rest, density of elastic energy, place and velocity, all summed over the
-  /// particles of one body, after deform() of all.
+  /// particles of each body, after deform() of all.
   template <int dim, class Real>
-  struct MeasureBody
+  struct MeasureBodies
   {
     static constexpr int count = 2 + 2 * dim;
 
     Elasticity<dim, Real> elasticity;
-    int                   body;
-    Sums<count>          *result;
+    Sums<count>          *results; ///< one a body
 
     template <class Team>
     UNDINE_HOST_DEVICE
@@ -101,19 +100,19 @@ namespace undine::particles
     operator()(Team &team) const
     {
       const auto &bodies = elasticity.bodies;
-      const auto  sums   = team.template sum<count>(bodies.n, [&](const int i, Sums<count> &sums) {
-        if (bodies.bodies[i] != body)
-          return;
-        sums[0] += determinant(bodies.deformations[i]);
-        sums[1] += elasticity.energy_density(i);
-        for (int axis = 0; axis < dim; ++axis)
-          {
-            sums[2 + axis] += bodies.points[i].x[axis];
-            sums[2 + dim + axis] += bodies.points[i].v[axis];
-          }
-      });
-      if (team.is_first())
-        *result = sums;
+      for_each_body_sum<count>(
+        team,
+        bodies,
+        [&](const int i, Sums<count> &sums) {
+          sums[0] += determinant(bodies.deformations[i]);
+          sums[1] += elasticity.energy_density(i);
+          for (int axis = 0; axis < dim; ++axis)
+            {
+              sums[2 + axis] += bodies.points[i].x[axis];
+              sums[2 + dim + axis] += bodies.points[i].v[axis];
+            }
+        },
+        [&](const int body, const Sums<count> &sums) { results[body] = sums; });
     }
   };
 
@@ -135,6 +134,7 @@ namespace undine::particles
     Balance<dim>
     operator()(const Particles<dim, Real> &particles, const ElasticBodies<dim, Real> &bodies)
     {
+      constants.bodies = bodies.materials;
       Balance<dim> result;
       const auto   sums =
         measured(MeasureBalance<dim, Real>{constants, particles, nullptr}, particles.n);
@@ -146,8 +146,7 @@ namespace undine::particles
       Elasticity<dim, Real> elasticity{constants.grid, constants.spacing, constants.reach, bodies};
       elasticity.is_damped = false;
       executor.for_each(bodies.n, DeformBodies<dim, Real>{elasticity});
-      for (std::size_t b = 0; b < body_sizes.size(); ++b)
-        add_body(result, b, elasticity);
+      add_bodies(result, elasticity);
       return result;
     }
 
@@ -163,21 +162,29 @@ namespace undine::particles
 
   private:
     void
-    add_body(Balance<dim> &result, const std::size_t b, const Elasticity<dim, Real> &elasticity)
+    add_bodies(Balance<dim> &result, const Elasticity<dim, Real> &elasticity)
     {
-      const auto   sums = measured(MeasureBody<dim, Real>{elasticity, static_cast<int>(b), nullptr},
-                                 elasticity.bodies.n);
-      const double share = 1. / body_sizes[b];
-      Vector<dim, double> centre, velocity;
-      for (int axis = 0; axis < dim; ++axis)
+      if (body_sizes.empty())
+        return;
+      using Measure = MeasureBodies<dim, Real>;
+      Buffer<Executor, Sums<Measure::count>> measured(executor, body_sizes.size());
+      executor.run(elasticity.bodies.n, Measure{elasticity, measured.data()});
+      const auto all = measured.values();
+      for (std::size_t b = 0; b < body_sizes.size(); ++b)
         {
-          centre[axis]   = share * sums[2 + axis];
-          velocity[axis] = share * sums[2 + dim + axis];
+          const auto         &sums  = all[b];
+          const double        share = 1. / body_sizes[b];
+          Vector<dim, double> centre, velocity;
+          for (int axis = 0; axis < dim; ++axis)
+            {
+              centre[axis]   = share * sums[2 + axis];
+              velocity[axis] = share * sums[2 + dim + axis];
+            }
+          result.elastic += constants.volume * sums[1];
+          result.body_volumes.push_back(share * sums[0]);
+          result.body_centres.push_back(centre);
+          result.body_velocities.push_back(velocity);
         }
-      result.elastic += constants.volume * sums[1];
-      result.body_volumes.push_back(share * sums[0]);
-      result.body_centres.push_back(centre);
-      result.body_velocities.push_back(velocity);
     }
 
     /// By a pass over n.

@@ -2,6 +2,7 @@
 #ifndef undine_particles_engine_particle_engine_h
 #define undine_particles_engine_particle_engine_h
 
+#include <undine/particles/engine/energy_bound.h>
 #include <undine/particles/engine/engine.h>
 #include <undine/particles/engine/failures.h>
 #include <undine/particles/engine/measure_balance.h>
@@ -12,6 +13,7 @@
 #include <undine/particles/setup/check_state.h>
 
 #include <algorithm>
+#include <optional>
 #include <type_traits>
 
 namespace undine::particles
@@ -34,6 +36,7 @@ namespace undine::particles
       setup = new_setup;
       paths.clear();
       measure_inflows(state);
+      energy_bound = EnergyBound<dim>(setup, state);
       load(state, frames_in_reserve * entering(0));
     }
 
@@ -52,22 +55,30 @@ namespace undine::particles
       pace.set_pause(look ? pause : 0);
     }
 
+    /// A frame that fails, or in which more energy appears than can, is repeated with shorter
+    /// sub-steps before it is given up.
     StepControl
     advance(const double length) override
     {
       make_room(length);
-      if (system != nullptr)
+      const Balance<dim> before = balance();
+      for (double shortening = 1;; shortening *= 2)
         {
-          snapshot->save(system->arrays(), system->elastic());
-          const StepControl control = attempt(*system, length);
-          if (!failed_for_indices(control))
-            return succeeded(*system, control);
-          system.reset();
-          wide = std::make_unique<System<Wide>>(*executor, setup, lattice(), n);
-          snapshot->restore(wide->arrays(), wide->elastic());
+          const StepControl control = attempt(length, shortening);
+          std::string       reason  = control.failures != 0
+                                        ? reason_of_failure(control)
+                                        : energy_bound.reason_of_excess(before, balance(), length);
+          if (reason.empty())
+            {
+              paths.clear();
+              return control;
+            }
+          with_system(
+            [&](auto &present) { snapshot->restore(present.arrays(), present.elastic()); });
+          last_balance = before;
+          if (shortening >= most_shortening || !depends_on_length(control))
+            throw SolveError(reason);
         }
-      snapshot->save(wide->arrays(), wide->elastic());
-      return succeeded(*wide, attempt(*wide, length));
     }
 
     void
@@ -79,6 +90,8 @@ namespace undine::particles
     Balance<dim>
     balance() const override
     {
+      if (last_balance)
+        return *last_balance;
       Balance<dim> result;
       with_system([&](auto &present) {
         BalanceSheet<Executor, dim, Real> sheet(*executor, setup);
@@ -86,6 +99,7 @@ namespace undine::particles
         result                 = sheet(present.arrays().view(), present.elastic().view());
         result.fluid_in_bodies = sheet.count_fluid_in_bodies(present.neighbours(), n);
       });
+      last_balance = result;
       return result;
     }
 
@@ -157,6 +171,7 @@ namespace undine::particles
     {
       executor->set_threads(setup.numerics.threads);
       n = static_cast<int>(state.positions.size()) + n_parked;
+      last_balance.reset();
       snapshot.reset();
       system.reset();
       wide.reset();
@@ -209,22 +224,50 @@ namespace undine::particles
     }
 
     static bool
-    failed_for_indices(const StepControl &control)
+    has(const StepControl &control, const Failure failure)
     {
-      return (control.failures & static_cast<unsigned int>(Failure::matrix_indices)) != 0;
+      return (control.failures & static_cast<unsigned int>(failure)) != 0;
+    }
+
+    /// Might shorter sub-steps have done better?
+    static bool
+    depends_on_length(const StepControl &control)
+    {
+      return !has(control, Failure::matrix_indices) && !has(control, Failure::no_reserve);
+    }
+
+    /// The frame with matrix entries that reach far enough.
+    StepControl
+    attempt(const double length, const double shortening)
+    {
+      last_balance.reset();
+      if (system != nullptr)
+        {
+          snapshot->save(system->arrays(), system->elastic());
+          const StepControl control = attempt(*system, length, shortening);
+          if (!has(control, Failure::matrix_indices))
+            return control;
+          system.reset();
+          wide = std::make_unique<System<Wide>>(*executor, setup, lattice(), n);
+          snapshot->restore(wide->arrays(), wide->elastic());
+        }
+      snapshot->save(wide->arrays(), wide->elastic());
+      return attempt(*wide, length, shortening);
     }
 
     /// What it does depends on the particles only, so that a saved state continues as the run that
     /// saved it.
     template <class AnySystem>
     void
-    begin(AnySystem &present, const double length)
+    begin(AnySystem &present, const double length, const double shortening)
     {
       StepControl fresh;
-      fresh.frame = length;
+      fresh.frame      = length;
+      fresh.shortening = shortening;
       if (static_cast<int>(paths.size()) != setup.n_moving)
         throw InputError("it is not said how walls move in this frame.");
-      atomic_maximum(&fresh.largest_speed, static_cast<float>(fastest(paths, length)));
+      energy_bound.wall_speed = fastest(paths, length);
+      atomic_maximum(&fresh.largest_speed, static_cast<float>(energy_bound.wall_speed));
       StepControl *control = present.begin_frame(fresh, paths);
       executor->for_each(n, MeasureSpeed<dim, Real>{present.arrays().view(), control});
       present.prepare();
@@ -235,9 +278,9 @@ namespace undine::particles
     /// how they are cut into batches does not matter.
     template <class AnySystem>
     StepControl
-    attempt(AnySystem &present, const double length)
+    attempt(AnySystem &present, const double length, const double shortening)
     {
-      begin(present, length);
+      begin(present, length, shortening);
       StepControl control;
       int         batch = expected;
       do
@@ -264,36 +307,28 @@ namespace undine::particles
     abandon(AnySystem &present)
     {
       snapshot->restore(present.arrays(), present.elastic());
+      last_balance.reset();
       throw FrameAbandoned("the frame was abandoned.");
     }
 
-    template <class AnySystem>
-    StepControl
-    succeeded(AnySystem &present, const StepControl &control)
-    {
-      if (control.failures == 0)
-        {
-          paths.clear();
-          return control;
-        }
-      snapshot->restore(present.arrays(), present.elastic());
-      throw SolveError(reason_of_failure(control));
-    }
+    static constexpr double most_shortening = 8;
 
     static constexpr int most_in_a_batch   = 64;
     static constexpr int frames_in_reserve = 8;
 
-    std::unique_ptr<Executor>      executor;
-    Setup<dim>                     setup;
-    int                            n        = 0;
-    int                            expected = 1; ///< sub-steps of the next frame
-    Look                           look;         ///< empty: nobody does
-    Pace                           pace;
-    int                            n_behind_inflows = 0; ///< particles behind inflows
-    double                         inflow_speed     = 0; ///< of the fastest of them [m/s]
-    WallPaths<dim>                 paths;                ///< of this frame
-    std::unique_ptr<System<Entry>> system;
-    std::unique_ptr<System<Wide>>  wide; ///< instead of `system`
+    std::unique_ptr<Executor>           executor;
+    Setup<dim>                          setup;
+    int                                 n        = 0;
+    int                                 expected = 1; ///< sub-steps of the next frame
+    Look                                look;         ///< empty: nobody does
+    Pace                                pace;
+    int                                 n_behind_inflows = 0; ///< particles behind inflows
+    double                              inflow_speed     = 0; ///< of the fastest of them [m/s]
+    WallPaths<dim>                      paths;                ///< of this frame
+    EnergyBound<dim>                    energy_bound;
+    mutable std::optional<Balance<dim>> last_balance; ///< of the present particles
+    std::unique_ptr<System<Entry>>      system;
+    std::unique_ptr<System<Wide>>       wide; ///< instead of `system`
     std::unique_ptr<Snapshot<Executor, dim, Real>> snapshot;
   };
 

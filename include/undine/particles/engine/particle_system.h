@@ -10,6 +10,7 @@
 #include <undine/particles/engine/particle_arrays.h>
 #include <undine/particles/engine/pass_results.h>
 #include <undine/particles/execution/phases.h>
+#include <undine/particles/fluid/even_spacing.h>
 #include <undine/particles/fluid/explicit_forces.h>
 #include <undine/particles/multigrid/multigrid_arrays.h>
 #include <undine/particles/neighbours/cell_sort.h>
@@ -18,6 +19,7 @@
 #include <undine/particles/pressure/damped_iterations.h>
 #include <undine/particles/pressure/pressure_arrays.h>
 #include <undine/particles/pressure/pressure_forces.h>
+#include <undine/particles/pressure/take_out_mean.h>
 #include <undine/particles/setup/make_constants.h>
 
 #include <memory>
@@ -51,6 +53,7 @@ namespace undine::particles
       , crossed_before(executor, open.n > 0 ? n : 0)
       , moving_walls(executor, constants, bodies.n, setup.n_moving)
     {
+      constants.bodies  = bodies.materials.data();
       const auto wanted = numerics.preconditioner;
       if (wanted == Numerics::Preconditioner::multigrid ||
           (wanted == Numerics::Preconditioner::automatic && n > Executor::multigrid_pays_from))
@@ -145,6 +148,9 @@ namespace undine::particles
     }
 
   private:
+    template <class Value>
+    using Values = Buffer<Executor, typename Components<Value>::Stored>;
+
     void
     move_without_pressure()
     {
@@ -156,7 +162,7 @@ namespace undine::particles
                                                   next.places.data(),
                                                   next.motions.data(),
                                                   bodies.v_start.data(),
-                                                  {constants.densities[0], equation.ways()},
+                                                  {constants.fluid_density, equation.ways()},
                                                   control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
@@ -226,6 +232,8 @@ namespace undine::particles
                                            control.data()});
       executor.enter(Phase::faces);
       if (closed)
+        take_out_mean<Vector<dim, Real>>(equation.gaps, MeanOf::right_hand_side);
+      if (closed)
         executor.run(n,
                      DampedIterations<Real, Entry, Vector<dim, Real>>{
                        system<Vector<dim, Real>>(equation.faces_diagonal,
@@ -245,13 +253,28 @@ namespace undine::particles
                                                         equation.right_hand_side.data(),
                                                         equation.pressures.data(),
                                                         control.data()});
+      take_out_mean<Real>(equation.right_hand_side, MeanOf::right_hand_side);
       solve_pressure_equation();
+      take_out_mean<Real>(equation.pressures, MeanOf::solution);
       executor.for_each(n,
                         TakePressures<dim, Real>{equation.neighbourhood(),
                                                  equation.pressures.data(),
                                                  now.view(),
                                                  constants.coupling == Coupling::surface_pressure,
+                                                 constants.is_full,
                                                  control.data()});
+    }
+
+    /// Where pressures are known up to a constant.
+    template <class Value>
+    void
+    take_out_mean(const Values<Value> &values, const MeanOf of)
+    {
+      if (constants.is_full)
+        executor.run(
+          n,
+          TakeOutMean<dim, Real, Value>{
+            of, n, now.places.data(), equation.is_unknown.data(), values.data(), control.data()});
     }
 
     void
@@ -271,6 +294,15 @@ namespace undine::particles
                                                   bodies.surfaces.data(),
                                                   bodies.surface_moments.data(),
                                                   control.data()});
+      if (constants.is_full)
+        executor.for_each(n,
+                          EvenSpacing<dim, Real>{constants,
+                                                 neighbours(),
+                                                 equation.neighbourhood(),
+                                                 now.motions.data(),
+                                                 next.places.data(),
+                                                 next.motions.data(),
+                                                 control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
       move_bodies(ElasticRun::final);
@@ -296,12 +328,13 @@ namespace undine::particles
                                 bodies.partner_counts.data(),
                                 bodies.partners.data()},
                                constants.force,
+                               constants.displaced_density,
+                               constants.top_potential,
                                bodies.x_start.data(),
                                bodies.v_start.data(),
                                bodies.points_next.data(),
                                bodies.implicit_vectors(),
                                bodies.accelerations.data(),
-                               static_cast<int>(bodies.carried.size()),
                                bodies.carried.data(),
                                constants.coupling == Coupling::simultaneous
                                  ? static_cast<Real>(numerics.carry_share)
@@ -330,9 +363,6 @@ namespace undine::particles
       executor.enter(Phase::pressure);
       multigrid->solve(pressure_system(), cells.cell_starts());
     }
-
-    template <class Value>
-    using Values = Buffer<Executor, typename Components<Value>::Stored>;
 
     /// `w` has room for five numbers a particle.
     template <class Value>

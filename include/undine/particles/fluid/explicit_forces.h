@@ -39,7 +39,7 @@ namespace undine::particles
           const Real dt = static_cast<Real>(control->dt);
           if (place.tag.kind() == Kind::fluid)
             {
-              const auto force = constants.force.acceleration(place.x);
+              const auto force = constants.fluid_acceleration(place.x);
               motion.v += velocity_change(i, place.tag, motion.v, dt) + dt * force;
               if (constants.wall_friction.acts())
                 motion.v += friction_of_walls(i, motion.v, dt);
@@ -59,26 +59,31 @@ namespace undine::particles
     Vector<dim, Real>
     velocity_change(const int i, const Tag tag, const Vector<dim, Real> &v, const Real dt) const
     {
-      const Real density  = constants.densities[tag.material()];
+      const Real density  = constants.density(tag);
       const Real friction = dt * constants.viscosity * 2 * dim /
-                            (constants.spread * constants.number_density) * constants.densities[0] /
-                            density;
-      const Real collision_square = constants.collision_distance * constants.collision_distance;
-      auto       change           = Vector<dim, Real>::zero();
-      const auto fetch            = [&](const int j) { return motions[j].v; };
+                            (constants.spread * constants.number_density) *
+                            constants.fluid_density / density;
+      const Real near_fluid = tag.kind() == Kind::fluid ? constants.fluid_collision_distance
+                                                        : constants.collision_distance;
+      auto       change     = Vector<dim, Real>::zero();
+      const auto fetch      = [&](const int j) { return motions[j].v; };
       neighbours.for_each(
         i, fetch, [&](const int j, const Pair<dim, Real> &pair, const Vector<dim, Real> &other) {
           if (tag.kind() == Kind::solid &&
               (pair.tag.kind() == Kind::solid || pair.tag.kind() == Kind::dummy))
             return; // elasticity and contact act between these
           const Vector<dim, Real> approach = other - v;
-          const Real              their    = constants.densities[pair.tag.material()];
+          const Real              their    = constants.density(pair.tag);
           change += tag.kind() == Kind::fluid ? entry.of_fluid(i, pair, their, approach)
                                               : entry.of_solid(j, pair, density, approach);
           if (pair.tag.is_free() || !constants.wall_friction.acts())
-            change += (friction * pair.weight) * approach;
+            change += (constants.is_full ? friction * constants.spread * pair.weight_over_square()
+                                         : friction * pair.weight) *
+                      approach;
           const Real speed = approach * pair.r;
-          if (pair.square < collision_square && speed < 0)
+          const Real near =
+            pair.tag.kind() == Kind::fluid ? near_fluid : constants.collision_distance;
+          if (pair.square < near * near && speed < 0)
             {
               const Real share = pair.tag.is_free() ? their / (density + their) : Real(1);
               change += ((1 + constants.restitution) * share * speed / pair.square) * pair.r;

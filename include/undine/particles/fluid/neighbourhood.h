@@ -18,7 +18,8 @@ namespace undine::particles
   {
     Real *densities; ///< number density n* [1]
     /// 1 + the error of the volume: sum of filling() over that of a full lattice and, as it should
-    /// be there, what a plane surface with as one-sided neighbours takes of it [1].
+    /// be there, what a plane surface with as one-sided neighbours takes of it [1]. In a full
+    /// domain there is no surface, only gaps to be filled.
     Real *fillings;
     int  *is_unknown; ///< 1: has a row in the pressure equation
     Real *coverages;  ///< 0: at the free surface; 1: not [1]
@@ -62,11 +63,13 @@ namespace undine::particles
       auto                    side   = Vector<dim, Real>::zero();
       auto                    moment = SymmetricMatrix<dim, Real>::diagonal(0);
       Real                    n = 0, f = 0;
+      bool                    moves = tag.is_free(); // or touches what does
       BodiesAround<dim, Real> bodies;
       neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) {
         n += pair.weight;
         f += filling(pair.square / (constants.reach * constants.reach));
         bodies.add(pair);
+        moves = moves || pair.tag.is_free();
         side += (pair.weight * pair.inverse_distance) * pair.r;
         if (pair.tag.kind() != Kind::dummy || tag.kind() == Kind::wall)
           moment.add_square(pair.weight_over_square(), pair.r);
@@ -74,13 +77,15 @@ namespace undine::particles
       if (result.inward_directions != nullptr && tag.kind() == Kind::fluid)
         result.inward_directions[i] = bodies.inward_direction(constants.number_density);
       side *= 1 / constants.number_density;
-      const Real coverage  = this->coverage(tag, identities[i], n / constants.number_density, side);
-      result.densities[i]  = n;
-      result.fillings[i]   = f / constants.filling + constants.surface_lack * norm_square(side);
-      result.coverages[i]  = coverage;
-      const bool unknown   = has_pressure(tag, n, coverage > 0);
-      result.is_unknown[i] = unknown ? 1 : 0;
-      const Real share     = tag.kind() == Kind::solid ? Real(1) : coverage;
+      const Real coverage = this->coverage(tag, identities[i], n / constants.number_density, side);
+      result.densities[i] = n;
+      result.fillings[i]  = f / constants.filling;
+      if (!constants.is_full)
+        result.fillings[i] += constants.surface_lack * norm_square(side);
+      result.coverages[i]   = coverage;
+      const bool unknown    = constants.is_full ? moves : has_pressure(tag, n, coverage > 0);
+      result.is_unknown[i]  = unknown ? 1 : 0;
+      const Real share      = tag.kind() == Kind::solid ? Real(1) : coverage;
       result.corrections[i] = StoredCorrection<dim, Real>::of(
         share > 0 ? mixed(identity, correction(moment), share) : identity,
         unknown ? PressureIs::unknown : PressureIs::given);
@@ -95,6 +100,8 @@ namespace undine::particles
     Real
     coverage(const Tag tag, const int identity, const Real n, const Vector<dim, Real> &side) const
     {
+      if (constants.is_full)
+        return 1;
       if (tag.kind() == Kind::solid)
         return inside_body[identity] || n >= constants.body_surface_density ? Real(1) : Real(0);
       const Real has_few       = fade(constants.surface_density - n);

@@ -4,6 +4,7 @@
 
 #include <undine/particles/model/body_force.h>
 #include <undine/particles/model/cell_grid.h>
+#include <undine/particles/model/elastic_material.h>
 #include <undine/particles/model/particle.h>
 #include <undine/particles/model/wall_friction.h>
 
@@ -45,8 +46,6 @@ namespace undine::particles
   template <int dim, class Real>
   struct Constants
   {
-    static constexpr int max_materials = 18;
-
     CellGrid<dim, Real> grid;
     Real                spacing;        ///< l0 [m]
     Real                reach;          ///< effective radius r_e [m]
@@ -57,11 +56,23 @@ namespace undine::particles
     Real                surface_lack;   ///< of Lattice [1]
 
     BodyForce<dim, Real> force;
-    Real                 viscosity;                ///< kinematic, of the fluid [m^2/s]
-    WallFriction<Real>   wall_friction;            ///< instead of friction by pairs on walls
-    Real                 densities[max_materials]; ///< [kg/m^3]; material 0 is the fluid
-    /// 1 / K of the materials' volumes in the pressure equation [1/Pa]; 0: incompressible.
-    Real compressibilities[max_materials];
+
+    /// Of Setup. The fluid's pressure at rest then bears its weight whatever the arrangement of
+    /// particles: pressures are what is beyond it (P11), and of body forces only what acts on a
+    /// density other than the fluid's is left.
+    bool is_full;
+    Real displaced_density; ///< the fluid's if is_full, else zero [kg/m^3]
+    Real top_potential;     ///< [J/kg]
+
+    Real               viscosity;        ///< kinematic, of the fluid [m^2/s]
+    WallFriction<Real> wall_friction;    ///< instead of friction by pairs on walls
+    Real               fluid_density;    ///< [kg/m^3]
+    Real               lightest_density; ///< of fluid and bodies [kg/m^3]
+    /// 1 / K of the fluid's volume in the pressure equation [1/Pa]; 0: incompressible, as bodies
+    /// are there.
+    Real fluid_compressibility;
+    /// Of the bodies, where passes run; to be set by who has them there.
+    const ElasticMaterial<Real> *bodies;
 
     Source source;
     Real   density_share;   ///< gamma of Source::relaxed, and of divergence without the next [1]
@@ -83,12 +94,32 @@ namespace undine::particles
     Real path_weight;
 
     Real collision_distance; ///< [m]
-    Real restitution;        ///< [1]
+    /// The same between particles of the fluid; shorter in a full domain, where EvenSpacing keeps
+    /// them apart without a loss of energy.
+    Real fluid_collision_distance;
+    Real restitution; ///< [1]
 
     PairForce pair_force;
     Coupling  coupling;
     Real      shifting;       ///< strength [1]
     Real      shifting_limit; ///< [m] per sub-step
+
+    /// By the body force, on the fluid [m/s^2].
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    fluid_acceleration(const Vector<dim, Real> &x) const
+    {
+      return is_full ? Vector<dim, Real>::zero() : force.acceleration(x);
+    }
+
+    /// Of what a particle belongs to; walls count as fluid [kg/m^3].
+    UNDINE_HOST_DEVICE
+    Real
+    density(const Tag tag) const
+    {
+      const int material = tag.material();
+      return material > 0 ? bodies[material - 1].density : fluid_density;
+    }
 
     /// Density at the middle between two particles, at which pressure gradients accelerate. Walls
     /// count as fluid.
@@ -96,7 +127,7 @@ namespace undine::particles
     Real
     mean_density(const Tag a, const Tag b) const
     {
-      return (densities[a.material()] + densities[b.material()]) / 2;
+      return (density(a) + density(b)) / 2;
     }
   };
 } // namespace undine::particles

@@ -17,11 +17,12 @@ namespace undine::particles
     dummy = 3  ///< deeper layers, which only fill the neighbourhood of wall and fluid
   };
 
-  /// Materials beyond those of bodies. @{
-  constexpr int inflow_material   = 14; ///< of the layers behind inflows
-  constexpr int parked_material   = 15; ///< of what waits outside of space to flow in
-  constexpr int moving_material   = 16; ///< of walls that move as prescribed
-  constexpr int inactive_material = 17; ///< of fixed walls where a moving one is: count for nothing
+  /// Materials that have the fluid's density like material 0, the fluid and fixed walls; those of
+  /// bodies are 1, 2, ... @{
+  constexpr int inflow_material   = -1; ///< of the layers behind inflows
+  constexpr int parked_material   = -2; ///< of what waits outside of space to flow in
+  constexpr int moving_material   = -3; ///< of walls that move as prescribed
+  constexpr int inactive_material = -4; ///< of fixed walls where a moving one is: count for nothing
   /// @}
 
   /// Kind and material of a particle in one number.
@@ -58,7 +59,7 @@ namespace undine::particles
       return static_cast<Kind>(code & 3);
     }
 
-    /// Which entry of Constants::densities is its.
+    /// Of bodies their number plus one.
     UNDINE_HOST_DEVICE
     int
     material() const

@@ -14,7 +14,7 @@ namespace undine::particles
   {
     std::vector<Vector<dim, double>> positions;  ///< [m]
     std::vector<Vector<dim, double>> velocities; ///< [m/s]
-    std::vector<double>              pressures;  ///< [Pa]
+    std::vector<double>              pressures;  ///< beyond pressure_at_rest() [Pa]
     std::vector<Tag>                 tags;
     /// Unique; 0 ... n_solid - 1 belong to elastic bodies. Material k + 1 is body k, 0 the fluid
     /// and the walls.

@@ -62,6 +62,8 @@ namespace undine::particles
     double elapsed = 0; ///< of it at the end of the present sub-step [s]
     double dt      = 0; ///< present sub-step [s]
 
+    double shortening = 1; ///< how many times as short sub-steps are as bounds allow
+
     std::uint32_t largest_speed = 0; ///< in the last sub-step, bits of a float [m/s]
     /// As in StepBounds, of deformed bodies, bits of floats: of this explicit step and the next.
     std::uint32_t elastic_rates[2] = {};
@@ -114,7 +116,7 @@ namespace undine::particles
           return;
         }
       Bound        bound = Bound::asked;
-      const double dt    = largest(speed, bound);
+      const double dt    = largest(speed, bound) / c.shortening;
       const double parts = ceil(left / dt * (1 - 1e-9)); // equal parts land on the frame's end
       c.dt               = parts > 1 ? left / parts : left;
       c.elapsed          = parts > 1 ? c.elapsed + c.dt : c.frame;

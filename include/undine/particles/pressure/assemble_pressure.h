@@ -16,7 +16,7 @@ namespace undine::particles
   Real
   pressure_scale(const Constants<dim, Real> &constants)
   {
-    return constants.densities[0] * constants.spread * constants.number_density / (2 * dim);
+    return constants.fluid_density * constants.spread * constants.number_density / (2 * dim);
   }
 
   /// The pair's coefficient in the pressure equation, k_ij [1].
@@ -29,7 +29,7 @@ namespace undine::particles
   {
     if (tag.material() == 0 && pair.tag.material() == 0) // mostly, and a quotient takes long
       return pair.weight;
-    return pair.weight * constants.densities[0] / constants.mean_density(tag, pair.tag);
+    return pair.weight * constants.fluid_density / constants.mean_density(tag, pair.tag);
   }
 
 
@@ -39,12 +39,8 @@ namespace undine::particles
   Real
   largest_coefficient(const Constants<dim, Real> &constants)
   {
-    Real lightest = constants.densities[0];
-    for (const Real density : constants.densities)
-      if (density > 0)
-        lightest = minimum(lightest, density);
     const Real closest = constants.collision_distance / 2;
-    return (constants.reach / closest - 1) * constants.densities[0] / lightest;
+    return (constants.reach / closest - 1) * constants.fluid_density / constants.lightest_density;
   }
 
 
@@ -85,6 +81,26 @@ namespace undine::particles
     }
 
   private:
+    /// In a full domain no pressure is given, and only differences of pressures matter: this share
+    /// of the diagonal, small as rounding, keeps the matrix positive all the same.
+    static constexpr Real regularisation = sizeof(Real) == sizeof(float) ? Real(5e-7) : Real(1e-12);
+
+    /// In a full domain rows of bodies have a source too, but only from the fluid.
+    UNDINE_HOST_DEVICE
+    bool
+    is_left_to_elasticity(const Tag tag, const Tag other) const
+    {
+      return constants.is_full && tag.kind() == Kind::solid && other.kind() != Kind::fluid;
+    }
+
+    /// In a full domain walls in contact with walls only have no pressure, as dummies.
+    UNDINE_HOST_DEVICE
+    bool
+    is_cut_off(const StoredCorrection<dim, Real> &correction) const
+    {
+      return constants.is_full && !correction.has_unknown();
+    }
+
     UNDINE_HOST_DEVICE
     void
     fill_row(const int i) const
@@ -109,7 +125,7 @@ namespace undine::particles
       neighbours.for_each(
         i, fetch, [&](const int j, const Pair<dim, Real> &pair, const Other &other) {
           const auto plain = (faces.factor * pair.weight_over_square()) * pair.r;
-          if (pair.tag.kind() == Kind::dummy)
+          if (pair.tag.kind() == Kind::dummy || is_cut_off(other.M))
             {
               flow += (other.v - v) * plain;
               return;
@@ -117,7 +133,8 @@ namespace undine::particles
           // In this order fewer registers are needed than with VirtualFaces::open().
           const auto open =
             (1 - coverage) * plain + (coverage / 2) * (M * plain + other.M.matrix() * plain);
-          flow += (other.v - v) * open;
+          if (!is_left_to_elasticity(tag, pair.tag))
+            flow += (other.v - v) * open;
           gap -= open;
           const Entry entry =
             Entry::of(j - i, pressure_coefficient(constants, tag, pair), matrix.scale);
@@ -131,7 +148,7 @@ namespace undine::particles
         });
       if (!reached)
         atomic_or(&control->failures, static_cast<unsigned int>(Failure::matrix_indices));
-      sum += air(i, tag);
+      sum += constants.is_full ? regularisation * sum : air(i, tag);
       matrix.fill_last_group(i, count);
       diagonal[i]    = maximum(sum + compressibility(tag), Real(1e-6));
       divergences[i] = flow;
@@ -158,7 +175,9 @@ namespace undine::particles
     compressibility(const Tag tag) const
     {
       const Real dt = static_cast<Real>(control->dt);
-      return pressure_scale(constants) * constants.compressibilities[tag.material()] / (dt * dt);
+      return tag.material() > 0
+               ? Real(0)
+               : pressure_scale(constants) * constants.fluid_compressibility / (dt * dt);
     }
   };
 
@@ -190,8 +209,11 @@ namespace undine::particles
       const bool is_unknown = neighbourhood.is_unknown[i] != 0;
       const Tag  tag        = neighbours.places[i].tag;
       guess[i]              = is_unknown ? motions[i].pressure : Real(0);
-      if (!is_unknown || tag.kind() == Kind::solid)
+      if (!is_unknown || (tag.kind() == Kind::solid && !constants.is_full))
         right_hand_side[i] = 0;
+      else if (tag.kind() == Kind::solid)
+        right_hand_side[i] =
+          -pressure_scale(constants) / projected_time() * flow_at_surface(i, tag);
       else
         right_hand_side[i] =
           given_pressures(i, tag) +
@@ -199,6 +221,36 @@ namespace undine::particles
     }
 
   private:
+    /// The part of the sub-step after which the fluid's volume is kept: all of it, in a full domain
+    /// as far as its path is determined by the pressures [s].
+    UNDINE_HOST_DEVICE
+    Real
+    projected_time() const
+    {
+      const Real dt = static_cast<Real>(control->dt);
+      return constants.is_full ? constants.path_weight * dt : dt;
+    }
+
+    /// The divergence at a particle of a body by faces to the fluid: of a
+    /// difference of velocities at a body's surface one half is in the fluid's row and one half in
+    /// the body's [1/s].
+    UNDINE_HOST_DEVICE
+    Real
+    flow_at_surface(const int i, const Tag tag) const
+    {
+      const auto v   = motions[i].v;
+      Real       sum = right_hand_side[i];
+      if (faces.potentials == nullptr)
+        return sum;
+      const Vector<dim, Real> L = faces.potentials[i];
+      neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
+        if (pair.tag.kind() == Kind::fluid)
+          sum += pressure_coefficient(constants, tag, pair) *
+                 ((motions[j].v - v) * (L - Vector<dim, Real>(faces.potentials[j])));
+      });
+      return sum;
+    }
+
     /// What neighbours contribute whose pressure is given, sum k_ij P_j: bodies, in one of the ways
     /// to couple them.
     UNDINE_HOST_DEVICE
@@ -228,7 +280,7 @@ namespace undine::particles
             return constants.density_share * error;
           default:
             return (share(dt) * (neighbourhood.fillings[i] - 1) + crowding(i, dt)) / (dt * dt) -
-                   divergence(i, tag) / dt;
+                   divergence(i, tag) / projected_time();
         }
     }
 
@@ -275,13 +327,14 @@ namespace undine::particles
     };
 
     /// By the same faces as the forces of pressures, as far as they close: at the free surface by
-    /// those faces water at rest swirls with twice the energy.
+    /// those faces water at rest swirls with twice the energy. In a full domain walls use them,
+    /// too: what leaves one row enters another.
     UNDINE_HOST_DEVICE
     Real
     divergence(const int i, const Tag tag) const
     {
       const Real coverage = neighbourhood.coverages[i];
-      if (faces.potentials == nullptr || !tag.is_free() || !(coverage > 0))
+      if (faces.potentials == nullptr || !(tag.is_free() || constants.is_full) || !(coverage > 0))
         return right_hand_side[i];
       Real         sum = 0;
       const Others others{motions, faces.potentials};

@@ -29,8 +29,8 @@ namespace undine::particles
   };
 
 
-  /// Gives the particles their pressures, which do not pull, and tells their neighbours how far
-  /// they are fluid at the free surface.
+  /// Gives the particles their pressures, which do not pull unless they may, and tells their
+  /// neighbours how far they are fluid at the free surface.
   template <int dim, class Real>
   struct TakePressures
   {
@@ -38,6 +38,7 @@ namespace undine::particles
     const Real              *solution;
     Particles<dim, Real>     particles;
     bool                     keeps_solids; ///< whose pressures are given
+    bool                     may_pull;     ///< only differences of pressures matter
     const StepControl       *control;
 
     UNDINE_HOST_DEVICE
@@ -49,8 +50,8 @@ namespace undine::particles
                                                                 : Real(0));
       if (control->done() || (keeps_solids && kind == Kind::solid))
         return;
-      particles.motions[i].pressure =
-        neighbourhood.is_unknown[i] ? maximum(solution[i], Real(0)) : Real(0);
+      const Real pressure           = may_pull ? solution[i] : maximum(solution[i], Real(0));
+      particles.motions[i].pressure = neighbourhood.is_unknown[i] ? pressure : Real(0);
     }
   };
 
@@ -183,7 +184,7 @@ namespace undine::particles
       const auto M       = neighbourhood.corrections[i].matrix();
       const auto side    = faces.side(i);
       const auto x       = neighbours.places[i].x;
-      const Real density = constants.densities[tag.material()];
+      const Real density = constants.density(tag);
       const Real least =
         constants.pair_force == PairForce::minimum ? least_pressure(i, P) : Real(0);
       Sum sum;
@@ -213,7 +214,7 @@ namespace undine::particles
           sum.add(Face{pair,
                        face,
                        (-value / density) * face,
-                       constants.force.acceleration(x + Real(0.5) * pair.r),
+                       constants.fluid_acceleration(x + Real(0.5) * pair.r),
                        density,
                        tag.kind() == Kind::solid && pair.tag.code == tag.code});
         });
@@ -230,7 +231,8 @@ namespace undine::particles
              tag.code == other.code;
     }
 
-    /// 2 P_ij. A body and something else press but do not pull each other.
+    /// 2 P_ij. A body and something else press but do not pull each other, as far as it is known
+    /// where pressures are zero.
     UNDINE_HOST_DEVICE
     Real
     twice_pressure(const Tag tag, const Tag other, const Real P_i, const Real P_j) const
@@ -238,11 +240,11 @@ namespace undine::particles
       Real value = P_i + P_j;
       if (tag.material() != other.material())
         {
-          const Real a = constants.densities[tag.material()];
-          const Real b = constants.densities[other.material()];
+          const Real a = constants.density(tag);
+          const Real b = constants.density(other);
           value        = 2 * (b * P_i + a * P_j) / (a + b);
         }
-      return tag.code == other.code ? value : maximum(value, Real(0));
+      return tag.code == other.code || constants.is_full ? value : maximum(value, Real(0));
     }
 
     UNDINE_HOST_DEVICE
@@ -264,9 +266,10 @@ namespace undine::particles
       FluidSum   sum      = this->sum<FluidSum>(i, place.tag, motion.pressure);
       const Real coverage = neighbourhood.coverages[i];
       if (constants.pair_force == PairForce::balanced)
-        sum.acceleration += coverage * (sum.weight - constants.force.acceleration(place.x));
+        sum.acceleration += coverage * (sum.weight - constants.fluid_acceleration(place.x));
       move(place, motion, sum.acceleration);
-      place.x += coverage * along_surface(sum.surface, shift(sum.crowd));
+      if (!constants.is_full) // else EvenSpacing
+        place.x += coverage * along_surface(sum.surface, shift(sum.crowd));
       place.x += way_out(sum);
       place.x = constants.grid.wrapped(place.x);
       if (!constants.grid.contains(place.x))

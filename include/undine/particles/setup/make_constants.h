@@ -9,7 +9,7 @@
 
 namespace undine::particles
 {
-  /// What passes need to know of a scene. Throws InputError if it has too many bodies or its box
+  /// What passes need to know of a scene but for Constants::bodies. Throws InputError if its box
   /// does not hold a cell.
   template <int dim, class Real>
   Constants<dim, Real>
@@ -19,6 +19,12 @@ namespace undine::particles
   template <int dim, class Real>
   OpenBoundaries<dim, Real>
   make_open_boundaries(const Setup<dim> &setup);
+
+  /// What pressures of a state lack where fluid fills its domain: that of the fluid at rest at x
+  /// (P11) [Pa]. Else zero.
+  template <int dim>
+  double
+  pressure_at_rest(const Setup<dim> &setup, const Vector<dim, double> &x);
 
   /// lambda + 2 mu / dim [Pa]; in 2D of plane strain.
   double

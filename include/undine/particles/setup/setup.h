@@ -104,6 +104,13 @@ namespace undine::particles
     double fluid_bulk_modulus = 0;    ///< [Pa]; 0: incompressible
     double depth              = 0;    ///< of the fluid along gravity, for the waves' speed [m]
 
+    /// Fluid and bodies fill a domain that is closed or periodic: there is no free surface, and
+    /// pressures are known up to a constant. Without inflows, outflows and room around.
+    bool is_full = false;
+    /// Potential energy per mass of the body force where the fluid at rest has no pressure, if
+    /// it fills its domain [J/kg].
+    double top_potential = 0;
+
     std::vector<OpenSide> open_sides;
 
     /// Particles of walls that move, see MoveWalls: the identities that follow those of bodies.

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_particles_model_elastic_material_h
+#define undine_particles_model_elastic_material_h
+
+namespace undine::particles
+{
+  /// Of one elastic body.
+  template <class Real>
+  struct ElasticMaterial
+  {
+    Real lambda, mu; ///< Lame's parameters [Pa]
+    Real density;    ///< [kg/m^3]
+    Real hourglass;  ///< alpha: stiffness against motions that deformation gradients do not see [1]
+    Real damping;    ///< zeta: share of critical damping of neighbours' relative motion [1]
+    Real bulk_damping; ///< bulk viscosity over rho c_p l0, which damps sound [1]
+    Real contact; ///< stiffness of contact with walls and other bodies [N/m, in the plane per m]
+  };
+} // namespace undine::particles
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/particles/engine/energy_bound.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace undine::particles
+{
+  template <int dim>
+  EnergyBound<dim>::EnergyBound(const Setup<dim> &setup, const ParticleState<dim> &state)
+    : spacing(setup.spacing)
+  {
+    const double volume = std::pow(spacing, dim);
+    source_mass         = setup.fluid_density;
+    for (int axis = 0; axis < dim; ++axis)
+      {
+        const double extent = setup.upper[axis] - setup.lower[axis];
+        height              = std::max(height, extent);
+        source_mass *= extent;
+      }
+    for (std::size_t i = 0; i < state.tags.size(); ++i)
+      {
+        const Tag tag = state.tags[i];
+        if (tag.kind() == Kind::solid)
+          mass += volume * setup.bodies[setup.body_of[state.identities[i]]].density;
+        else if (tag.kind() == Kind::fluid)
+          mass += volume * setup.fluid_density;
+        else if (tag.material() == inflow_material)
+          {
+            flows_in     = true;
+            inflow_speed = std::max(inflow_speed, std::sqrt(norm_square(state.velocities[i])));
+          }
+      }
+    gravity = std::sqrt(norm_square(setup.gravity)) + std::abs(setup.attraction) * height;
+  }
+
+
+  template <int dim>
+  std::string
+  EnergyBound<dim>::reason_of_excess(const Balance<dim> &before,
+                                     const Balance<dim> &after,
+                                     const double        length) const
+  {
+    const auto in_motion = [](const Balance<dim> &balance) {
+      return balance.kinetic_fluid + balance.kinetic_solid + balance.elastic;
+    };
+    const double speed     = std::max(wall_speed, inflow_speed);
+    const double had       = in_motion(before);
+    double       gain      = in_motion(after) + after.potential - had - before.potential;
+    double       may_gain  = share * (had + mass * gravity * spacing);
+    const bool   is_driven = wall_speed > 0 || flows_in;
+    if (is_driven)
+      {
+        gain     = in_motion(after) - had;
+        may_gain = 10 * had + (mass + (flows_in ? source_mass : 0)) *
+                                (speed * speed + gravity * (height + speed * length));
+      }
+    if (gain <= may_gain || !(gravity > 0 || had > 0 || is_driven))
+      return "";
+    std::ostringstream text;
+    text
+      << "the energy of fluid and bodies grew by " << gain << " J in a frame that began with "
+      << had
+      << " J in motion and deformation; sources of that much are not known. A body is softer than "
+         "what hits or presses on it, or sub-steps are too long. Try a stiffer body "
+         "(Young's modulus above rho v^2 and rho g H), a smaller 'Speed share', or smaller "
+         "particles.";
+    return text.str();
+  }
+
+
+  template struct EnergyBound<2>;
+  template struct EnergyBound<3>;
+} // namespace undine::particles
