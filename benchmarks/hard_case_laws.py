@@ -119,13 +119,22 @@ def ring_pressure(inner):
 
 
 def ring_against_theory(run):
-    """The pressure in the ring over that for its radius."""
-    return column(run, "water pressure")[-1] / ring_pressure(1 + column(run, "lower displacement x")[-1])
+    """The pressure in the ring over that for its radius, means of the last half second."""
+    return mean(run, "water pressure", 2.5) / ring_pressure(1 + mean(run, "lower displacement x", 2.5))
+
+
+def bow_over_theory(thickness):
+    """The bow of a column of 0.7 m, shortened by 0.03 m, over that of one that is compressed until it buckles and then bends
+    without a further change of its length."""
+    critical = math.pi ** 2 * thickness ** 2 / (3 * 0.7)
+    bow = 2 / math.pi * math.sqrt(0.7 * (0.03 - critical))
+    return lambda run: float(column(run, "middle displacement x")[-1] / bow)
 
 
 def mirrored(run):
-    """The largest sum of displacements of two bodies that mirror each other [m]."""
-    return float(numpy.abs(column(run, "left_centre displacement x") + column(run, "right_centre displacement x")).max())
+    """The largest sum of displacements of two bodies that mirror each other, over the largest of them."""
+    left, right = (column(run, f"{name}_centre displacement x") for name in ("left", "right"))
+    return float(numpy.abs(left + right).max() / numpy.abs(left).max())
 
 
 def carried(name, begin):
@@ -163,19 +172,19 @@ SCENES = {
     "thin_sheet": Hard(Law("damping ratio", lambda run: swing(run, "tip displacement x", 0)[1], 0, 2e-3),
                        "tip displacement x", swings=0),
     "thin_membrane": Hard(Law(FILLED + " [m^2]", gained("inside volume"), 0.03, 3e-6), "middle displacement y", mean=1),
-    "thin_membrane_3d": Hard(Law(FILLED + " [m^3]", gained("inside volume"), 0.024, 1e-6), "middle displacement y", mean=0.5),
+    "thin_membrane_3d": Hard(Law(FILLED + " [m^3]", gained("inside volume"), 0.024, 1e-5), "middle displacement y", mean=0.5),
     "sheets_on_planes": Hard(Law("change of a closed chamber [m^2]", changed("between volume"), 0, 1e-8, True),
                              "middle displacement x", mean=0.5),
-    "sheet_on_planes_3d": Hard(Law(FILLED + " [m^3]", gained("inside volume"), 0.025, 1e-6), "middle displacement x", mean=0.5),
-    "inflated_ring": Hard(Law("pressure / theory", ring_against_theory, 1, 0.03), "lower displacement x", mean=2.6),
-    "body_against_wall": Hard(Law("force of the floor / weight in water", carried("disc", 0.6), 1, 0.1),
-                              "centre displacement y", mean=0.6),
-    "body_against_wall_3d": Hard(Law("force of the floor / weight in water", carried("ball", 0.5), 1, 0.1),
+    "sheet_on_planes_3d": Hard(Law(FILLED + " [m^3]", gained("inside volume"), 0.025, 3e-6), "middle displacement x", mean=0.5),
+    "inflated_ring": Hard(Law("pressure / theory", ring_against_theory, 1, 0.08), "lower displacement x", mean=2.6),
+    "body_against_wall": Hard(Law("force of the floor / weight in water", carried("disc", 0.7), 1, 0.1),
+                              "centre displacement y", mean=0.7),
+    "body_against_wall_3d": Hard(Law("force of the floor / weight in water", carried("ball", 0.5), 1, 0.15),
                                  "centre displacement y", mean=0.5),
-    "body_against_body": Hard(Law("departure from mirror images [m]", mirrored, 0, 1e-6, True), "left_centre displacement x",
-                              mean=0.1),
-    "body_against_body_3d": Hard(Law("departure from mirror images [m]", mirrored, 0, 1e-6, True), "left_centre displacement x",
-                                 mean=0.1),
+    "body_against_body": Hard(Law("departure from mirror images", mirrored, 0, 0.05, True), "left_centre displacement x",
+                              mean=0.1, short=0.1),
+    "body_against_body_3d": Hard(Law("departure from mirror images", mirrored, 0, 0.05, True), "left_centre displacement x",
+                                 mean=0.1, short=0.1),
     "folding_sheet": Hard(Law(GAP, least("least gap"), 1e-3, 0.99e-3, True), "fold displacement x", mean=1, short=0.5),
     "folding_sheet_3d": Hard(Law(GAP, least("least gap"), 1e-3, 0.99e-3, True), "fold displacement x", mean=1),
     "sheets_close_pocket": Hard(Law("largest kinetic energy of the water [J]", largest("Fluid kinetic energy"), 0.4, 0.2),
@@ -200,9 +209,7 @@ SCENES = {
                        mean=0),
     "arch_snaps_3d": Hard(Law("lowest place of the middle [m]", least("middle displacement y"), -0.2, 0.03), "middle displacement y",
                           mean=0),
-    "column_buckles": Hard(Law("bow / (2/pi) (L d)^(1/2)", lambda run: column(run, "middle displacement x")[-1] /
-                               (2 / math.pi * math.sqrt(0.7 * 0.03)), 1, 0.05), "middle displacement x", mean=1.1),
-    "column_buckles_3d": Hard(Law("bow / (2/pi) (L d)^(1/2)", lambda run: column(run, "middle displacement x")[-1] /
-                                  (2 / math.pi * math.sqrt(0.7 * 0.03)), 1, 0.05), "middle displacement x", mean=1.1),
+    "column_buckles": Hard(Law("bow / theory", bow_over_theory(0.02), 1, 0.05), "middle displacement x", mean=1.1),
+    "column_buckles_3d": Hard(Law("bow / theory", bow_over_theory(0.03), 1, 0.05), "middle displacement x", mean=1.1),
     "viscous_flag": Hard(Law("tip [m]", last("tip displacement y"), 0.82e-3, 0.2e-3), "tip displacement y", mean=2),
 }

@@ -137,7 +137,7 @@ TEST_CASE("a stream that sets in at once, whose first pressures put means of two
   History run;
   run.add({1000, 0, 1, 1, 0, 0, -1e4});
   for (unsigned int n = 0; n < 200; ++n)
-    run.add({1000 + 100 * std::min(n, 40u), 0, 1, 1, 0, 0, n < 40 ? 100. : 0.});
+    run.add({1000. + 100 * std::min(n, 40u), 0, 1, 1, 0, 0, n < 40 ? 100. : 0.});
   CHECK(run.text() == "stable");
 }
 
