@@ -60,6 +60,8 @@ def swing(run, name, begin, least=0.05):
     whole range are left out."""
     times, values = run["Time"], column(run, name)
     times, values = times[times >= begin], values[times >= begin]
+    if len(times) < 3:
+        return math.nan, math.nan
     at, peaks = extremes(times, values, least * (values.max() - values.min()))
     ranges = numpy.abs(numpy.diff(peaks))
     if len(ranges) < 2:
@@ -71,9 +73,9 @@ def swing(run, name, begin, least=0.05):
 
 def mean(run, name, begin):
     """Over time, from `begin` on."""
-    times = run["Time"]
-    values = column(run, name)[times >= begin]
-    return float(numpy.trapz(values, times[times >= begin]) / (times[-1] - times[times >= begin][0]))
+    late = run["Time"] >= begin
+    times, values = run["Time"][late], column(run, name)[late]
+    return float(numpy.trapz(values, times) / (times[-1] - times[0])) if len(times) > 1 else math.nan
 
 
 def last(name):

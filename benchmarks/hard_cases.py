@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The hard cases of prm/hard/: verdicts of all schemes, what must be seen, and whether steps of 1/30 and 1/240 s dampen more than
-sixteen times shorter ones do.
+"""The hard cases of prm/hard/: verdicts of all schemes, what must be seen, and whether steps of 1/30 and 1/240 s dampen more
+than sixteen times shorter ones do.
 
-usage: benchmarks/hard_cases.py [PROGRAM] [--case NAME]... [--check] [--short] [--pictures] [--out DIR] [--jobs N]
+usage: benchmarks/hard_cases.py [PROGRAM] [--case NAME]... [--scheme NAME...] [--step STEP...] [--shorter STEP...]
+                                [--check | --short | --pictures] [--limit SECONDS] [--out DIR] [--jobs N]
 
 Makes the runs, or takes those that are there, and writes hard_cases.md (table) to DIR (default: output/hard_cases).
---check: only the simultaneous scheme, and an error if it is not stable or does not show what must be seen. --short: the same for the
-first few steps only, as the tests do. --pictures: only a picture of each scene, all of them in hard_cases.png.
+--check: only the simultaneous scheme, and an error if it is not stable or does not show what must be seen. --short: the same
+for the first few steps only, as the tests do. --pictures: only a picture of each scene, all of them in hard_cases.png.
 """
 import argparse
 import math
@@ -110,7 +111,7 @@ def rows(made, name):
     result = []
     for step in made.options.step:
         value = made.seen(step)
-        shown = f"{value:.4g}" + ("" if hard.law.keeps(value) else " (!)")
+        shown = "" if math.isnan(value) else f"{value:.4g}" + ("" if hard.law.keeps(value) else " (!)")
         compared = ""
         reference = made.made.get(("simultaneous", SHORTER[step]))
         if hard.column and reference and made.is_stable(step) and not reference["result"]["failure"]:
