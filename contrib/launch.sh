@@ -11,6 +11,7 @@ mpi_environment() {
   export OMPI_ALLOW_RUN_AS_ROOT=1
   export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
   export OMPI_MCA_rmaps_base_oversubscribe=1
+  export UNDINE_PYTHON_PARTS="$python_parts"
 }
 
 # run_on_ranks RANKS ARGUMENTS...

@@ -141,6 +141,7 @@ def summary_of(path):
         return {}
     cost, certificate = summary["cost"], summary.get("certificate", {})
     return {"verdict": certificate.get("verdict", ""), "verdict in words": certificate.get("text", ""),
+            "steps redone": certificate.get("steps redone", 0),
             "core seconds": cost["core seconds"], "wall seconds": cost["wall seconds"],
             "memory": cost["peak memory [bytes]"], "steps": summary["steps"],
             "Newton iterations": summary["Newton iterations"], "linear iterations": summary["linear iterations"],

@@ -153,7 +153,7 @@ namespace undine
     const auto step = energies(time, report);
     add_recent(of_fluid, sum(report.columns, energy_of_fluid));
     add_recent(of_bodies, sum(report.columns, energy_of_bodies));
-    watch(time, report);
+    watch(time, step.energy, report);
     margins.observe(report, step);
     energy.observe(step);
     locate_growth_of_energy();
@@ -180,10 +180,13 @@ namespace undine
   }
 
 
-  /// What is rounding beside other forces or velocities may do as it likes.
+  /// What is rounding beside other forces or velocities, or beside the force that takes the energy
+  /// away over the extent of the domain, may do as it likes.
   void
-  Certificate::watch(const double time, const Report &report)
+  Certificate::watch(const double time, const double energy, const Report &report)
   {
+    if (scope.extent > 0)
+      largest_force = std::max(largest_force, energy / scope.extent);
     std::vector<std::optional<Swing::Signal>> signals;
     for (auto &each : watched)
       {

@@ -66,15 +66,23 @@ namespace undine
   }
 
 
-  /// (V1), (V2). What was put in is the more of the two rules.
+  /// By the one of the two rules by which it is more.
+  double
+  EnergyGrowth::put_in_since(const Moment &begin) const
+  {
+    const auto &now = moments.back();
+    return std::max(now.input - begin.input, now.input_at_end - begin.input_at_end);
+  }
+
+
+  /// (V1), (V2).
   bool
   EnergyGrowth::is_created(const Moment &begin, const double least) const
   {
     const auto &now = moments.back();
     if (!now.input_known || now.energy < as_before * largest_before())
       return false;
-    const double input  = std::max(now.input - begin.input, now.input_at_end - begin.input_at_end);
-    const double excess = now.energy - begin.energy - input;
+    const double excess = now.energy - begin.energy - put_in_since(begin);
     return excess > least && excess >= least_share * now.energy &&
            excess >= share_uncertain * (now.exchange - begin.exchange);
   }
@@ -99,7 +107,7 @@ namespace undine
     const auto  &now = moments.back(), &begin = before(window);
     const double gain = now.energy - begin.energy;
     if (!(begin.energy > least) || now.energy < least_factor * begin.energy ||
-        now.energy < as_before * largest_before() || now.input - begin.input >= gain / 2)
+        now.energy < as_before * largest_before() || put_in_since(begin) >= gain / 2)
       return false;
     const double middle = before(window / 2).energy;
     const double first = std::log(middle / begin.energy), second = std::log(now.energy / middle);

@@ -22,6 +22,16 @@ namespace undine
       const char *variable = std::getenv("UNDINE_REPORT");
       return variable != nullptr && variable == answer;
     }
+
+
+    /// Where Python finds the package `report`: with the sources, unless what has started the
+    /// program knows better, as where it is installed.
+    std::string
+    python_parts()
+    {
+      const char *variable = std::getenv("UNDINE_PYTHON_PARTS");
+      return variable != nullptr ? variable : UNDINE_SOURCE_FOLDER;
+    }
   } // namespace
 
 
@@ -59,7 +69,7 @@ namespace undine
     std::string failure;
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       failure = call_program({"/usr/bin/python3", "-B", "-m", "report", folder.path().string()},
-                             {"PYTHONPATH=" UNDINE_SOURCE_FOLDER},
+                             {"PYTHONPATH=" + python_parts()},
                              limit);
     return dealii::Utilities::MPI::broadcast(communicator, failure);
   }

@@ -17,9 +17,15 @@ namespace undine
     scope_of(const Models<dim> &models)
     {
       const auto &particles = models.particles;
+      double      extent    = 0;
+      if (models.fluid)
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          extent = std::max(
+            extent, models.fluid->grid().upper()[axis] - models.fluid->grid().lower()[axis]);
       return {inertia(models),
               particles && !particles->has_openings() && particles->setup().n_moving == 0,
-              particles != nullptr};
+              particles != nullptr,
+              extent};
     }
   } // namespace
 

@@ -31,6 +31,8 @@ namespace undine
       bool is_closed = false;
       /// Is a step a frame of many that are not reported?
       bool steps_are_frames = false;
+      /// Longest edge of the fluid's domain [m]; 0: there is none.
+      double extent = 0;
     };
 
     explicit Certificate(const Scope &scope)
@@ -80,7 +82,7 @@ namespace undine
     std::optional<Swing::Signal>
     signal_of(Watched &each, const Report &report) const;
     void
-    watch(double time, const Report &report);
+    watch(double time, double energy, const Report &report);
     void
     locate_growth_of_energy();
     std::optional<Growth>

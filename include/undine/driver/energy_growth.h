@@ -72,6 +72,8 @@ namespace undine
       }
     };
 
+    double
+    put_in_since(const Moment &begin) const;
     bool
     is_created(const Moment &begin, double least) const;
     double

@@ -188,32 +188,27 @@ namespace undine
       rest_moduli = body->kinematics->respond(*body->material, Tensor2()).tangent;
     viscous_body = body;
     if (!is_separated())
-      {
-        std::fill(viscous_pressures.begin(), viscous_pressures.end(), 0.);
-        return;
-      }
+      return;
     at_all_points([&](const unsigned int q, const Tensor2 &H) {
-      viscous_pressures[q] = body->material->volumetric_tangent(1) *
-                             scalar_product(rotation_and_stretch(H), gradient(velocities));
+      viscous_pressures[q] =
+        body->material->volumetric_tangent(1) *
+        scalar_product(cofactor(rotation_and_stretch(H)), gradient(velocities));
     });
     dilatation.set_cell(cell);
     viscous_pressures = dilatation.project(viscous_pressures);
   }
 
 
-  /// S_v = A(I) : sym(F^T G) + U''(1) m I; A(I) sees only the symmetric part.
+  /// S_v = A(I) : sym(F^T G), without the volumetric part; A(I) sees only the symmetric one.
   template <int dim>
   dealii::Tensor<2, dim>
-  CellForces<dim>::viscous_stress(const unsigned int point, const Tensor2 &F) const
+  CellForces<dim>::viscous_stress(const Tensor2 &F) const
   {
     const Tensor2 rate = transpose(F) * gradient(velocities);
     Tensor2       result;
     for (unsigned int i = 0; i < dim; ++i)
-      {
-        for (unsigned int j = 0; j < dim; ++j)
-          result[i][j] = scalar_product(rest_moduli[i][j], rate);
-        result[i][i] += viscous_pressures[point];
-      }
+      for (unsigned int j = 0; j < dim; ++j)
+        result[i][j] = scalar_product(rest_moduli[i][j], rate);
     return result;
   }
 
@@ -225,15 +220,19 @@ namespace undine
     prepare_viscosity();
     std::fill(local_forces.begin(), local_forces.end(), 0.);
     at_all_points([&](const unsigned int q, const Tensor2 &H) {
-      const Tensor2 F = rotation_and_stretch(H);
-      add_forces(F * viscous_stress(q, F), geometry.JxW(cell, q));
+      const Tensor2 F      = rotation_and_stretch(H);
+      Tensor2       stress = F * viscous_stress(F);
+      if (is_separated())
+        stress += viscous_pressures[q] * cofactor(F);
+      add_forces(stress, geometry.JxW(cell, q));
     });
     return local_forces;
   }
 
 
   /// With N = a G + b F, a and b being the factors, the change of displacements and velocities
-  /// changes P_v / eta by A_ijkl = a delta_ik S_lj + F_im A(I)_mjlq N_kq, and F : G by N : grad N.
+  /// changes P_v / eta by A_ijkl = a delta_ik S_lj + F_im A(I)_mjlq N_kq + a m d(cof F)_ij/dF_kl,
+  /// and cof F : G by (a G : d(cof F)/dF + b cof F) : grad N.
   template <int dim>
   const dealii::FullMatrix<double> &
   CellForces<dim>::viscous_tangent(const double displacement_factor, const double velocity_factor)
@@ -246,8 +245,8 @@ namespace undine
     dealii::FullMatrix<double> of_rates = of_volume;
     at_all_points([&](const unsigned int q, const Tensor2 &H) {
       const Tensor2 F = rotation_and_stretch(H);
-      const Tensor2 S = viscous_stress(q, F);
-      const Tensor2 N = a * gradient(velocities) + velocity_factor * F;
+      const Tensor2 S = viscous_stress(F);
+      const Tensor2 G = gradient(velocities), N = a * G + velocity_factor * F;
       Tensor4       moduli;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
@@ -258,12 +257,22 @@ namespace undine
               row += F[i][m] * rest_moduli[m][j];
             moduli[i][j] += N * transpose(row);
           }
-      add_tangent(moduli, geometry.JxW(cell, q), Blocks::all);
-      for (unsigned int dof = 0; dof < local_forces.size(); ++dof)
+      if (is_separated())
         {
-          of_volume(q, dof) = F[dof % dim] * gradients[dof / dim] * geometry.JxW(cell, q);
-          of_rates(q, dof)  = N[dof % dim] * gradients[dof / dim];
+          const Tensor2 C       = cofactor(F);
+          const Tensor4 change  = a * cofactor_derivative(F);
+          Tensor2       of_rate = velocity_factor * C;
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              of_rate += G[i][j] * change[i][j];
+          moduli += viscous_pressures[q] * change;
+          for (unsigned int dof = 0; dof < local_forces.size(); ++dof)
+            {
+              of_volume(q, dof) = C[dof % dim] * gradients[dof / dim] * geometry.JxW(cell, q);
+              of_rates(q, dof)  = of_rate[dof % dim] * gradients[dof / dim];
+            }
         }
+      add_tangent(moduli, geometry.JxW(cell, q), Blocks::all);
     });
     if (is_separated())
       add_volumetric_viscosity(of_volume, of_rates);
@@ -271,8 +280,8 @@ namespace undine
   }
 
 
-  /// The part of the tangent by U''(1) m. [point][node * dim + axis]: F : grad N times the point's
-  /// weight, and N : grad N.
+  /// The part of the tangent by the change of the pressure m. [point][node * dim + axis]:
+  /// cof F : grad N times the point's weight, and how cof F : G changes.
   template <int dim>
   void
   CellForces<dim>::add_volumetric_viscosity(const dealii::FullMatrix<double> &volume_gradients,

@@ -97,7 +97,7 @@ namespace undine
     void
     prepare_viscosity();
     Tensor2
-    viscous_stress(unsigned int point, const Tensor2 &F) const;
+    viscous_stress(const Tensor2 &F) const;
     void
     add_volumetric_viscosity(const dealii::FullMatrix<double> &volume_gradients,
                              const dealii::FullMatrix<double> &volume_rates);
