@@ -16,6 +16,9 @@ namespace undine
     // A dense matrix of so many unknowns is factorised within a millisecond or two.
     constexpr unsigned int few_unknowns = 200;
 
+    // More are left where bodies part the fluid again and again; they are relaxed only.
+    constexpr unsigned int most_unknowns = 2000;
+
     // Directions in which blocks are less than this times as long as the shortest are coarsened.
     constexpr double isotropic = 1.5;
 
@@ -110,7 +113,9 @@ namespace undine
   void
   GeometricMultigrid::factorise(const CellEquations &equations)
   {
-    const unsigned int         n = equations.partitioner->size();
+    const unsigned int n = equations.partitioner->size();
+    if (n == 0 || n > most_unknowns)
+      return;
     dealii::FullMatrix<double> matrix(n, n);
     const auto                &numbers = *equations.partitioner;
     double                     largest = 0;
@@ -126,8 +131,6 @@ namespace undine
             matrix(row, numbers.local_to_global(entry.column)) = entry.rest - entry.coupling;
           }
       }
-    if (n == 0)
-      return;
     dealii::Utilities::MPI::sum(matrix, communicator, matrix);
     // Regions that nothing fixes have a pressure up to a constant, of which single precision knows
     // no more than this.
@@ -145,7 +148,11 @@ namespace undine
   GeometricMultigrid::solve_coarsest(const Level &level) const
   {
     if (coarsest.m() == 0)
-      return;
+      {
+        level.matrix.relax_from_zero(level.x, level.b);
+        level.matrix.relax_backward(level.x, level.b);
+        return;
+      }
     dealii::Vector<double> solution(coarsest.m());
     for (unsigned int i = 0; i < level.b.locally_owned_size(); ++i)
       solution(first_of_coarsest + i) = level.b.local_element(i);

@@ -41,22 +41,32 @@ namespace undine
   }
 
 
-  float
-  MultigridLevel::sum(const unsigned int begin, const unsigned int end, const Vector &x) const
+  namespace
   {
-    float result = 0;
-    for (unsigned int k = begin; k < end; ++k)
-      result += values[k] * x.local_element(columns[k]);
-    return result;
-  }
+    /// sum_k values[k] x[columns[k]]
+    inline float
+    sum(const float        *values,
+        const unsigned int *columns,
+        const unsigned int  begin,
+        const unsigned int  end,
+        const float        *x)
+    {
+      float result = 0;
+      for (unsigned int k = begin; k < end; ++k)
+        result += values[k] * x[columns[k]];
+      return result;
+    }
+  } // namespace
 
 
   void
-  MultigridLevel::relax_from_zero(Vector &x, const Vector &b) const
+  MultigridLevel::relax_from_zero(Vector &x_, const Vector &b_) const
   {
+    float *const       x = x_.begin();
+    const float *const b = b_.begin();
     for (unsigned int i = 0; i < inverse_diagonal.size(); ++i)
-      x.local_element(i) =
-        inverse_diagonal[i] * (b.local_element(i) - sum(rows[i].begin, rows[i].after, x));
+      x[i] = inverse_diagonal[i] *
+             (b[i] - sum(values.data(), columns.data(), rows[i].begin, rows[i].after, x));
   }
 
 
@@ -66,32 +76,38 @@ namespace undine
                                     const std::vector<int> &aggregates) const
   {
     x.update_ghost_values();
-    coarse_b = 0.f;
+    coarse_b              = 0.f;
+    float *const residual = coarse_b.begin();
     // What relaxation has left of row i is the part of later columns.
     for (unsigned int i = 0; i < inverse_diagonal.size(); ++i)
       if (aggregates[i] >= 0)
-        coarse_b.local_element(aggregates[i]) -= sum(rows[i].after, rows[i + 1].begin, x);
+        residual[aggregates[i]] -=
+          sum(values.data(), columns.data(), rows[i].after, rows[i + 1].begin, x.begin());
   }
 
 
   void
-  MultigridLevel::prolongate(Vector                 &x,
+  MultigridLevel::prolongate(Vector                 &x_,
                              const Vector           &coarse_x,
                              const std::vector<int> &aggregates) const
   {
+    float *const       x          = x_.begin();
+    const float *const correction = coarse_x.begin();
     for (unsigned int i = 0; i < inverse_diagonal.size(); ++i)
       if (aggregates[i] >= 0)
-        x.local_element(i) += coarse_x.local_element(aggregates[i]);
+        x[i] += correction[aggregates[i]];
   }
 
 
   void
-  MultigridLevel::relax_backward(Vector &x, const Vector &b) const
+  MultigridLevel::relax_backward(Vector &x_, const Vector &b_) const
   {
-    x.update_ghost_values();
+    x_.update_ghost_values();
+    float *const       x = x_.begin();
+    const float *const b = b_.begin();
     for (unsigned int i = inverse_diagonal.size(); i-- > 0;)
-      x.local_element(i) =
-        inverse_diagonal[i] * (b.local_element(i) - sum(rows[i].begin, rows[i + 1].begin, x));
+      x[i] = inverse_diagonal[i] *
+             (b[i] - sum(values.data(), columns.data(), rows[i].begin, rows[i + 1].begin, x));
   }
 
 

@@ -13,7 +13,7 @@ namespace undine
   /// A symmetric V-cycle of multigrid for equations of cells of a grid as preconditioner. Blocks of
   /// cells are doubled on every level in the directions in which they are (about) the shortest, so
   /// that relaxation point by point serves stretched cells as well; on the coarsest level all ranks
-  /// solve the same dense system. Levels are in single precision.
+  /// solve the same dense system, or relax if it is large. Levels are in single precision.
   class GeometricMultigrid
   {
   public:

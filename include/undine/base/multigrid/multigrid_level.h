@@ -51,9 +51,6 @@ namespace undine
       unsigned int after;
     };
 
-    float
-    sum(const unsigned int begin, const unsigned int end, const Vector &x) const;
-
     std::shared_ptr<const CellEquations::Partitioner> partitioner;
     std::vector<Row>                                  rows; ///< one more than unknowns
     std::vector<unsigned int>                         columns;
