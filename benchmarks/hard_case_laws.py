@@ -126,6 +126,14 @@ def ring_against_theory(run):
     return mean(run, "water pressure", 2.5) / ring_pressure(1 + mean(run, "lower displacement x", 2.5))
 
 
+def ball_against_theory(run):
+    """The pressure in an octant of a ball, from radii 1 and 1.1 m, over that for its volume: mu = 1e5 Pa, means of the last 0.2 s."""
+    inner = (6 * mean(run, "cavity volume", 2.8) / math.pi) ** (1 / 3)
+    outer = (1.1 ** 3 - 1 + inner ** 3) ** (1 / 3)
+    stretched = [1 / stretch + 1 / (4 * stretch ** 4) for stretch in (outer / 1.1, inner)]
+    return mean(run, "water pressure", 2.8) / (2e5 * (stretched[0] - stretched[1]))
+
+
 def bow_over_theory(thickness):
     """The bow of a column of 0.7 m, shortened by 0.03 m, over that of one that is compressed until it buckles and then bends
     without a further change of its length."""
@@ -186,6 +194,7 @@ SCENES = {
                              "middle displacement x", mean=0.5),
     "sheet_on_planes_3d": Hard(Law(FILLED + " [m^3]", gained("inside volume"), 0.025, 3e-6), "middle displacement x", mean=0.5),
     "inflated_ring": Hard(Law("pressure / theory", ring_against_theory, 1, 0.08), "lower displacement x", mean=2.6),
+    "inflated_sphere": Hard(Law("pressure / theory", ball_against_theory, 1, 0.05), "inner displacement x", mean=2.8, short=0.1),
     "body_against_wall": Hard(Law("force of the floor / weight in water", carried("disc", 0.7), 1, 0.1),
                               "centre displacement y", mean=0.7, short=0.3),
     "body_against_wall_3d": Hard(Law("force of the floor / weight in water", carried("ball", 0.5), 1, 0.15),

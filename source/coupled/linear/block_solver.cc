@@ -91,6 +91,13 @@ namespace undine
                 "Flexible GMRES, or sparse factors of the whole matrix.");
     preconditioner = options.choose<BlockPreconditioner>(
       "Preconditioner", "block triangular", "What GMRES is helped by.");
+    options.add(
+      "Multigrid",
+      multigrid,
+      "",
+      Allowed::one_of(Registry<CellPreconditioner>::instance().names()),
+      "For the pressures within the preconditioner: by smoothed aggregation (Trilinos ML), "
+      "or on blocks of cells.");
     options.add("Linear tolerance",
                 tolerance,
                 "1",
@@ -105,11 +112,8 @@ namespace undine
 
 
   template <int dim>
-  BlockSolver<dim>::BlockSolver(const SolidModel<dim>     &model,
-                                const BlockSolverSettings &settings,
-                                const std::string         &multigrid)
+  BlockSolver<dim>::BlockSolver(const SolidModel<dim> &model, const BlockSolverSettings &settings)
     : settings(settings)
-    , multigrid(multigrid)
     , tangent_inverse(model)
   {
   }
@@ -136,7 +140,7 @@ namespace undine
     if (settings.solver == "iterative")
       {
         if (!schur)
-          schur = std::make_unique<const SchurComplement>(system, *places, multigrid);
+          schur = std::make_unique<const SchurComplement>(system, *places, settings.multigrid);
         tangent_inverse.initialize(system.tangent(), displacement);
         settings.preconditioner->initialize(
           system, *schur, [&](Vector &x, const Vector &b) { tangent_inverse.vmult(x, b); });

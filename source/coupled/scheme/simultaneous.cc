@@ -45,9 +45,9 @@ namespace undine
       , settings(settings)
       , fluid_side(models, budget, timing)
       , solid_side(models, budget, timing)
-      , solver(*models.solid, settings.solver, models.fluid->pressure_solver().multigrid)
+      , solver(*models.solid, settings.solver)
       , motion_solver(*models.solid)
-      , impulse_solver(*models.solid, settings.solver, models.fluid->pressure_solver().multigrid)
+      , impulse_solver(*models.solid, settings.solver)
     {
     }
 

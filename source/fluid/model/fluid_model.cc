@@ -20,13 +20,12 @@ namespace undine
                 "",
                 Allowed::between(1, 1e6),
                 "Of conjugate gradients; the step fails if they do not suffice.");
-    options.add(
-      "Multigrid",
-      multigrid,
-      "",
-      Allowed::one_of(Registry<CellPreconditioner>::instance().names()),
-      "For equations of pressures, of the fluid alone and with bodies: on blocks of cells, "
-      "or by smoothed aggregation (Trilinos ML).");
+    options.add("Multigrid",
+                multigrid,
+                "",
+                Allowed::one_of(Registry<CellPreconditioner>::instance().names()),
+                "For the pressures of projections: on blocks of cells, "
+                "or by smoothed aggregation (Trilinos ML).");
   }
 
 

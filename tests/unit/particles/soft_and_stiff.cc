@@ -123,10 +123,12 @@ TEST_CASE("Energy out of nothing is refused", "[particles]")
 }
 
 
-// Much softer than the water's impact and weight: it may give up, but not with an absurd result. The
-// device, which sums in another order, was seen to gain 0.8 % on the way there, the host nothing.
-TEST_CASE("Whatever becomes of a body that is too soft, no frame has 2 % more energy than the start",
-          "[particles]")
+// Much softer than the water's impact and weight: it may give up, but not with an absurd result.
+// The device, which sums in another order, was seen to gain 0.8 % on the way there, the host
+// nothing.
+TEST_CASE(
+  "Whatever becomes of a body that is too soft, no frame has 2 % more energy than the start",
+  "[particles]")
 {
   for (const auto &executor : executors<2>())
     {

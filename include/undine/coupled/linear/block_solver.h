@@ -19,6 +19,7 @@ namespace undine
 
     std::unique_ptr<BlockPreconditioner> preconditioner;
     std::string                          solver             = "iterative"; ///< iterative | direct
+    std::string                          multigrid          = "algebraic"; ///< CellPreconditioner
     double                               tolerance          = 1e-8;        ///< [1]
     unsigned int                         maximum_iterations = 200;
   };
@@ -35,10 +36,8 @@ namespace undine
     using BlockVector = BlockSystem::BlockVector;
     using Matrix      = BlockSystem::Matrix;
 
-    /// The references must outlive it. `multigrid`: name of the CellPreconditioner for pressures.
-    BlockSolver(const SolidModel<dim>     &model,
-                const BlockSolverSettings &settings,
-                const std::string         &multigrid);
+    /// The references must outlive it.
+    BlockSolver(const SolidModel<dim> &model, const BlockSolverSettings &settings);
 
     /// A new step, with pressures in `places`: forget the approximation of the Schur complement,
     /// iterations() and note(). `places` must outlive the calls of solve().
@@ -79,7 +78,6 @@ namespace undine
             const double       reduction);
 
     const BlockSolverSettings             &settings;
-    const std::string                      multigrid;
     TangentPreconditioner<dim>             tangent_inverse;
     const CellsOfUnknowns                 *places = nullptr;
     std::unique_ptr<const SchurComplement> schur; ///< nullptr: of no system yet
