@@ -29,7 +29,8 @@ namespace
             boundary("around", every_side<dim>(), "periodic"),
             some_flow<dim>(),
             "set Grading x = x + 0.08*sin(2*pi*x)\nset Grading y = x - 0.07*sin(2*pi*x)",
-            1000.};
+            1000.,
+            section("Pressure solver", "set Divergence tolerance = 1e-13")};
   }
 
 
