@@ -179,7 +179,7 @@ SCENES = {
     "light_sheet_3d": Hard(Law(RATIO, ratio_over_theory("tip displacement x", 5e-3), 1, 0.1), "tip displacement x", swings=0),
     "heavy_sheet": Hard(Law("frequency / beam's", lambda run: swing(run, "tip displacement x", 0)[0] /
                             beam_frequency(0.02, 0.6, 1200, 5e7, 0.3), 1, 0.03), "tip displacement x", swings=0),
-    "soft_block": Hard(Law("lean of the top [m]", last("top displacement x"), 0.1, 0.1), "top displacement x", mean=2),
+    "soft_block": Hard(Law("lean of the top [m]", last("top displacement x"), 0.115, 0.015), "top displacement x", mean=2),
     "stiff_sheet": Hard(Law("bend of the tip [m]", lambda run: mean(run, "tip displacement x", 1.5), 4e-3, 4e-4),
                         "tip displacement x", mean=1.5),
     "incompressible_plug": Hard(Law(RATIO, ratio_over_theory("middle displacement x", 0.01, 0.4), 1, 0.1),

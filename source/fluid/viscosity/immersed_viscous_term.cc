@@ -254,17 +254,29 @@ namespace undine
       {
         leaving(number(from)) += step * flux;
         leaving(number(to)) -= step * flux;
-        for (const auto *row : {&from, &to})
-          for (const auto *column : {&from, &to})
-            if (const double factor = (column == &to ? 1 : -1) * step * flux / 2;
-                is_prescribed(*row))
-              continue;
-            else if (is_prescribed(*column))
-              right_side(number(*row)) -= factor * value_at(field, *column);
-            else
-              solver.matrix.add(number(*row), number(*column), factor);
+        for (const auto &row : {from, to})
+          if (!is_prescribed(row))
+            {
+              add_entry(row, from, -step * flux / 2, field);
+              add_entry(row, to, step * flux / 2, field);
+            }
       }
     leaving.compress(dealii::VectorOperation::add);
+  }
+
+
+  /// To the matrix, or to the load if the velocity of the column is prescribed.
+  template <int dim>
+  void
+  ImmersedViscousTerm<dim>::add_entry(const FacePlace<dim> &row,
+                                      const FacePlace<dim> &column,
+                                      const double          mass,
+                                      const Field<dim>     &field)
+  {
+    if (is_prescribed(column))
+      right_side(number(row)) -= mass * value_at(field, column);
+    else
+      solver.matrix.add(number(row), number(column), mass);
   }
 
 

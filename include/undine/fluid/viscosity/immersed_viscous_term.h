@@ -142,6 +142,11 @@ namespace undine
     void
     add_fluxes_between(const DualFluxes<dim> &fluxes, const Field<dim> &field, Vector &leaving);
     void
+    add_entry(const FacePlace<dim> &row,
+              const FacePlace<dim> &column,
+              const double          mass,
+              const Field<dim>     &field);
+    void
     add_convection(const DualFluxes<dim> &fluxes, const Field<dim> &field);
     void
     add_shrinkage(const DualFluxes<dim> &fluxes, Vector &leaving);

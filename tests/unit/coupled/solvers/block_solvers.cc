@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <coupled/coupled_run.h>
+#include <undine/base/core/registry.h>
+#include <undine/base/multigrid/cell_preconditioner.h>
 
 #include <undine/coupled/linear/block_preconditioner.h>
 
@@ -81,6 +83,11 @@ namespace
         compare(after_steps<dim>("set Preconditioner = " + name), bound);
         compare(after_steps<dim>("set Preconditioner = " + name, "set Linear solver = multigrid"),
                 bound);
+      }
+    for (const auto &name : Registry<CellPreconditioner>::instance().names())
+      {
+        INFO(name);
+        compare(after_steps<dim>("set Multigrid = " + name), 25);
       }
   }
 } // namespace
