@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/matrix_row.h>
 #include <undine/base/multigrid/cell_equations.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -12,21 +13,6 @@ namespace undine
   {
     using Matrix      = CellEquations::Matrix;
     using Partitioner = CellEquations::Partitioner;
-
-    /// A row of a matrix by global columns, called `action(column, value)`.
-    template <class Action>
-    void
-    for_each_in_row(const Matrix &matrix, const int row, const Action &action)
-    {
-      const auto &epetra  = matrix.trilinos_matrix();
-      int         size    = 0;
-      double     *values  = nullptr;
-      int        *columns = nullptr;
-      epetra.ExtractMyRowView(row, size, values, columns);
-      for (int k = 0; k < size; ++k)
-        action(static_cast<unsigned int>(epetra.ColMap().GID(columns[k])), values[k]);
-    }
-
 
     std::shared_ptr<const Partitioner>
     partitioner_of(const Matrix &matrix)
@@ -87,11 +73,11 @@ namespace undine
       {
         const unsigned int row = result.partitioner->local_to_global(i);
         in_diffusion.clear();
-        for_each_in_row(diffusion, i, [&](const unsigned int column, const double value) {
+        for_each_in_row(diffusion, row, [&](const unsigned int column, const double value) {
           in_diffusion.emplace_back(column, value);
           result.outward[i] += value;
         });
-        for_each_in_row(whole, i, [&](const unsigned int column, const double value) {
+        for_each_in_row(whole, row, [&](const unsigned int column, const double value) {
           const auto   entry        = std::find_if(in_diffusion.begin(),
                                           in_diffusion.end(),
                                           [&](const auto &entry) { return entry.first == column; });

@@ -90,7 +90,7 @@ namespace undine
                 Allowed::one_of({"iterative", "direct"}),
                 "Flexible GMRES, or sparse factors of the whole matrix.");
     preconditioner = options.choose<BlockPreconditioner>(
-      "Preconditioner", "block triangular", "What GMRES is helped by.");
+      "Preconditioner", "automatic", "What GMRES is helped by.");
     options.add(
       "Multigrid",
       multigrid,
@@ -125,6 +125,7 @@ namespace undine
   {
     places = &new_places;
     schur.reset();
+    settings.preconditioner->start_step();
     all_iterations = largest_iterations = 0;
     all_notes.clear();
   }
@@ -154,8 +155,9 @@ namespace undine
         all_notes = fmt::format("GMRES did not converge within {} iterations: solved directly",
                                 settings.maximum_iterations);
       }
-    return JointFactorisation(system, system.pressure().locally_owned_range_indices())
-      .solve(right_side);
+    JointFactorisation everything;
+    everything.factorise(system, system.pressure().locally_owned_range_indices());
+    return everything.solve(right_side);
   }
 
 

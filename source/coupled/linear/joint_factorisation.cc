@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/matrix_row.h>
 #include <undine/coupled/linear/joint_factorisation.h>
 
 #include <deal.II/base/mpi.h>
@@ -20,10 +21,9 @@ namespace undine
     known_columns(const Matrix &matrix)
     {
       auto               result = matrix.locally_owned_range_indices();
-      std::vector<Index> columns;
-      for (const auto row : matrix.locally_owned_range_indices())
-        for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)
-          columns.push_back(entry->column());
+      const auto        &map    = matrix.trilinos_matrix().ColMap();
+      std::vector<Index> columns(map.MyGlobalElements(),
+                                 map.MyGlobalElements() + map.NumMyElements());
       std::sort(columns.begin(), columns.end());
       result.add_indices(columns.begin(), std::unique(columns.begin(), columns.end()));
       return result;
@@ -70,29 +70,60 @@ namespace undine
     };
 
 
-    /// Call action(row, column, value) for the entries of the joint matrix that this rank knows.
-    template <class Action>
-    void
-    for_each_entry(const BlockSystem      &system,
-                   const dealii::IndexSet &chosen,
-                   const JointNumbers     &numbers,
-                   const Action           &action)
+    struct Entry
     {
-      const auto &A = system.tangent(), &B = system.flux(), &hL = system.pressure();
-      for (const auto row : A.locally_owned_range_indices())
-        for (auto entry = A.begin(row); entry != A.end(row); ++entry)
-          action(row, entry->column(), entry->value());
+      Index  row, column;
+      double value;
+    };
+
+
+    /// Of the joint matrix, as far as this rank knows them, by rows.
+    std::vector<Entry>
+    joint_entries(const BlockSystem      &system,
+                  const dealii::IndexSet &chosen,
+                  const JointNumbers     &numbers)
+    {
+      std::vector<Entry> result;
+      for (const auto row : system.tangent().locally_owned_range_indices())
+        for_each_in_row(system.tangent(), row, [&](const Index column, const double value) {
+          result.push_back({row, column, value});
+        });
       for (const auto pressure : chosen)
         {
           const Index row = numbers(pressure);
-          for (auto entry = B.begin(pressure); entry != B.end(pressure); ++entry)
+          for_each_in_row(system.flux(), pressure, [&](const Index column, const double value) {
+            result.push_back({row, column, system.flux_factor() * value});
+            result.push_back({column, row, -value});
+          });
+          for_each_in_row(system.pressure(), pressure, [&](const Index column, const double value) {
+            if (numbers.contains(column))
+              result.push_back({row, numbers(column), value});
+          });
+        }
+      std::stable_sort(
+        result.begin(), result.end(), [](const Entry &a, const Entry &b) { return a.row < b.row; });
+      return result;
+    }
+
+
+    /// Call action(row, columns, values) for each row of these entries.
+    template <class Action>
+    void
+    for_each_row(const std::vector<Entry> &entries, const Action &action)
+    {
+      std::vector<Index>  columns;
+      std::vector<double> values;
+      for (auto entry = entries.begin(); entry != entries.end();)
+        {
+          const Index row = entry->row;
+          columns.clear();
+          values.clear();
+          for (; entry != entries.end() && entry->row == row; ++entry)
             {
-              action(row, entry->column(), system.flux_factor() * entry->value());
-              action(entry->column(), row, -entry->value());
+              columns.push_back(entry->column);
+              values.push_back(entry->value);
             }
-          for (auto entry = hL.begin(pressure); entry != hL.end(pressure); ++entry)
-            if (numbers.contains(entry->column()))
-              action(row, numbers(entry->column()), entry->value());
+          action(row, columns, values);
         }
     }
 
@@ -135,34 +166,32 @@ namespace undine
                  const MPI_Comm          communicator)
     {
       const JointNumbers numbers(system, chosen, rows.first_pressure, communicator);
+      const auto         entries  = joint_entries(system, chosen, numbers);
       dealii::IndexSet   writable = rows.all;
-      for_each_entry(system, chosen, numbers, [&](const Index row, const Index, const double) {
-        writable.add_index(row);
-      });
+      for_each_row(entries,
+                   [&](const Index row, const auto &, const auto &) { writable.add_index(row); });
       writable.compress();
       dealii::TrilinosWrappers::SparsityPattern pattern(rows.all, rows.all, writable, communicator);
-      for_each_entry(
-        system, chosen, numbers, [&](const Index row, const Index column, const double) {
-          pattern.add(row, column);
-        });
+      for_each_row(entries, [&](const Index row, const auto &columns, const auto &) {
+        pattern.add_entries(row, columns.begin(), columns.end());
+      });
       pattern.compress();
       Matrix matrix;
       matrix.reinit(pattern);
-      for_each_entry(
-        system, chosen, numbers, [&](const Index row, const Index column, const double value) {
-          matrix.add(row, column, value);
-        });
+      for_each_row(entries, [&](const Index row, const auto &columns, const auto &values) {
+        matrix.add(row, columns, values);
+      });
       matrix.compress(dealii::VectorOperation::add);
       return matrix;
     }
   } // namespace
 
 
-  JointFactorisation::JointFactorisation(const BlockSystem      &system,
-                                         const dealii::IndexSet &pressures)
-    : chosen(pressures)
-    , communicator(system.pressure().get_mpi_communicator())
+  void
+  JointFactorisation::factorise(const BlockSystem &system, const dealii::IndexSet &pressures)
   {
+    chosen              = pressures;
+    communicator        = system.pressure().get_mpi_communicator();
     const auto all_rows = joint_rows(system, chosen, communicator);
     rows                = all_rows.all;
     factorisation.factorise(joint_matrix(system, chosen, all_rows, communicator));

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs of the program."""
 import dataclasses
+import json
 import os
 import re
 import subprocess
@@ -23,6 +24,8 @@ class Run:
     complaint: str  # why it stopped, empty if it reached its end
     was_refused: bool  # before it began
     scene: str  # the text of its file
+    summary: dict = dataclasses.field(default_factory=dict)  # summary.json; empty if there is none
+    seconds: float = 0.0
 
     def column(self, name):
         return self.columns.get(name, [])
@@ -44,6 +47,14 @@ def columns_of(folder):
         return {}
     names, _, rows = scene_tools.parse(text[:text.rfind("\n") + 1])
     return dict(zip(names, map(list, zip(*rows))))
+
+
+def summary_of(folder):
+    try:
+        with open(os.path.join(folder, "summary.json")) as file:
+            return json.load(file)
+    except (OSError, ValueError):
+        return {}
 
 
 def complaint(code, text):
@@ -77,9 +88,9 @@ class Program:
             start = time.monotonic()
             code, printed = self.start([self.path, path, "--output", results])
             self.runs.append(time.monotonic() - start)
-            columns = columns_of(results)
+            columns, summary, seconds = columns_of(results), summary_of(results), self.runs[-1]
         why = "" if code == 0 else f"no end within {self.limit:g} s" if code is None else complaint(code, printed)
-        return Run(columns, why, code == REFUSED, text)
+        return Run(columns, why, code == REFUSED, text, summary, seconds)
 
     def start(self, command):
         """Exit code, None if it was ended, and what was printed."""

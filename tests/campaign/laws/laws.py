@@ -8,7 +8,8 @@ Each campaign runs scenes at many points, prints a line for each, with what is b
 - light: bodies much lighter than the fluid rise and swing with no more energy than was put in;
 - contact: sheets of any density that meet do not shake the fluid between them;
 - volume: chambers hold what has flown in, wherever planes of the grid lie;
-- random: scenes drawn from wide ranges run to their end with no more energy than was put in.
+- random: scenes drawn from wide ranges run to their end with no more energy than was put in;
+- hard: hard scenes drawn from wider ranges, in the plane and in space, are certified as stable.
 
 The folder of --out gets laws.json, all figures, and the scenes of the points at which something is broken. Exit code 1
 if there are any. README.md says more, and how long it takes.
@@ -21,6 +22,7 @@ import traceback
 
 import campaign_contact
 import campaign_damping
+import campaign_hard
 import campaign_light
 import campaign_random
 import campaign_volume
@@ -28,7 +30,7 @@ import law_report
 from law_runs import Program
 
 CAMPAIGNS = {"damping": campaign_damping, "light": campaign_light, "contact": campaign_contact,
-             "volume": campaign_volume, "random": campaign_random}
+             "volume": campaign_volume, "random": campaign_random, "hard": campaign_hard}
 QUICK_LIMIT = 60  # seconds of a run
 
 
@@ -46,8 +48,10 @@ def read_arguments():
     parser.add_argument("--unwatched", action="store_true", help="without the energy monitor, which redoes steps")
     parser.add_argument("--against-fine", action="store_true",
                         help="light: compare motions with those in steps of a sixteenth")
-    parser.add_argument("--scenes", type=int, metavar="N", help="random: how many (default: 200, with --quick 10)")
-    parser.add_argument("--seed", default="1", help="random: of the drawing")
+    parser.add_argument("--scenes", type=int, metavar="N", help="random and hard: how many, of hard ones in each dimension "
+                        "(default: 200, with --quick 10; 1000 and 100, with --quick 8 and 2)")
+    parser.add_argument("--first", type=int, default=0, metavar="N", help="hard: the number of the first one")
+    parser.add_argument("--seed", default="1", help="random and hard: of the drawing")
     return parser.parse_args()
 
 

@@ -27,13 +27,20 @@ namespace undine
     virtual void
     add_options(const Options &options) = 0;
 
+    /// A new stage of a step, in which bodies and pressures are elsewhere.
+    virtual void
+    start_step()
+    {
+    }
+
     /// All that is given must outlive the calls of vmult(). Collective.
     virtual void
     initialize(const BlockSystem     &system,
                const SchurComplement &schur,
                const ApplyInverse    &tangent_inverse) = 0;
 
-    /// result = about the inverse of the system times `right_side`. Collective.
+    /// result = about the inverse of the system times `right_side`; not always the same linear map.
+    /// Collective. Throws SolveError.
     virtual void
     vmult(BlockVector &result, const BlockVector &right_side) const = 0;
   };

@@ -15,8 +15,10 @@ namespace undine
     using BlockVector = BlockSystem::BlockVector;
 
     /// `pressures`: the numbers of the chosen pressures of this rank. The system is not needed
-    /// afterwards. Collective. Throws SolveError if the matrix is singular or not a number.
-    JointFactorisation(const BlockSystem &system, const dealii::IndexSet &pressures);
+    /// afterwards. What depends on the pattern of the matrix alone is kept for the next one.
+    /// Collective. Throws SolveError if the matrix is singular or not a number.
+    void
+    factorise(const BlockSystem &system, const dealii::IndexSet &pressures);
 
     /// The solution of the restricted system for the entries of `right_side` that belong to it;
     /// other pressures are zero. Collective.
@@ -28,7 +30,7 @@ namespace undine
 
     dealii::IndexSet chosen; ///< pressures of this rank
     dealii::IndexSet rows;   ///< of this rank: velocities, then chosen pressures, numbered anew
-    MPI_Comm         communicator;
+    MPI_Comm         communicator = MPI_COMM_NULL;
     Factorisation    factorisation;
   };
 } // namespace undine

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/registry.h>
-#include <undine/coupled/linear/block_triangular.h>
-#include <undine/coupled/linear/joint_factorisation.h>
+#include <undine/coupled/linear/band_correction.h>
 
 namespace undine
 {
@@ -36,49 +35,38 @@ namespace undine
   } // namespace
 
 
-  /// The block-triangular preconditioner, then an exact solve for what it leaves of the residual at
-  /// bodies and in a band of cells around them, where fluid and bodies act on each other.
-  class BandCorrection : public BlockPreconditioner
+  void
+  BandCorrection::add_options(const Options &options)
   {
-  public:
-    void
-    add_options(const Options &options) override
-    {
-      triangular.add_options(options);
-      options.add("Layers",
-                  layers,
-                  "",
-                  Allowed::between(0, 20),
-                  "Of cells around the bodies in which the equations are solved exactly.");
-    }
+    triangular.add_options(options);
+    options.add("Layers",
+                layers,
+                "",
+                Allowed::between(0, 20),
+                "Of cells around the bodies in which the equations are solved exactly.");
+  }
 
-    void
-    initialize(const BlockSystem     &new_system,
-               const SchurComplement &schur,
-               const ApplyInverse    &tangent_inverse) override
-    {
-      system = &new_system;
-      triangular.initialize(new_system, schur, tangent_inverse);
-      band =
-        std::make_unique<JointFactorisation>(new_system, band_around_bodies(new_system, layers));
-    }
 
-    void
-    vmult(BlockVector &result, const BlockVector &right_side) const override
-    {
-      triangular.vmult(result, right_side);
-      BlockVector rest(right_side);
-      system->vmult(rest, result);
-      rest.sadd(-1., 1., right_side);
-      result.add(1., band->solve(rest));
-    }
+  void
+  BandCorrection::initialize(const BlockSystem     &new_system,
+                             const SchurComplement &schur,
+                             const ApplyInverse    &tangent_inverse)
+  {
+    system = &new_system;
+    triangular.initialize(new_system, schur, tangent_inverse);
+    band.factorise(new_system, band_around_bodies(new_system, layers));
+  }
 
-  private:
-    BlockTriangular                     triangular;
-    const BlockSystem                  *system = nullptr;
-    unsigned int                        layers = 2;
-    std::unique_ptr<JointFactorisation> band;
-  };
+
+  void
+  BandCorrection::vmult(BlockVector &result, const BlockVector &right_side) const
+  {
+    triangular.vmult(result, right_side);
+    BlockVector rest(right_side);
+    system->vmult(rest, result);
+    rest.sadd(-1., 1., right_side);
+    result.add(1., band.solve(rest));
+  }
 
 
   static const Register<BlockPreconditioner, BandCorrection>
