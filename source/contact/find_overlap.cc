@@ -2,6 +2,7 @@
 #include <undine/contact/contact_boxes.h>
 #include <undine/contact/find_overlap.h>
 #include <undine/surface/held_pairs.h>
+#include <undine/surface/simplex.h>
 #include <undine/surface/surface_distance.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -10,6 +11,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <vector>
 
@@ -57,14 +60,23 @@ namespace undine
     }
 
 
-    /// Does the segment between two nodes cross the facet? Not if it is parallel to it.
+    /// Does the segment between two nodes cross the facet? Not if both are as far from its plane,
+    /// to `rounding` [m]: facets of one face lie in one plane only as far as places are not
+    /// rounded.
     template <int dim>
     bool
     cross(const std::vector<dealii::Point<dim>> &places,
           const unsigned int                     begin,
           const unsigned int                     end,
-          const typename Surface<dim>::Facet    &facet)
+          const typename Surface<dim>::Facet    &facet,
+          const double                           rounding)
     {
+      std::array<dealii::Point<dim>, dim> nodes;
+      for (unsigned int k = 0; k < dim; ++k)
+        nodes[k] = places[facet[k]];
+      const auto area = area_vector(nodes);
+      if (!(std::abs((places[end] - places[begin]) * area) > rounding * area.norm()))
+        return false;
       dealii::Tensor<2, dim> matrix; // columns: the segment backwards, edges of the facet
       const auto             set = [&](const unsigned int column, const auto &vector) {
         for (unsigned int axis = 0; axis < dim; ++axis)
@@ -73,8 +85,6 @@ namespace undine
       set(0, places[begin] - places[end]);
       for (unsigned int k = 1; k < dim; ++k)
         set(k, places[facet[k]] - places[facet[0]]);
-      if (determinant(matrix) == 0)
-        return false;
       const auto parts = invert(matrix) * (places[begin] - places[facet[0]]);
       double     sum   = 0;
       bool       inner = parts[0] >= 0 && parts[0] <= 1;
@@ -109,7 +119,8 @@ namespace undine
         surfaces, places, 0, [&](const unsigned int one, const unsigned int other) {
           for (unsigned int k = 0; k < dim && result.empty(); ++k)
             for (unsigned int l = 0; l < k; ++l)
-              if (cross<dim>(places, facets[one][k], facets[one][l], facets[other]))
+              if (cross<dim>(
+                    places, facets[one][k], facets[one][l], facets[other], surfaces.rounding()))
                 complain(facets[one][k], "passes through itself");
         });
       return result;

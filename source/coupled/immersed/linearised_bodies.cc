@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/rounding.h>
 #include <undine/coupled/immersed/begin_of.h>
 #include <undine/coupled/immersed/linearised_bodies.h>
 #include <undine/solid/assembly/prescribed_motion.h>
@@ -81,6 +82,14 @@ namespace undine
     if (!turning_stress.empty())
       result.add(-1., by_turning_stress(on_surfaces(change)));
     return result;
+  }
+
+
+  template <int dim>
+  double
+  LinearisedBodies<dim>::rounding(const Vector &change) const
+  {
+    return rounding_of_product(tangent, change);
   }
 
 

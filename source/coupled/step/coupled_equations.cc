@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/relative.h>
+#include <undine/base/core/rounding.h>
 #include <undine/base/parallel/interruption.h>
 #include <undine/coupled/step/coupled_equations.h>
 #include <undine/solid/assembly/prescribed_motion.h>
@@ -16,14 +17,14 @@ namespace undine
                                           const PressureEquations<dim> &fluid,
                                           BlockSolver<dim>             &solver,
                                           TimingTree                   &timing,
-                                          const double                  flux_rounding)
+                                          const double                  rounding_of_places)
     : model(model)
     , solid(solid)
     , surface(surface)
     , fluid(fluid)
     , solver(solver)
     , timing(timing)
-    , flux_rounding(flux_rounding)
+    , rounding_of_places(rounding_of_places)
   {
     residual = vector();
   }
@@ -56,6 +57,7 @@ namespace undine
 
     // What rounding leaves counts as converged.
     const double tolerance = model.numerics().newton.relative_tolerance;
+    flux_rounding          = rounding_of_places + rounding_of_product(fluid.matrix(), x.block(1));
     measure({std::max({solid.scale(), pushing.l2_norm(), solid.rounding() / tolerance}),
              std::max({by_pressure,
                        swept.l2_norm(),
@@ -122,7 +124,7 @@ namespace undine
   double
   CoupledEquations<dim>::rounding() const
   {
-    return relative(solid.rounding(), here.force);
+    return std::hypot(relative(solid.rounding(), here.force), relative(flux_rounding, here.flux));
   }
 
 

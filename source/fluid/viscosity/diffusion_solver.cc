@@ -67,11 +67,12 @@ namespace undine
   } // namespace
 
 
-  /// Incomplete factors fail where the flow crosses many cells in a step; the diagonal then serves.
+  /// Incomplete factors fail where the flow crosses many cells in a step; the diagonal then serves,
+  /// or else complete factors.
   unsigned int
   DiffusionSolver::solve_with_convection(Vector &solution, const Vector &load) const
   {
-    constexpr unsigned int with_factors = 100, most = 1000;
+    constexpr unsigned int with_factors = 100, with_diagonal = 1000, most = 100;
     const Vector           guess = solution;
     try
       {
@@ -81,9 +82,19 @@ namespace undine
       {
         solution = guess;
       }
-    dealii::TrilinosWrappers::PreconditionJacobi diagonal;
-    diagonal.initialize(matrix);
-    return with_factors + solve_by_gmres(solution, load, matrix, diagonal, most);
+    try
+      {
+        dealii::TrilinosWrappers::PreconditionJacobi diagonal;
+        diagonal.initialize(matrix);
+        return with_factors + solve_by_gmres(solution, load, matrix, diagonal, with_diagonal);
+      }
+    catch (const dealii::SolverControl::NoConvergence &)
+      {
+        solution = guess;
+      }
+    dealii::TrilinosWrappers::PreconditionBlockwiseDirect factors;
+    factors.initialize(matrix);
+    return with_factors + with_diagonal + solve_by_gmres(solution, load, matrix, factors, most);
   }
 
 
@@ -120,6 +131,15 @@ namespace undine
     auto diagonal = std::make_unique<dealii::TrilinosWrappers::PreconditionJacobi>();
     diagonal->initialize(matrix);
     preconditioner = std::move(diagonal);
+  }
+
+
+  void
+  DiffusionSolver::precondition_by_factors()
+  {
+    auto factors = std::make_unique<dealii::TrilinosWrappers::PreconditionBlockwiseDirect>();
+    factors->initialize(matrix);
+    preconditioner = std::move(factors);
   }
 
 

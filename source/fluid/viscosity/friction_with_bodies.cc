@@ -137,14 +137,26 @@ namespace undine
   }
 
 
+  /// Tight, so that rank counts agree, but not below the rounding of what stiff bodies answer with;
+  /// a load of zero has the solution zero.
+  template <int dim>
+  double
+  FrictionWithBodies<dim>::tolerance(const BlockVector &right_side) const
+  {
+    auto force = right_side.block(dim);
+    force *= 1 / dt;
+    const double rounding = dt * bodies.rounding(bodies.approximate_change(force));
+    return std::max({1e-12 * right_side.l2_norm(), 10 * rounding, 1e-300});
+  }
+
+
   template <int dim>
   unsigned int
   FrictionWithBodies<dim>::iterate(const BlockVector &right_side,
                                    const unsigned int most_iterations)
   {
     using Gmres = dealii::SolverFGMRES<BlockVector>;
-    // Tight, so that rank counts agree; a load of zero has the solution zero.
-    dealii::SolverControl control(most_iterations, std::max(1e-12 * right_side.l2_norm(), 1e-300));
+    dealii::SolverControl control(most_iterations, tolerance(right_side));
     Gmres(control, typename Gmres::AdditionalData(100))
       .solve(Operator{[&](BlockVector &result, const BlockVector &of) { vmult(result, of); }},
              x,
@@ -158,29 +170,38 @@ namespace undine
   unsigned int
   FrictionWithBodies<dim>::solve()
   {
-    constexpr unsigned int first = 200, most = 1000;
-    const auto             right_side = load();
-    const BlockVector      guess      = x;
-    try
-      {
-        return iterate(right_side, first);
-      }
-    catch (const dealii::SolverControl::NoConvergence &)
-      {
-        x = guess;
-      }
-    try
-      {
-        for (auto *equation : equations)
-          equation->precondition_by_diagonal();
-        return first + iterate(right_side, most);
-      }
-    catch (const dealii::SolverControl::NoConvergence &failure)
-      {
-        throw SolveError(fmt::format("The fluid's implicit terms and the bodies did not converge "
-                                     "in {} iterations. Try a smaller step.",
-                                     failure.last_step));
-      }
+    struct Try
+    {
+      unsigned int most_iterations;
+      void (ImmersedViscousTerm<dim>::*prepare)();
+    };
+    const Try tries[] = {{200, nullptr},
+                         {1000, &ImmersedViscousTerm<dim>::precondition_by_diagonal},
+                         {200, &ImmersedViscousTerm<dim>::precondition_by_factors}};
+
+    const auto        right_side = load();
+    const BlockVector guess      = x;
+    unsigned int      before     = 0;
+    double            left       = 0;
+    for (const auto &[most_iterations, prepare] : tries)
+      try
+        {
+          if (prepare)
+            for (auto *equation : equations)
+              (equation->*prepare)();
+          return before + iterate(right_side, most_iterations);
+        }
+      catch (const dealii::SolverControl::NoConvergence &failure)
+        {
+          x    = guess;
+          left = failure.last_residual / right_side.l2_norm();
+          before += failure.last_step;
+        }
+    throw SolveError(
+      fmt::format("The fluid's implicit terms and the bodies did not converge in {} iterations: "
+                  "{:.1e} of the forces are left. Try a smaller step.",
+                  before,
+                  left));
   }
 
 

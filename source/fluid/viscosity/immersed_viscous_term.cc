@@ -343,9 +343,9 @@ namespace undine
   void
   ImmersedViscousTerm<dim>::set_up_friction(const double dt, const DualFluxes<dim> *fluxes)
   {
-    if (dt != assembled_dt || by_diagonal)
+    if (dt != assembled_dt || is_replaced)
       {
-        by_diagonal = false;
+        is_replaced = false;
         make_pattern(fluxes);
         convective_entries.clear();
         assemble_friction(dt);

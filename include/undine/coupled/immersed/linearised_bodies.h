@@ -75,6 +75,8 @@ namespace undine
     on_bodies(const Vectors &forces) const override;
     Vector
     force(const Vector &change) const override;
+    double
+    rounding(const Vector &change) const override;
     void
     prepare(const Vectors &damping) override;
     Vector

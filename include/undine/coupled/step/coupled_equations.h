@@ -26,7 +26,7 @@ namespace undine
     using Unknown = BlockSystem::BlockVector;
     using Vector  = BlockSystem::Vector;
 
-    /// The references must outlive it. `flux_rounding` [m^dim/s]: what rounding of the bodies'
+    /// The references must outlive it. `rounding_of_places` [m^dim/s]: what rounding of the bodies'
     /// places makes of B u.
     CoupledEquations(const SolidModel<dim>        &model,
                      SolidEquations<dim>          &solid,
@@ -34,7 +34,7 @@ namespace undine
                      const PressureEquations<dim> &fluid,
                      BlockSolver<dim>             &solver,
                      TimingTree                   &timing,
-                     double                        flux_rounding);
+                     double                        rounding_of_places);
 
     /// Newton's method begins anew: forget the sizes of terms.
     void
@@ -54,7 +54,8 @@ namespace undine
     double
     scale() const;
 
-    /// The norm that rounding of internal forces leaves of the residual [1].
+    /// The norm that rounding of internal forces, places and pressures leaves of the residual: a
+    /// closed chamber may have a pressure far above its differences within the fluid [1].
     double
     rounding() const;
 
@@ -73,8 +74,9 @@ namespace undine
     const PressureEquations<dim> &fluid;
     BlockSolver<dim>             &solver;
     TimingTree                   &timing;
-    const double                  flux_rounding;
-    Unknown                       residual;
+    const double                  rounding_of_places;
+    double  flux_rounding = 0; ///< of h L p, too, for the point evaluated last
+    Unknown residual;
 
     /// Of the terms of both rows.
     struct Sizes

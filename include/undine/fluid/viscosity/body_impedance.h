@@ -56,6 +56,10 @@ namespace undine
     virtual Vector
     force(const Vector &change) const = 0;
 
+    /// The norm of what rounding makes of force() [N].
+    virtual double
+    rounding(const Vector &change) const = 0;
+
     /// Prepare approximate_change() for a fluid whose friction resists the motion of nodes with
     /// `damping` [kg/s] along each axis. Throws SolveError.
     virtual void

@@ -45,6 +45,11 @@ namespace undine
     void
     precondition_by_diagonal();
 
+    /// The same by sparse factors of what couples the unknowns of each rank: dear, but good for a
+    /// flow that crosses ever so many cells in a step.
+    void
+    precondition_by_factors();
+
     /// Memory of matrix and hierarchy on this rank [bytes].
     std::size_t
     memory_consumption() const;

@@ -58,6 +58,8 @@ namespace undine
     friction_by(const BlockVector &x, const Vectors &change) const;
     BlockVector
     load() const;
+    double
+    tolerance(const BlockVector &right_side) const;
     unsigned int
     iterate(const BlockVector &right_side, unsigned int most_iterations);
 

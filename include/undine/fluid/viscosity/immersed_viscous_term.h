@@ -90,7 +90,7 @@ namespace undine
     Motion
     given_friction() const;
 
-    /// About A^{-1}; by its diagonal until start(). @{
+    /// About A^{-1}; by its diagonal or by factors, see DiffusionSolver, until start(). @{
     void
     precondition(Vector &v, const Vector &b) const
     {
@@ -99,8 +99,14 @@ namespace undine
     void
     precondition_by_diagonal()
     {
-      by_diagonal = true;
+      is_replaced = true;
       solver.precondition_by_diagonal();
+    }
+    void
+    precondition_by_factors()
+    {
+      is_replaced = true;
+      solver.precondition_by_factors();
     }
     /// @}
 
@@ -186,7 +192,7 @@ namespace undine
     dealii::IndexSet                                 mine;
     double                                           assembled_dt = 0; ///< [s]
     double                                           time         = 0; ///< [s]
-    bool                                             by_diagonal  = false;
+    bool                                             is_replaced  = false;
     DiffusionSolver                                  solver;
     ConvectiveEntries<dim>                           convective_entries;
     dealii::TrilinosWrappers::SparseMatrix           friction; ///< of mass and friction
