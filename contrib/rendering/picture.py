@@ -10,7 +10,7 @@ from .fluid import fluid_props, particle_props
 from .room import room_actors
 from .scale import colour_scale, text
 
-LETTERS = 30  # in the height of a picture
+LETTERS = 26  # in the height of a picture
 FEWEST = 11  # pixels of a letter
 BELOW = 3.9  # letters, for scales and time
 ABOVE = 4.2  # letters, for words about two runs
