@@ -115,8 +115,8 @@ def edge_actor(data, is_flat):
     return line_actor(edges, INK, 1.5)
 
 
-def obstacle_actor(data, extent):
-    """Surfaces of obstacles, in 2D what they enclose, as far as they are in the domain."""
+def obstacle_actors(data, extent):
+    """Surfaces of obstacles, in 2D what they enclose, as far as they are in the domain, and edges."""
     bounds, is_flat = extent.corners(), extent.is_flat()
     faces = vtk.vtkGeometryFilter()
     faces.SetInputData(data)
@@ -132,5 +132,11 @@ def obstacle_actor(data, extent):
             whole, faces = faces, vtk.vtkClipPolyData()
             faces.SetInputConnection(whole.GetOutputPort())
             faces.SetClipFunction(side)
-    actor = light(plain_actor(faces, GREY), is_flat)
-    return to_front(actor, extent)
+    actors = [to_front(light(plain_actor(faces, GREY), is_flat), extent)]
+    if is_flat:
+        rim = vtk.vtkFeatureEdges()
+        rim.SetInputConnection(faces.GetOutputPort())
+        rim.FeatureEdgesOff()
+        rim.ColoringOff()
+        actors.append(to_front(line_actor(rim, INK, 1.2), extent, 1.5))
+    return actors

@@ -2,7 +2,7 @@
 """Drawing one run, or two side by side, at one time into a picture."""
 import vtk
 
-from .actors import body_actors, obstacle_actor, particle_actor
+from .actors import body_actors, obstacle_actors, particle_actor
 from .camera import aim
 from .colours import PAPER, WALL, Meaning, rgb
 from .flow_actors import arrow_actors, stream_line_actors
@@ -37,8 +37,10 @@ class Painter:
     def add_part(self, renderer, part):
         """Draw a part. Returns what its colours mean."""
         if part.is_obstacles:
-            renderer.AddActor(particle_actor(part.data, part.spacing, None, self.extent.is_flat(), WALL) if part.is_particles
-                              else obstacle_actor(part.data, self.extent))
+            is_flat = self.extent.is_flat()
+            for actor in ([particle_actor(part.data, part.spacing, None, is_flat, WALL)] if part.is_particles
+                          else obstacle_actors(part.data, self.extent)):
+                renderer.AddActor(actor)
             return []
         meaning = self.meaning(part, part.colour_field(self.options.field))
         meanings = [meaning] if meaning else []

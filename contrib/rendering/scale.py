@@ -77,12 +77,23 @@ def title(meaning):
     return owner + name + (f" [{unit}]" if unit else "")
 
 
+def label(value):
+    return f"{value:.4g}"
+
+
+def legible(values, scale, size):
+    """Those of evenly spaced values whose labels do not touch; `scale`: pixels a unit."""
+    widest = 0.5 * size * (max(map(len, map(label, values)), default=0) + 1)
+    stride = max(1, -(-widest // (scale * (values[1] - values[0]))) if len(values) > 1 else 1)
+    return values[::int(stride)]
+
+
 def colour_scale(meaning, left, width, size):
     """Actors for what colours mean, below a picture; `size`: of letters, in pixels."""
     low, high = meaning.limits
     bottom, height = round(1.75 * size), round(0.75 * size)
-    shown = ticks(low, high)
+    shown = legible(ticks(low, high), width / (high - low), size)
     places = [left + (value - low) / (high - low) * width for value in shown]
     actors = [strip(meaning, left, bottom, width, height), rules(places, left, bottom, width, height),
               text(title(meaning), size, left + width / 2, bottom + 1.45 * height)]
-    return actors + [text(f"{value:.4g}", size, place, round(0.35 * size)) for value, place in zip(shown, places)]
+    return actors + [text(label(value), size, place, round(0.35 * size)) for value, place in zip(shown, places)]
