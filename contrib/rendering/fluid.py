@@ -6,6 +6,8 @@ from .actors import particle_actor, surface_actor
 from .cloud import cloud
 from .liquid import surface_props
 
+CLOSED = 1.15  # diameter of discs in spacings, so that liquids have no holes
+
 
 def cut(data, axis, place):
     """The cells of a plane."""
@@ -40,4 +42,4 @@ def particle_props(part, meaning, extent, options):
         return [surface_actor(cut(part.region(), *plane), meaning, True) for plane in options.slice]
     if options.surface:
         return surface_props(part, meaning, is_flat)
-    return [particle_actor(part.data, part.spacing, meaning, is_flat)]
+    return [particle_actor(part.data, (CLOSED if is_flat else 1) * part.spacing, meaning, is_flat)]

@@ -14,6 +14,7 @@ LETTERS = 26  # in the height of a picture
 FEWEST = 11  # pixels of a letter
 BELOW = 3.9  # letters, for scales and time
 ABOVE = 4.2  # letters, for words about two runs
+KEY_LIGHT = (40, 35)  # degrees above and to the right of the camera
 SCALES = 3  # places below a picture at least: for scales of the fluid, the time, scales of bodies
 
 
@@ -85,6 +86,8 @@ class Painter:
         renderer.ResetCameraClippingRange()
         if not self.extent.is_flat():
             lights = vtk.vtkLightKit()
+            lights.SetKeyLightAngle(*KEY_LIGHT)
+            lights.SetKeyLightIntensity(1)
             lights.AddLightsToRenderer(renderer)
         renderer.UseFXAAOn()
         renderer.UseDepthPeelingOn()
