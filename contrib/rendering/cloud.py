@@ -2,12 +2,17 @@
 """What a fluid carries in space as a soft translucent cloud: denser where there is more of it."""
 import vtk
 
-from .colours import SMOKE, transfer_function
+from .colours import DYE, SMOKE, transfer_function
 
 FINENESS = 160  # points along the longest side
 THINNEST = 0.03  # share of the scale that is seen
 DENSEST = 0.16  # opacity along a fortieth of the longest side; bodies behind a cloud are still seen
 SOOT = ["#5c6674", "#39414d", "#20252d"]  # clouds are light because they are translucent: their colour need not be light
+
+
+def dark(table):
+    """Clouds are light because they are translucent: their colours need not be light too."""
+    return SOOT if table is SMOKE else DYE[2:] if table is DYE else table
 
 
 def cloud(data, meaning):
@@ -29,7 +34,7 @@ def cloud(data, meaning):
         opacity.AddPoint(low + share * (high - low), value)
     volume = vtk.vtkVolume()
     volume.SetMapper(mapper)
-    volume.GetProperty().SetColor(transfer_function(SOOT if meaning.table is SMOKE else meaning.table, meaning.limits))
+    volume.GetProperty().SetColor(transfer_function(dark(meaning.table), meaning.limits))
     volume.GetProperty().SetScalarOpacity(opacity)
     volume.GetProperty().SetScalarOpacityUnitDistance(max(lengths) / 40)
     volume.GetProperty().SetInterpolationTypeToLinear()

@@ -12,6 +12,7 @@ WATER = (0.10, 0.42, 0.66)
 SPEED = ["#153b8b", "#1852a2", "#1a6f9d", "#1f8b92", "#3aa67f", "#93b93d", "#f0bc22"]
 BODIES = ["#a32b4a", "#c24048", "#dc5c3c", "#ec7f2f", "#f6a335", "#fccb51"]
 SMOKE = ["#ffffff", "#c9c9c9", "#8c8c8c", "#4d4d4d", "#1a1a1a"]
+DYE = ["#ffffff", "#dcc6e6", "#b287c6", "#863f9e", "#4f1268"]
 HEAT = ["#f7e3b5", "#fdbb6b", "#f5813f", "#c9302b", "#6b0f1a"]
 SIGNED = ["#1d4f91", "#5b93c7", "#a9c3dc", "#d4d5d2", "#e3b098", "#d66a52", "#96172c"]
 
@@ -32,10 +33,12 @@ def contrast(one, other):
     return (high + 0.05) / (low + 0.05)
 
 
-def colour_table(field, is_bodies, limits):
+def colour_table(field, limits, is_bodies=False, is_carried=False):
     if limits[0] < 0 < limits[1]:
         return SIGNED
-    return {"smoke": SMOKE, "temperature": HEAT}.get(field, BODIES if is_bodies else SPEED)
+    if is_bodies:
+        return BODIES
+    return {"smoke": SMOKE, "temperature": HEAT}.get(field, DYE if is_carried else SPEED)
 
 
 def transfer_function(table, limits):
@@ -51,9 +54,9 @@ def transfer_function(table, limits):
 class Meaning:
     """What colours mean: a field of bodies or of a fluid, between limits."""
 
-    def __init__(self, is_bodies, field, limits):
-        self.is_bodies, self.field, self.limits = is_bodies, field, limits
-        self.table = colour_table(field, is_bodies, limits)
+    def __init__(self, part, field, limits):
+        self.is_bodies, self.field, self.limits = part.is_bodies, field, limits
+        self.table = colour_table(field, limits, part.is_bodies, part.is_carried(field))
         self.transfer = transfer_function(self.table, limits)
 
     def key(self):

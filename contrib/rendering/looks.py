@@ -10,7 +10,7 @@ class Look:
     run: str = ""  # settings of the run, with blanks between: other outputs, or a coarser run where the scene takes long
 
 
-FIELDS = "'Output/Parts=statistics, vtu'"  # where the scene writes none
+FIELDS = "Output/Parts=vtu"  # where the scene writes none
 
 LOOKS = {
     "ball_in_stream": Look("--camera 0.5,0.35,1"),
@@ -25,11 +25,14 @@ LOOKS = {
     "elastic_sphere": Look("--surface", run="Particles/Spacing=0.03"),
     "elastic_plate_cross_flow": Look("--slice z=0 --field speed", run="Domain/Cells=30,12,12 Output/Interval=1/10"),
     "hard/at_rest": Look(run=f"{FIELDS} Output/Interval=1"),
+    "hard/body_drifts_through": Look(at=0.5),
+    "hard/body_drifts_through_3d": Look(at=0.4),
     "heated_cavity": Look("--streamlines"),
     "hydrostatic_particles": Look("--field pressure"),
     "jet_over_weir_particles": Look(run="Output/Walls=true"),
     "oscillating_cylinder": Look("--field vorticity"),
     "piston": Look("--field pressure", at=0.2),
+    "plume": Look("--range 0,0.6 --field smoke"),
     "pressure_pulse_tube": Look("--field pressure", at=0.5, run="Output/Interval=5e-4"),
     "sheet_in_cross_flow": Look(run="Domain/Cells=20,10,10"),
     "taylor_green": Look("--field vorticity --streamlines", at=0),

@@ -81,7 +81,7 @@ def add_views(group):
                        help="(default: 1280x720, of two runs 1920x720)")
     group.add_argument("--camera", default=None, help="where from: " + ", ".join(DIRECTIONS) +
                        ", or X,Y,Z (a direction)")
-    group.add_argument("--zoom", type=float, default=1.0)
+    group.add_argument("--zoom", type=float, default=1.0, metavar="FACTOR", help="show the middle this much larger")
 
 
 def arguments(description):

@@ -33,7 +33,7 @@ class Painter:
         self.window.SetSize(options.width, options.height)
 
     def meaning(self, part, field):
-        return field and Meaning(part.is_bodies, field, self.extent.limits(part.is_bodies, field, self.options))
+        return field and Meaning(part, field, self.extent.limits(part.is_bodies, field, self.options))
 
     def add_part(self, renderer, part):
         """Draw a part. Returns what its colours mean."""

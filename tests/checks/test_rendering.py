@@ -191,7 +191,7 @@ class Colours(unittest.TestCase):
             self.assertLess(steps.max(), 1.5 * steps.min())
 
     def test_fluids_and_particles_have_the_same_scale_of_speed(self):
-        self.assertIs(colours.colour_table("velocity", False, (0, 1)), colours.SPEED)
+        self.assertIs(colours.colour_table("velocity", (0, 1)), colours.SPEED)
 
     def test_scales_end_at_round_numbers(self):
         self.assertEqual(extent.rounded(0, 0.973), (0, 1))
