@@ -6,7 +6,7 @@ from .colours import DYE, SMOKE, transfer_function
 
 FINENESS = 160  # points along the longest side
 THINNEST = 0.03  # share of the scale that is seen
-DENSEST = 0.16  # opacity along a fortieth of the longest side; bodies behind a cloud are still seen
+DENSEST = 0.12  # opacity along a fortieth of the longest side: a tenth of the light passes half of a box that is full
 SOOT = ["#5c6674", "#39414d", "#20252d"]  # clouds are light because they are translucent: their colour need not be light
 
 

@@ -63,7 +63,9 @@ class Meaning:
         return self.is_bodies, self.field
 
     def apply(self, mapper, data):
-        """Colour what a mapper draws of `data`."""
+        """Colour what a mapper draws of `data`; nothing has no fields, either."""
+        if data.GetNumberOfPoints() == 0:
+            return
         mapper.ScalarVisibilityOn()
         mapper.SetScalarModeToUsePointFieldData()
         mapper.SelectColorArray(self.field)

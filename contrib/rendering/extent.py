@@ -47,6 +47,7 @@ class Extent:
     def __init__(self):
         self.bounds = vtk.vtkBoundingBox()
         self.ranges = {}  # by (is_bodies, field)
+        self.has_particles = False
 
     def add_domain(self, run):
         box = run.domain()
@@ -57,6 +58,7 @@ class Extent:
         if part.is_obstacles:  # they may reach out of the domain
             return
         self.bounds.AddBounds(self.bounds_of(part, options))
+        self.has_particles |= part.is_particles
         fields = {part.colour_field(options.field)}
         if part.is_fluid() and (options.vectors or options.streamlines):
             fields.add("velocity")
@@ -92,3 +94,21 @@ class Extent:
     def is_flat(self):
         bounds = self.corners()
         return bounds[5] - bounds[4] <= 1e-9 * (bounds[1] - bounds[0])
+
+    def missing(self, options):
+        """What is asked for but cannot be shown, in words."""
+        bounds = self.corners()
+        if not self.ranges:
+            return f"no data for the frames '{options.frames}' in '{', '.join(map(str, options.results))}'"
+        if options.field and options.field not in {field for _, field in self.ranges}:
+            return f"no part has a field '{options.field}'"
+        if (options.vectors or options.streamlines) and (False, "velocity") not in self.ranges:
+            return "--vectors and --streamlines show how a fluid flows, and there is none"
+        if options.surface and not self.has_particles:
+            return "--surface is that of a liquid of particles, and there are none"
+        if options.slice and self.is_flat():
+            return "--slice is for scenes in space"
+        for axis, place in options.slice:
+            if not bounds[2 * axis] <= place <= bounds[2 * axis + 1]:
+                return f"--slice {'xyz'[axis]}={place:g} is outside of the scene, {bounds[2 * axis]:g} to {bounds[2 * axis + 1]:g}"
+        return ""

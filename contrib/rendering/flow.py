@@ -56,7 +56,7 @@ def arrows(part, fastest, planes):
     """Begins, vectors and velocities (k, 3) of arrows; the one for the speed `fastest` is as long as they are apart."""
     region, kind = part.region(), "plane" if planes or part.is_flat() else "space"
     found = [numpy.zeros((3, 0, 3))]
-    for plane in planes or [None]:
+    for plane in (planes or [None]) if region.GetNumberOfCells() else []:
         points, distance = lattice(region.GetBounds(), ARROWS[kind], plane)
         values, inside = velocities(region, points)
         lengths = values * (LENGTH * distance / fastest)
@@ -130,6 +130,8 @@ def stream_lines(part, planes):
     """Lines (k, 3) along the flow, none of which comes near another."""
     region, kind = part.region(), "plane" if planes or part.is_flat() else "space"
     barrier, result = Barrier(part.barrier), []
+    if region.GetNumberOfCells() == 0:
+        return result
     seeds, distance = lattice(region.GetBounds(), LINES[kind], planes[0] if planes else None)
     for plane in planes[1:]:
         seeds = numpy.concatenate([seeds, lattice(region.GetBounds(), LINES[kind], plane)[0]])

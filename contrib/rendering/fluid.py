@@ -31,7 +31,7 @@ def fluid_props(part, meaning, extent, options):
             return []
         planes = [(2, part.data.GetCenter()[2])]
     if planes:
-        return [surface_actor(cut(part.region(), *plane), meaning, True) for plane in planes]
+        return [surface_actor(cut(part.data, *plane), meaning, True) for plane in planes]
     return [cloud(part.data, meaning)]
 
 

@@ -89,9 +89,8 @@ class Part:
         """`moved`: by what share of their displacement bodies are moved in the file."""
         to_points = vtk.vtkCellDataToPointData()
         data = read(file)
-        if data.GetPointData().HasArray("fluid_fraction"):
-            data = blended(data)
-        to_points.SetInputData(with_common_points(data))
+        among_bodies = data.GetPointData().HasArray("fluid_fraction")
+        to_points.SetInputData(blended(data) if among_bodies else with_common_points(data))
         to_points.Update()
         self.data = to_points.GetOutput()
         self.note_fields()
@@ -99,6 +98,7 @@ class Part:
         self.is_obstacles = name_of(file) == "obstacles"
         self.moved = moved
         self.barrier = None  # surfaces that the fluid does not pass
+        self.joined = not among_bodies
 
     def note_fields(self):
         point_data = self.data.GetPointData()
@@ -113,11 +113,13 @@ class Part:
                 self.data.GetPointData().GetArray(field).GetNumberOfComponents() == 1)
 
     def derive_vorticity(self):
-        self.data = with_vorticity(self.data, self.is_flat())
+        self.data = with_vorticity(self.region(), self.is_flat())
         self.note_fields()
 
     def region(self):
-        """Where the fluid is, with all fields."""
+        """Where the fluid is, with all fields, and with cells that share points: needed from one cell to the next, and slow."""
+        if not self.joined:
+            self.data, self.joined = with_common_points(self.data), True
         return self.data
 
     def is_empty(self):

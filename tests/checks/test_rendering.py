@@ -64,6 +64,7 @@ def fluid(dim, n, velocity, surface=None):
     """A fluid of a grid, as contrib/render has it."""
     result = part.Part.__new__(part.Part)
     result.data, result.barrier, result.is_bodies, result.is_obstacles = grid(dim, n, velocity), surface, False, False
+    result.joined = True
     result.note_fields()
     return result
 
