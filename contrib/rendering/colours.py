@@ -38,7 +38,7 @@ def colour_table(field, limits, is_bodies=False, is_carried=False):
         return SIGNED
     if is_bodies:
         return BODIES
-    return {"smoke": SMOKE, "temperature": HEAT}.get(field, DYE if is_carried else SPEED)
+    return {"smoke": SMOKE, "temperature": HEAT, "heat": HEAT}.get(field, DYE if is_carried else SPEED)
 
 
 def transfer_function(table, limits):

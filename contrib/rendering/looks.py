@@ -33,7 +33,7 @@ LOOKS = {
     "oscillating_cylinder": Look("--field vorticity"),
     "piston": Look("--field pressure", at=0.2),
     "plume": Look("--range 0,0.6 --field smoke"),
-    "pressure_pulse_tube": Look("--field pressure", at=0.5, run="Output/Interval=5e-4"),
+    "pressure_pulse_tube": Look("--field pressure", at=0.5, run="Domain/Cells=9,9,20 Output/Interval=5e-4"),
     "sheet_in_cross_flow": Look("--streamlines", run="Domain/Cells=20,10,10"),
     "taylor_green": Look("--field vorticity --streamlines", at=0),
     "turek_hron_cfd1": Look("--streamlines", run=f"{FIELDS} Output/Interval=1/4"),
@@ -41,7 +41,7 @@ LOOKS = {
     "turek_hron_cfd3": Look("--field vorticity", run=f"{FIELDS} Output/Interval=1/20"),
     "turek_hron_fsi2": Look("--field vorticity"),
     "turek_hron_fsi3": Look("--field vorticity"),
-    "two_balls": Look(at=0.25),
+    "two_balls": Look(at=0.12),
     "two_balls_3d": Look(at=0.3),
     "wave_paddle_particles": Look(at=0.6),
 }
