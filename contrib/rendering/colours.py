@@ -57,7 +57,8 @@ class Meaning:
     def __init__(self, part, field, limits):
         self.is_bodies, self.field, self.limits = part.is_bodies, field, limits
         self.table = colour_table(field, limits, part.is_bodies, part.is_carried(field))
-        self.transfer = transfer_function(self.table, limits)
+        largest = max(map(abs, limits))  # both signs: the middle of the colours is at 0
+        self.transfer = transfer_function(self.table, (-largest, largest) if self.table is SIGNED else limits)
 
     def key(self):
         return self.is_bodies, self.field

@@ -194,6 +194,13 @@ class Colours(unittest.TestCase):
     def test_fluids_and_particles_have_the_same_scale_of_speed(self):
         self.assertIs(colours.colour_table("velocity", (0, 1)), colours.SPEED)
 
+    def test_nothing_has_the_colour_between_both_signs(self):
+        flow_part = fluid(2, 4, rotation)
+        for limits in ((-1, 1), (-0.5, 1.5), (-3, 1)):
+            meaning = colours.Meaning(flow_part, "velocity", limits)
+            middle = colours.rgb(colours.SIGNED[len(colours.SIGNED) // 2])
+            numpy.testing.assert_allclose(meaning.transfer.GetColor(0), middle, atol=1e-6)
+
     def test_scales_end_at_round_numbers(self):
         self.assertEqual(extent.rounded(0, 0.973), (0, 1))
         self.assertEqual(extent.rounded(0, 1.0000001), (0, 1))
