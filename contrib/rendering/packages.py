@@ -9,6 +9,7 @@ import sys
 
 PACKAGES = ["python3-vtk9", "python3-numpy", "xvfb"]
 FOR_FILMS = ["ffmpeg"]
+ATTEMPTS = 5  # to start a display
 
 
 def missing_packages(film):
@@ -37,9 +38,9 @@ def provide_packages(film):
     vtk.vtkObject.GlobalWarningDisplayOff()
 
 
-def start_virtual_display():
-    """VTK of Debian 12 draws through an X server, so one without a screen is started;
-    it ends with this program."""
+def virtual_display():
+    """The number of a new X server without a screen, which ends with this program; "" if it could not start, as when two
+    start at the same moment and want the same number."""
     out, into = os.pipe()
     end_with_parent = ctypes.CDLL(None).prctl
     subprocess.Popen(["Xvfb", "-displayfd", str(into), "-screen", "0", "64x64x24",
@@ -48,4 +49,12 @@ def start_virtual_display():
                      preexec_fn=lambda: end_with_parent(1, signal.SIGTERM))
     os.close(into)
     with os.fdopen(out) as answer:
-        os.environ["DISPLAY"] = ":" + answer.readline().strip()
+        return answer.readline().strip()
+
+
+def start_virtual_display():
+    """VTK of Debian 12 draws through an X server."""
+    number = next(filter(None, (virtual_display() for _ in range(ATTEMPTS))), "")
+    if not number:
+        sys.exit("render: the X server Xvfb does not start")
+    os.environ["DISPLAY"] = ":" + number
