@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Frames that contrib/render has left in the folder of a run, small enough to be part of its page."""
+"""Frames, or a film, that contrib/render has left in the folder of a run, small enough to be part of its page."""
 import base64
 import glob
 import io
@@ -7,6 +7,8 @@ import os
 
 MOST = 60
 WIDTH = 720  # pixels
+FILM = "film.mp4"
+MOST_BYTES = 8_000_000  # of a film that is part of the page; a larger one must lie beside it
 
 
 def small(path):
@@ -32,3 +34,18 @@ def of_run(results):
         except (OSError, ImportError) as error:
             results.problems.append(f"'frames/{os.path.basename(file)}' cannot be shown: {error}")
     return pictures, len(files)
+
+
+def film_of(results):
+    """(what a page plays, whether that is a part of it): a data URI, or the name of the file beside it; "" if there is no film."""
+    path = results.path(FILM)
+    try:
+        if os.path.getsize(path) > MOST_BYTES:
+            return FILM, False
+        with open(path, "rb") as file:
+            return "data:video/mp4;base64," + base64.b64encode(file.read()).decode(), True
+    except FileNotFoundError:
+        return "", False
+    except OSError as error:
+        results.problems.append(f"'{FILM}' cannot be shown: {error}")
+        return "", False

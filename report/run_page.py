@@ -99,7 +99,8 @@ def commands(results, found):
         rows.append(("Repeat the run with all its parameters:",
                      f"./undine {shlex.quote(results.path('parameters.prm'))} --output NEW"))
     if results.has("solution.pvd"):
-        rows.append(("Make frames of it, which this page then shows:", f"contrib/render {folder}"))
+        rows.append(("Make a film of it, which this page then shows, or frames alone, without --film:",
+                     f"contrib/render {folder} --film\n./undine report {folder}"))
     rows.append(("Write this page again, or compare with another run:",
                  f"./undine report {folder}\n./undine report {folder} OTHER --out comparison.html"))
     return [*rows, ("Cite the program, and the very parameters:", citation(results))]
@@ -116,7 +117,8 @@ def write(results):
     drawn, constant, left_out = plots.of_table(results.statistics, results.probes())
     of_plots = sections_of_plots(results, drawn)
     picture, no_picture = scene_picture.of_run(results)
-    pictures, n_frames = frames.of_run(results)
+    film, embedded = frames.film_of(results)
+    pictures, n_frames = ([], 0) if film else frames.of_run(results)
     on, off = results.attempt("effects.json", effects, ([], []))
     given = parameters.given(results.text("parameters.prm"))
     timing = phases.tree(results.path("timing"))
@@ -126,6 +128,8 @@ def write(results):
         others.remark = "Not drawn, for want of room: " + ", ".join(left_out) + "."
     sections = [Section("Frames", remark=f"{len(pictures)} of {n_frames} frames that contrib/render has made, reduced in size.")
                 ] if pictures else []
+    sections += [Section("Film", remark="What contrib/render has made." if embedded else
+                         f"What contrib/render has made: the file {frames.FILM}, which must lie beside this page.")] if film else []
     sections += of_plots.values()
     sections += [Section("Stability and error", "stability")] if results.summary else []
     sections += [Section("Effects")] if results.effects else []
@@ -137,7 +141,7 @@ def write(results):
     sections.append(Section("Repeat, resume, cite", "cite"))
     return template.page(
         "run.html", sections, title=results.title(), subtitle=results.attempt("summary.json", subtitle, results.folder), verdict=found, facts=results.attempt("summary.json", facts.of_run, []),
-        picture=picture, no_picture=no_picture, frames=pictures, margins=results.attempt("summary.json", margins, []),
+        picture=picture, no_picture=no_picture, frames=pictures, film=film, margins=results.attempt("summary.json", margins, []),
         errors=results.attempt("summary.json", errors, []),
         error_remarks=error_remarks(results), advice=results.attempt("effects.json", advice, []), effects_on=on, effects_off=off,
         effect_numbers=results.attempt("effects.json", effect_numbers, []), timing=timing, given=given,

@@ -68,7 +68,8 @@ endforeach()
 add_test(NAME contrib/render
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_render.py ${PROJECT_SOURCE_DIR}/contrib/render
                  $<TARGET_FILE:undine> ${PROJECT_SOURCE_DIR}/prm)
-set_tests_properties(contrib/render PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+add_test(NAME contrib/rendering COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_rendering.py)
+set_tests_properties(contrib/render contrib/rendering PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 
 # Iterations of the simultaneous scheme's linear solver, as recorded.
 foreach(ranks 1 2)

@@ -66,8 +66,9 @@ def main():
         print("skipped: the Debian packages python3-vtk9, python3-numpy and xvfb are not installed")
         sys.exit(77)
     for name, options in (("cook_membrane", ["--field", "von_Mises_stress"]), ("plume", []),
-                          ("obstacle_flow", ["--field", "velocity"]), ("jet_two_sheets", []),
-                          ("floating_block", ["--field", "pressure"]), ("elastic_sphere", [])):
+                          ("obstacle_flow", ["--field", "speed", "--streamlines"]),
+                          ("jet_two_sheets", ["--slice", "z=0.5", "--vectors"]),
+                          ("floating_block", ["--field", "pressure"]), ("elastic_sphere", ["--surface"])):
         with tempfile.TemporaryDirectory() as folder:
             scene_tools.run(program, [f"{scenes}/{name}.prm", "--output", folder,
                                       "--set", "Time/Maximum steps=2"])

@@ -17,7 +17,7 @@ from PIL import Image
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 import sample_run  # noqa: E402
-from report import (comparison, facts, page_file, parameters, phases, plots, results, run_page, shapes, thinning,  # noqa: E402
+from report import (comparison, facts, frames, page_file, parameters, phases, plots, results, run_page, shapes, thinning,  # noqa: E402
                     verdict, vtu)
 from seen_page import Page  # noqa: E402
 
@@ -199,6 +199,21 @@ class Sections(Folder):
                 self.assertEqual(found.size[0], 720)
                 reds.append(found.getpixel((5, 5))[0])
         numpy.testing.assert_allclose(reds, [number for number in range(0, 130, 3) if number != 3], atol=3)
+
+    def test_a_film_is_shown_instead_of_frames(self):
+        folder = self.folder()
+        os.mkdir(os.path.join(folder, "frames"))
+        Image.new("RGB", (40, 40)).save(os.path.join(folder, "frames", "frame_0000.png"))
+        self.put(folder, "film.mp4", "moving pictures")
+        page = Page(self.text(folder))
+        self.assertIn("film", page.sections)
+        self.assertIn("data:video/mp4;base64," + base64.b64encode(b"moving pictures").decode(), page.links)
+        self.assertNotIn("frames", page.sections)
+        with open(os.path.join(folder, "film.mp4"), "r+b") as file:
+            file.truncate(frames.MOST_BYTES + 1)
+        large = self.text(folder)
+        self.assertLess(len(large), LIMIT)
+        self.assertIn("film.mp4", Page(large).links)
 
     def test_phases_are_a_tree(self):
         top = phases.tree(os.path.join(self.folder(), "timing"))
