@@ -4,6 +4,7 @@ import math
 import os
 import re
 import subprocess
+from fractions import Fraction
 
 import hard_case_laws as laws
 from study import runs
@@ -16,7 +17,7 @@ COLOURS = 64  # of the palette
 
 def end_of(scene):
     with open(scene) as file:
-        return float(re.search(r"^ *set End *= *(\S+)", file.read(), re.M)[1])
+        return float(Fraction(re.search(r"^ *set End *= *(\S+)", file.read(), re.M)[1]))
 
 
 def times_of(folder):
