@@ -12,7 +12,7 @@ from study import runs
 RENDER = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "contrib", "render")
 STEP = 1 / 30
 ACROSS = 6
-COLOURS = 64  # of the palette
+COLOURS = 160  # of the palette
 
 
 def end_of(scene):
