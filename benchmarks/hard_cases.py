@@ -7,25 +7,27 @@ usage: benchmarks/hard_cases.py [PROGRAM] [--case NAME]... [--scheme NAME...] [-
                                 [--check | --short | --pictures] [--limit SECONDS] [--out DIR] [--jobs N]
 
 Makes the runs, or takes those that are there, and writes hard_cases.md (table) to DIR (default: output/hard_cases).
---check: only the simultaneous scheme, and an error if it is not stable or does not show what must be seen. --short: the same
-for the first few steps only, as the tests do. --pictures: only a picture of each scene, all of them in hard_cases.png.
+Scenes of particles have that scheme alone, of which steps are frames, and a table of their own. --check: only the scheme that
+must be stable, and an error if it is not or does not show what must be seen. --short: the same for the first few steps only, as
+the tests do. --pictures: only a picture of each scene, all of them in hard_cases.png; runs that take longer than --limit are shown
+as far as they came, and say so.
 """
 import argparse
 import math
 import os
-import re
-import subprocess
 import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, ROOT)
 import hard_case_laws as laws  # noqa: E402
-from study import campaign, cases, columns, description, runs, tables  # noqa: E402
+import hard_case_pictures  # noqa: E402
+from study import campaign, cases, columns, description, tables  # noqa: E402
 
 SPLITTING = {"Scheme": "time_splitting", "Time/Integrator": "theta"}  # with that of two stages u and w are the same
 SCHEMES = {"simultaneous": {"Scheme": "simultaneous"}, "splitting u": SPLITTING,
            "splitting w": {**SPLITTING, "Coupling/Fluid driven by": "displacement"}}
+PARTICLE = {"particle": {}}
 STEPS = ("1/30", "1/240")
 SHORTER = {"1/30": "1/480", "1/240": "1/3840"}  # sixteen times
 RESOLVED = 0.5  # largest omega h of a swing of which the damping is judged
@@ -39,12 +41,18 @@ def seconds(step):
     return 1 / float(step[2:])
 
 
+def schemes(name):
+    """{scheme: its settings} of a scene."""
+    return PARTICLE if laws.SCENES[name].scheme in PARTICLE else SCHEMES
+
+
 class Runs:
     """Those of one scene, by scheme and step."""
 
     def __init__(self, options, name, end=None):
         steps = [*STEPS, *SHORTER.values()]
-        variations = [description.Variation("scheme", "variant", list(SCHEMES), list(SCHEMES.values()), []),
+        self.schemes, self.hard = schemes(name), laws.SCENES[name]
+        variations = [description.Variation("scheme", "variant", list(self.schemes), list(self.schemes.values()), []),
                       description.Variation("step", "variant", steps, [{"Time/Step": step} for step in steps], [])]
         settings = {} if end is None else {"Time/End": f"{end:.10g}"}
         self.study = description.Study(name, "", scene_file(name), 1, 0, options.limit, "core seconds", "all", [], settings, variations)
@@ -53,7 +61,7 @@ class Runs:
 
     def make(self, wanted):
         """Make or take the runs of a list of pairs of scheme and step."""
-        positions = {pair: cases.Case((list(SCHEMES).index(pair[0]), self.study.variations[1].names.index(pair[1])))
+        positions = {pair: cases.Case((list(self.schemes).index(pair[0]), self.study.variations[1].names.index(pair[1])))
                      for pair in wanted}
         made = campaign.Campaign(self.options.program, self.study, list(positions.values()), self.folder, self.options.jobs, None)
         results = made.carry_out()
@@ -73,13 +81,13 @@ class Runs:
         at = f" at {result['reached']:.3g} s" if result["verdict"] == "failed" else ""
         return result["verdict"] + at + redone
 
-    def seen(self, step):
-        """The number of the law in the simultaneous run; not a number if there is none."""
-        run, law = self.made.get(("simultaneous", step), {"columns": {}})["columns"], laws.SCENES[self.study.title].law
+    def seen(self, law, step):
+        """The number of a law in the run that must be stable; not a number if there is none."""
+        run = self.made.get((self.hard.scheme, step), {"columns": {}})["columns"]
         return law.value(run) if len(run.get("Time", ())) > 1 else math.nan
 
     def is_stable(self, step):
-        result = self.made["simultaneous", step]["result"]
+        result = self.made[self.hard.scheme, step]["result"]
         return not result["failure"] and result.get("verdict") == "stable"
 
 
@@ -110,93 +118,64 @@ def rows(made, name):
     hard = laws.SCENES[name]
     result = []
     for step in made.options.step:
-        value = made.seen(step)
-        shown = "" if math.isnan(value) else f"{value:.4g}" + ("" if hard.law.keeps(value) else " (!)")
+        values = [(law, made.seen(law, step)) for law in hard.laws()]
+        shown = "; ".join(f"{value:.4g}" + ("" if law.keeps(value) else " (!)") for law, value in values if not math.isnan(value))
         compared = ""
         reference = made.made.get(("simultaneous", SHORTER[step]))
         if hard.column and reference and made.is_stable(step) and not reference["result"]["failure"]:
             compared, close = agreement(hard, made.made["simultaneous", step]["columns"], reference["columns"], step)
             compared += "" if close else " (!)"
-        result.append([name, step, *(made.verdict(scheme, step) for scheme in SCHEMES),
-                       f"{hard.law.what}: {hard.law.wanted:.4g}", shown, compared])
+        wanted = "; ".join(f"{law.what}: {law.wanted:.4g}" for law in hard.laws())
+        result.append([name, step, *(made.verdict(scheme, step) for scheme in made.schemes), wanted, shown, compared])
     return result
 
 
-HEAD = ["scene", "step [s]", *SCHEMES, "must be seen", "seen", "against steps of h/16"]
+def head(of_schemes):
+    return ["scene", "step [s]", *of_schemes, "must be seen", "seen", "against steps of h/16"]
 
 
 def full(options):
-    """The table of all schemes."""
-    lines = []
-    for name in options.case:
-        wanted = [(scheme, step) for scheme in options.scheme for step in options.step]
-        wanted += [("simultaneous", SHORTER[step]) for step in options.step if step in options.shorter and laws.SCENES[name].column]
-        made = Runs(options, name).make(wanted)
-        lines += rows(made, name)
-        print("\n".join(tables.table(HEAD, lines[-len(options.step):])[2:-1]), flush=True)
+    """The tables of all schemes."""
+    written = []
+    for of_schemes in (SCHEMES, PARTICLE):
+        lines = []
+        for name in (each for each in options.case if schemes(each) is of_schemes):
+            wanted = [(scheme, step) for scheme in of_schemes if scheme in options.scheme for step in options.step]
+            wanted += [("simultaneous", SHORTER[step]) for step in options.step if step in options.shorter and laws.SCENES[name].column]
+            made = Runs(options, name).make(wanted)
+            lines += rows(made, name)
+            print("\n".join(tables.table(head(of_schemes), lines[-len(options.step):])[2:-1]), flush=True)
+        if lines:
+            written += [*tables.table(head(of_schemes), lines), ""]
     with open(os.path.join(options.out, "hard_cases.md"), "w") as file:
-        file.write("\n".join(tables.table(HEAD, lines)))
+        file.write("\n".join(written))
 
 
 def faults(options, name, step):
-    """What is not as it must be in a run of the simultaneous scheme; in a short one a law is judged that holds from the start."""
+    """What is not as it must be in a run of the scheme that must be stable; in a short one laws are judged that hold from the
+    start."""
     hard = laws.SCENES[name]
     end = hard.short * (1 if step == STEPS[0] else 0.25) if options.short else None
-    made = Runs(options, name, end).make([("simultaneous", step)])
-    print(f"{name}, {step} s: {made.verdict('simultaneous', step)}", flush=True)
+    made = Runs(options, name, end).make([(hard.scheme, step)])
+    print(f"{name}, {step} s: {made.verdict(hard.scheme, step)}", flush=True)
     if not made.is_stable(step):
-        return [f"{name}, {step} s: {made.made['simultaneous', step]['result']}"]
-    if options.short and not hard.law.early:
-        return []
-    value = made.seen(step)
-    print(f"  {hard.law.what}: {value:.6g}, must be {hard.law.wanted:.6g} +- {hard.law.allowed:.3g}", flush=True)
-    return [] if hard.law.keeps(value) else [f"{name}, {step} s: {hard.law.what} is {value:.6g}"]
+        return [f"{name}, {step} s: {made.made[hard.scheme, step]['result']}"]
+    wrong = []
+    for law in (each for each in hard.laws() if each.early or not options.short):
+        value = made.seen(law, step)
+        print(f"  {law.what}: {value:.6g}, must be {law.wanted:.6g} +- {law.allowed:.3g}", flush=True)
+        if not law.keeps(value):
+            wrong.append(f"{name}, {step} s: {law.what} is {value:.6g}")
+    return wrong
 
 
 def check(options):
-    """The simultaneous scheme alone; exits with what is not as it must be."""
+    """The scheme that must be stable alone; exits with what is not as it must be."""
     with tempfile.TemporaryDirectory() as folder:
         options.out = folder
         wrong = [fault for name in options.case for step in STEPS for fault in faults(options, name, step)]
     if wrong:
         sys.exit("\n".join(wrong))
-
-
-def picture(options, name):
-    """The file of a picture of a run with steps of 1/30 s, which is made if it is not there; None if that fails."""
-    folder = os.path.join(options.out, "pictures", name)
-    file = os.path.join(folder, "frame_0000.png")
-    if not os.path.exists(file):
-        subprocess.run([options.program, scene_file(name), "--output", folder, "--overwrite", "--set", "Output/Parts=vtu"],
-                       env=runs.environment(), stdout=subprocess.DEVNULL, check=False)
-        with open(os.path.join(folder, "solution.pvd")) as written:
-            times = sorted(set(map(float, re.findall(r'timestep="([^"]+)"', written.read()))))
-        frame = round(laws.SCENES[name].shown * (len(times) - 1))
-        subprocess.run([os.path.join(ROOT, "contrib", "render"), folder, "--out", folder, "--frames", f"{frame}:{frame + 1}"],
-                       check=False)
-        made = sorted(each for each in os.listdir(folder) if each.startswith("frame_"))
-        if made:
-            os.replace(os.path.join(folder, made[0]), file)
-    return file if os.path.exists(file) else None
-
-
-def pictures(options):
-    """All scenes on a sheet."""
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-    across = 6
-    figure, axes = pyplot.subplots(math.ceil(len(options.case) / across), across, squeeze=False,
-                                   figsize=(2.2 * across, 1.45 * math.ceil(len(options.case) / across)))
-    for axis in axes.flat:
-        axis.axis("off")
-    for axis, name in zip(axes.flat, options.case):
-        file = picture(options, name)
-        if file:
-            axis.imshow(pyplot.imread(file))
-        axis.set_title(name, fontsize=6)
-    figure.tight_layout(pad=0.3)
-    figure.savefig(os.path.join(options.out, "hard_cases.png"), dpi=110)
 
 
 def main():
@@ -207,7 +186,7 @@ def main():
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--pictures", action="store_true")
     parser.add_argument("--shorter", nargs="*", default=list(STEPS), help="steps that are compared with h/16 (default: all)")
-    parser.add_argument("--scheme", nargs="*", choices=list(SCHEMES), default=list(SCHEMES))
+    parser.add_argument("--scheme", nargs="*", choices=[*SCHEMES, *PARTICLE], default=[*SCHEMES, *PARTICLE])
     parser.add_argument("--step", nargs="*", choices=STEPS, default=list(STEPS))
     parser.add_argument("--limit", type=float, default=3600, help="of a run [s] (default: 3600)")
     parser.add_argument("--out", default=os.path.join("output", "hard_cases"))
@@ -216,7 +195,7 @@ def main():
     options.case = options.case or list(laws.SCENES)
     os.makedirs(options.out, exist_ok=True)
     if options.pictures:
-        pictures(options)
+        hard_case_pictures.sheet(options, {name: scene_file(name) for name in options.case})
     elif options.check or options.short:
         check(options)
     else:
