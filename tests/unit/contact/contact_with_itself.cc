@@ -165,6 +165,31 @@ TEST_CASE("a body that touches itself or passes through itself at the start is r
 }
 
 
+TEST_CASE(
+  "turned boxes, whose faces lie in a plane to rounding only, do not pass through themselves",
+  "[contact]")
+{
+  const auto complaint = [](const std::string &cells, const std::string &rotation) {
+    const Scene<3> scene(
+      "subsection Bodies\nsubsection box\nset Density = 1\nset Young's modulus = "
+      "1\nset Poisson's ratio = 0\nset Lower corner = .69, .16, .18\nset Upper "
+      "corner = .81, .34, .32\nset Cells = " +
+        cells + "\nset Rotation = " + rotation +
+        "\nend\nend\nsubsection Solid numerics\nset Element degree = 1\nend\n",
+      .03);
+    return message_of([&] { scene.contact.check_start(scene.model.vector(), 0); });
+  };
+  for (const char *cells : {"2, 3, 1", "3, 3, 2", "2, 1, 3"})
+    for (const char *rotation : {"16.07, -38.63, 36.75",
+                                 "-35.93, 11.57, -30.11",
+                                 "-22.31, -17.28, 11.73",
+                                 "5, 40, -3",
+                                 "31, 7, 22",
+                                 "-12, 33, 8"})
+      CHECK(complaint(cells, rotation) == "no error");
+}
+
+
 TEST_CASE("a body that ends on a wall keeps off it elsewhere", "[contact]")
 {
   // The box's left face is held at the plane x = 0, and the box pressed against that.
