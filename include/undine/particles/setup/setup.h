@@ -20,7 +20,7 @@ namespace undine::particles
       0.02; ///< of a body's pressure that elasticity takes over in a sub-step [1]
     int most_elastic_steps = 0; ///< explicit steps of bodies in a sub-step; if more were needed,
                                 ///< one implicit step is taken; 0: always explicit
-    PositionUpdate position_update = PositionUpdate::end_velocity;
+    PositionUpdate position_update = PositionUpdate::automatic;
     double elastic_share = 0.6; ///< of l0 / c_p that an explicit step of a body may take [1]
 
     Source source        = Source::divergence;
@@ -107,8 +107,8 @@ namespace undine::particles
     /// Fluid and bodies fill a domain that is closed or periodic: there is no free surface, and
     /// pressures are known up to a constant. Without inflows, outflows and room around.
     bool is_full = false;
-    /// Potential energy per mass of the body force where the fluid at rest has no pressure, if
-    /// it fills its domain [J/kg].
+    /// Potential energy per mass of the body force where the fluid at rest has no pressure: in
+    /// the highest corner of a domain that it fills, else at its surface at the start [J/kg].
     double top_potential = 0;
 
     std::vector<OpenSide> open_sides;
