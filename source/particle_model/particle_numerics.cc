@@ -137,13 +137,12 @@ namespace undine
       options,
       "Position update",
       numerics.position_update,
-      {{"automatic", PositionUpdate::automatic},
-       {"end velocity", PositionUpdate::end_velocity},
+      {{"end velocity", PositionUpdate::end_velocity},
        {"mean velocity", PositionUpdate::mean_velocity}},
-      "With what velocity fluid goes through a sub-step. end velocity: that at its end. mean "
-      "velocity: the mean of those at its start and end, which dampens vortices and swinging "
-      "less; beside bodies first peaks of impacts are then higher and scatter more. automatic: "
-      "mean velocity, with bodies or obstacles that move end velocity.");
+      "With what velocity fluid goes through a sub-step. end velocity: that at its end, which "
+      "dampens swinging. mean velocity: the mean of those at its start and end, with which waves "
+      "and "
+      "vortices go on; beside bodies first peaks of impacts are then higher and scatter more.");
   }
 
 

@@ -29,12 +29,10 @@ namespace undine::particles
     void
     set_ways(Constants<dim, Real> &constants, const Setup<dim> &setup)
     {
-      const bool nothing_moves = setup.bodies.empty() && setup.n_moving == 0;
-      const bool by_mean_velocity =
-        setup.numerics.position_update == PositionUpdate::mean_velocity ||
-        (setup.numerics.position_update == PositionUpdate::automatic && nothing_moves);
-      constants.path_weight    = by_mean_velocity ? Real(setup.is_full ? 0.6 : 0.5) : Real(1);
-      constants.is_alone       = setup.has_fluid && !setup.is_full && nothing_moves;
+      const bool nothing_moves    = setup.bodies.empty() && setup.n_moving == 0;
+      const bool by_mean_velocity = setup.numerics.position_update == PositionUpdate::mean_velocity;
+      constants.path_weight       = by_mean_velocity ? Real(setup.is_full ? 0.6 : 0.5) : Real(1);
+      constants.is_alone = by_mean_velocity && setup.has_fluid && !setup.is_full && nothing_moves;
       constants.pressure_place = constants.is_alone ? 1 - constants.path_weight : Real(1);
     }
 

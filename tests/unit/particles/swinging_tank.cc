@@ -54,6 +54,8 @@ namespace
     ParticleScene<2> scene(depth / layers);
     scene.setup.gravity = along<2>(1, -g) + along<2>(0, tilt * g);
     scene.setup.depth   = depth;
+
+    scene.setup.numerics.position_update = PositionUpdate::mean_velocity;
     scene.add_tank({2 * layers, 3 * layers / 2}, layers);
     scene.for_each_point({0, 0}, {2 * layers, layers}, [&](const Point<2> &x) {
       scene.add(x, Kind::fluid, 0, Point<2>::zero());

@@ -37,8 +37,7 @@ namespace undine::particles
   /// The velocity with which fluid goes through a sub-step of length h.
   enum class PositionUpdate
   {
-    automatic,    ///< mean_velocity, but with bodies or walls that move end_velocity
-    end_velocity, ///< that at its end
+    end_velocity, ///< that at its end: dissipative, of first order in h
     mean_velocity ///< the mean of those at its start and at its end
   };
 
@@ -62,9 +61,9 @@ namespace undine::particles
     /// particles: pressures are what is beyond it (P11), and of body forces only what acts on a
     /// density other than the fluid's is left.
     bool is_full;
-    /// Fluid at a free surface, without bodies and walls that move: sub-steps, shifts and weights
-    /// then let waves go on. Beside bodies they would cost light ones 3 % of their way, and beside
-    /// walls that move let single particles through.
+    /// Fluid at a free surface that moves by mean velocities, without bodies and walls that move:
+    /// sub-steps, shifts and weights then let waves go on. Beside bodies they would cost light ones
+    /// 3 % of their way, and beside walls that move let single particles through.
     bool is_alone;
     Real displaced_density; ///< the fluid's if is_full, else zero [kg/m^3]
     Real top_potential;     ///< of Setup [J/kg]

@@ -20,7 +20,7 @@ namespace undine::particles
       0.02; ///< of a body's pressure that elasticity takes over in a sub-step [1]
     int most_elastic_steps = 0; ///< explicit steps of bodies in a sub-step; if more were needed,
                                 ///< one implicit step is taken; 0: always explicit
-    PositionUpdate position_update = PositionUpdate::automatic;
+    PositionUpdate position_update = PositionUpdate::end_velocity;
     double elastic_share = 0.6; ///< of l0 / c_p that an explicit step of a body may take [1]
 
     Source source        = Source::divergence;
