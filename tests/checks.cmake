@@ -143,8 +143,19 @@ add_test(NAME long/memory_particles
          COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_memory.py
                  $<TARGET_FILE:undine> ${PROJECT_SOURCE_DIR}/prm/jet_over_weir_particles.prm
                  "Particles/Spacing=0.03" "Output/Interval=1")
-set_tests_properties(long/memory_coupled long/memory_obstacle long/memory_particles PROPERTIES
-  LABELS long TIMEOUT 3600)
+# Water that swings for ten periods, and full boxes: at rest for ten seconds, with a ball that sinks.
+add_test(NAME long/swinging_tank
+         COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/benchmarks/swinging_tank.py --check
+                 --program $<TARGET_FILE:undine>)
+add_test(NAME long/particle_acceptance
+         COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/benchmarks/particle_acceptance.py
+                 --rows rest sinking --check --program $<TARGET_FILE:undine>)
+add_test(NAME runs/particle_acceptance
+         COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/benchmarks/particle_acceptance.py
+                 --short --rows rest sinking --check --program $<TARGET_FILE:undine>)
+set_tests_properties(runs/particle_acceptance PROPERTIES TIMEOUT 300)
+set_tests_properties(long/memory_coupled long/memory_obstacle long/memory_particles
+  long/swinging_tank long/particle_acceptance PROPERTIES LABELS long TIMEOUT 3600)
 
 # Pages about runs: by laws, and of whole runs in a browser, which is skipped where there is none.
 add_test(NAME report/laws COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_report.py)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace undine
 {
@@ -369,18 +370,29 @@ namespace undine
         "Allowed: only with 'Particles / Pressure / Pair force = balanced' and 'Coupling = "
         "simultaneous'. Try: them, or leave a layer of a spacing without fluid.");
     constants.is_full = true;
-    const particles::BodyForce<dim, double> force{
-      constants.gravity, constants.attraction, constants.centre};
+    std::vector<dealii::Point<dim>> corners;
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {
-        auto place = plain<dim>(box.lower);
+        auto place = box.lower;
         for (unsigned int axis = 0; axis < dim; ++axis)
           if (corner >> axis & 1)
             place[axis] = box.upper[axis];
-        const double potential = force.potential(place);
-        constants.top_potential =
-          corner == 0 ? potential : std::max(constants.top_potential, potential);
+        corners.push_back(place);
       }
+    constants.top_potential = largest_potential(corners);
+  }
+
+
+  template <int dim>
+  double
+  ParticleModel<dim>::largest_potential(const std::vector<dealii::Point<dim>> &places) const
+  {
+    const particles::BodyForce<dim, double> force{
+      constants.gravity, constants.attraction, constants.centre};
+    double result = places.empty() ? 0 : -std::numeric_limits<double>::infinity();
+    for (const auto &place : places)
+      result = std::max(result, force.potential(plain<dim>(place)));
+    return result;
   }
 
 
@@ -398,6 +410,10 @@ namespace undine
     };
     fluid.fill(box, taken);
     check_room(fluid, taken);
+    auto places = fluid.places;
+    for (const auto &particle : inflow)
+      places.push_back(particle.place);
+    constants.top_potential = largest_potential(places);
     find_surface(fluid, obstacles);
     dealii::Tensor<1, dim> gravity;
     for (unsigned int axis = 0; axis < dim; ++axis)

@@ -140,8 +140,9 @@ namespace undine
       {{"end velocity", PositionUpdate::end_velocity},
        {"mean velocity", PositionUpdate::mean_velocity}},
       "With what velocity fluid goes through a sub-step. end velocity: that at its end, which "
-      "dampens swinging and impacts. mean velocity: the mean of those at its start and end, more "
-      "accurate where motion is smooth; first peaks of impacts are higher and scatter more.");
+      "dampens swinging. mean velocity: the mean of those at its start and end, with which waves "
+      "and "
+      "vortices go on; beside bodies first peaks of impacts are then higher and scatter more.");
   }
 
 

@@ -141,6 +141,9 @@ namespace undine
     /// Whether the fluid has a surface. Throws InputError if one of several parts has none.
     void
     find_surface(const ParticleFluid<dim> &fluid, const ParticleObstacles<dim> &obstacles);
+    /// Of the body force, per mass; 0 for no places [J/kg].
+    double
+    largest_potential(const std::vector<dealii::Point<dim>> &places) const;
     void
     check_inflow(const ParticleFluid<dim>               &fluid,
                  const std::vector<InflowParticle<dim>> &inflow,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/disjoint_sets.h>
 #include <undine/output/probes/particle_queries.h>
-#include <undine/particle_model/point_grid.h>
+#include <undine/particles/model/lattice.h>
 
 #include <algorithm>
 #include <limits>
@@ -82,11 +82,40 @@ namespace undine
   }
 
 
+  template <int dim>
+  SurfaceOffset<dim>::SurfaceOffset(const ParticleModel<dim>            &model,
+                                    const particles::ParticleState<dim> &state)
+    : state(state)
+    , grid(model.setup().numerics.reach * model.domain().spacing)
+    , spacing(model.domain().spacing)
+    , reach(model.setup().numerics.reach * spacing)
+    , in_plane(particles::full_lattice(dim - 1, model.setup().numerics.reach).number_density)
+    , of_all(particles::full_lattice(dim, model.setup().numerics.reach).number_density)
+  {
+    for (std::size_t k = 0; k < state.positions.size(); ++k)
+      grid.add(point_of(state.positions[k]));
+  }
+
+
+  template <int dim>
+  double
+  SurfaceOffset<dim>::operator()(const std::size_t number) const
+  {
+    double density = 0;
+    grid.for_each_near(grid[number], reach, [&](const std::size_t other) {
+      if (other != number && !state.tags[other].is_parked())
+        density += reach / std::max(grid[number].distance(grid[other]), 0.1 * spacing) - 1;
+    });
+    return spacing * std::clamp((density - of_all / 2) / in_plane, -0.5, 0.5);
+  }
+
+
 #define UNDINE_INSTANTIATE(dim)                                                                    \
   template std::size_t place_of_identity(const particles::ParticleState<dim> &, const int);        \
   template int nearest_of_body(const ParticleModel<dim> &, const int, const dealii::Point<dim> &); \
   template std::vector<std::size_t> main_part_of_fluid(const particles::ParticleState<dim> &,      \
-                                                       const double);
+                                                       const double);                              \
+  template class SurfaceOffset<dim>;
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

@@ -7,7 +7,8 @@
 
 namespace undine
 {
-  /// The pressure of particles on a disc of a wall, averaged [Pa].
+  /// The pressure of particles on a disc of a wall, averaged [Pa]. The disc moves with an obstacle
+  /// that does.
   template <int dim>
   class WallPressure : public Probe<dim>
   {
@@ -15,7 +16,11 @@ namespace undine
     void
     add_options(const Options &options) override
     {
-      options.require("Point", point, "m", Allowed::anything(), "Centre of the disc, on a wall.");
+      options.require("Point",
+                      point,
+                      "m",
+                      Allowed::anything(),
+                      "Centre of the disc, on a wall; of an obstacle that moves, at the start.");
       options.add("Radius",
                   radius,
                   "m",
@@ -63,7 +68,9 @@ namespace undine
 
       std::vector<int> result;
       for (std::size_t k = 0; k < start.tags.size(); ++k)
-        if (start.tags[k].code == particles::Tag::of(particles::Kind::wall, 0).code)
+        if (start.tags[k].kind() == particles::Kind::wall &&
+            (start.tags[k].material() == 0 ||
+             start.tags[k].material() == particles::moving_material))
           {
             double square = 0;
             for (unsigned int axis = 0; axis < dim; ++axis)

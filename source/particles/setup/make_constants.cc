@@ -24,6 +24,18 @@ namespace undine::particles
           minimum(constants.lightest_density, static_cast<Real>(body.density));
     }
 
+    /// How particles go through a sub-step.
+    template <int dim, class Real>
+    void
+    set_ways(Constants<dim, Real> &constants, const Setup<dim> &setup)
+    {
+      const bool nothing_moves    = setup.bodies.empty() && setup.n_moving == 0;
+      const bool by_mean_velocity = setup.numerics.position_update == PositionUpdate::mean_velocity;
+      constants.path_weight       = by_mean_velocity ? Real(setup.is_full ? 0.6 : 0.5) : Real(1);
+      constants.is_alone = by_mean_velocity && setup.has_fluid && !setup.is_full && nothing_moves;
+      constants.pressure_place = constants.is_alone ? 1 - constants.path_weight : Real(1);
+    }
+
     /// The longest sub-step that gravity waves allow [s]; 0 without any.
     template <int dim>
     double
@@ -86,10 +98,8 @@ namespace undine::particles
     constants.surface_one_sidedness = static_cast<Real>(numerics.surface_one_sidedness);
     constants.surface_fade          = static_cast<Real>(numerics.surface_fade);
     constants.air                   = static_cast<Real>(numerics.air);
-    constants.path_weight           = numerics.position_update == PositionUpdate::mean_velocity
-                                        ? Real(setup.is_full ? 0.6 : 0.5)
-                                        : Real(1);
-    constants.collision_distance    = static_cast<Real>(numerics.collision_distance * l0);
+    set_ways(constants, setup);
+    constants.collision_distance = static_cast<Real>(numerics.collision_distance * l0);
     constants.fluid_collision_distance =
       setup.is_full ? minimum(constants.collision_distance, static_cast<Real>(0.5 * l0))
                     : constants.collision_distance;

@@ -172,6 +172,65 @@ TEST_CASE("particles: probes of the body, the wall and the front")
 }
 
 
+TEST_CASE("particles: heights and momenta of a block are exact, single particles count little")
+{
+  const auto models = sample_models();
+  auto       state  = sample_state(models);
+  const auto height = [&] {
+    return measured(models, state, "surface height", "set Point = 4.3, 7")[0].value;
+  };
+  CHECK(height() == Approx(3));
+
+  // 24 particles of 1000 kg each.
+  for (std::size_t p = 0; p < state.particles.tags.size(); ++p)
+    state.particles.velocities[p][1] = -9.81 * 0.3;
+  const auto all = measured(models, state, "fluid region", "set Region = 1");
+  CHECK(all[0].value == Approx(24e3));
+  CHECK(all[1].value == Approx(0).margin(1e-9));
+  CHECK(all[2].value == Approx(-24e3 * 9.81 * 0.3));
+  CHECK(all[3].value == Approx(24e3 * std::pow(9.81 * 0.3, 2) / 2));
+  CHECK(measured(models, state, "fluid region", "set Region = 2 - y")[0].value == Approx(16e3));
+
+  // One that lies on the others leaves the height where it is.
+  for (std::size_t p = 0; p < state.particles.tags.size(); ++p)
+    if (state.particles.tags[p].kind() == Kind::fluid && state.particles.positions[p][1] < 1 &&
+        std::abs(state.particles.positions[p][0] - 4.75) < 0.1)
+      state.particles.positions[p][1] = 3.5;
+  CHECK(measured(models, state, "front", "set Direction = y")[0].value == Approx(4));
+  CHECK(height() == Approx(3));
+}
+
+
+TEST_CASE("particles: pressures on a body and on an obstacle that moves")
+{
+  const auto models = sample_models("subsection Obstacles\n subsection gate\n  set Shape = box\n"
+                                    "  set Lower corner = 6, 0\n  set Upper corner = 8, 8\n"
+                                    "  set Displacement = t; 0\n end\nend\n");
+  State<2>   state;
+  state.particles = models.particles->initial_state();
+  for (std::size_t p = 0; p < state.particles.tags.size(); ++p)
+    {
+      state.particles.pressures[p] = 100 * (8 - state.particles.positions[p][1]);
+      state.particles.positions[p][0] += 0.5; // whatever is measured goes with its particles
+    }
+  // The face of the gate: the force of water is the pressure in its middle times its height.
+  CHECK(measured(models, state, "wall pressure", "set Point = 6, 4\n set Radius = 3.5")[0].value ==
+        Approx(400));
+  CHECK(measured(models,
+                 state,
+                 "body pressure",
+                 "set Body = block\n set Point = 3, 5\n"
+                 " set Radius = 0.8")[0]
+          .value == Approx(250));
+  CHECK_THAT(message_of([&] {
+               measured(models, state, "body pressure", "set Body = rock\n set Point = 3, 5");
+             }),
+             Catch::Matchers::Contains("Allowed: block"));
+  CHECK_THAT(message_of([&] { measured(models, state, "surface height", "set Point = 9, 5"); }),
+             Catch::Matchers::Contains("not above the domain"));
+}
+
+
 TEST_CASE("particles: probes that see nothing are refused")
 {
   const auto models = sample_models();

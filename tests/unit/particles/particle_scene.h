@@ -120,7 +120,26 @@ namespace particle_tests
     engine(const Precision precision = Precision::double_precision) const
     {
       auto result = Registry<EngineFactory<dim>>::instance().make("host")->make(precision, 0);
-      result->load(setup, state);
+      result->load(complete_setup(), state);
+      return result;
+    }
+
+    /// With the potential of the surface of the fluid, unless it fills its domain.
+    Setup<dim>
+    complete_setup() const
+    {
+      Setup<dim> result = setup;
+      if (setup.is_full)
+        return result;
+      const BodyForce<dim, double> force{setup.gravity, setup.attraction, setup.centre};
+      bool                         is_first = true;
+      for (std::size_t i = 0; i < state.tags.size(); ++i)
+        if (state.tags[i].kind() == Kind::fluid)
+          {
+            const double potential = force.potential(state.positions[i]);
+            result.top_potential = is_first ? potential : std::max(result.top_potential, potential);
+            is_first             = false;
+          }
       return result;
     }
   };

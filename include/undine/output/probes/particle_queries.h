@@ -3,6 +3,7 @@
 #define undine_output_probes_particle_queries_h
 
 #include <undine/particle_model/particle_model.h>
+#include <undine/particle_model/point_grid.h>
 #include <undine/particles/model/particle_state.h>
 
 #include <deal.II/base/point.h>
@@ -26,6 +27,28 @@ namespace undine
   template <int dim>
   std::vector<std::size_t>
   main_part_of_fluid(const particles::ParticleState<dim> &state, const double gap);
+
+  /// How far the surface of the fluid is from the centres of its particles, outwards [m]: half a
+  /// spacing from those in a plane surface or below it, less from single ones that protrude, by
+  /// their number density n over n0. With n1 of the particles in a plane and n2 of all on one side
+  /// of it, n0 = n1 + 2 n2: it is n1 + n2 in a plane surface, n2 for one that lies on it, which
+  /// ends half a spacing behind its centre, and linear in between.
+  template <int dim>
+  class SurfaceOffset
+  {
+  public:
+    SurfaceOffset(const ParticleModel<dim> &model, const particles::ParticleState<dim> &state);
+
+    /// Of a particle, by its number in the state.
+    double
+    operator()(std::size_t number) const;
+
+  private:
+    const particles::ParticleState<dim> &state;
+    PointGrid<dim>                       grid;
+    double                               spacing, reach;   ///< [m]
+    double                               in_plane, of_all; ///< number densities n1, n0 [1]
+  };
 } // namespace undine
 
 #endif

@@ -46,6 +46,7 @@ namespace undine::particles
   {
     OpenBoundaries<dim, Real> open;
     Real                      spacing;
+    Real                      part; ///< of the sub-step, until which layers move [1]
     Place<dim, Real>         *places;
     const Motion<dim, Real>  *motions;
     int                      *crossed;
@@ -61,7 +62,7 @@ namespace undine::particles
         return;
       if (place.tag.material() == inflow_material)
         {
-          place.x += static_cast<Real>(control->dt) * motions[i].v;
+          place.x += part * static_cast<Real>(control->dt) * motions[i].v;
           const Real behind = distance_behind_inflow(place.x);
           crossed[i]        = behind < 0 ? 1 : 0;
           place.tag         = behind < 0

@@ -12,6 +12,7 @@
 #include <undine/particles/execution/phases.h>
 #include <undine/particles/fluid/even_spacing.h>
 #include <undine/particles/fluid/explicit_forces.h>
+#include <undine/particles/fluid/local_shift.h>
 #include <undine/particles/multigrid/multigrid_arrays.h>
 #include <undine/particles/neighbours/cell_sort.h>
 #include <undine/particles/neighbours/neighbour_list.h>
@@ -176,6 +177,7 @@ namespace undine::particles
       executor.for_each(n,
                         CrossBoundaries<dim, Real>{open,
                                                    constants.spacing,
+                                                   constants.pressure_place,
                                                    now.places.data(),
                                                    now.motions.data(),
                                                    crossed.data(),
@@ -290,6 +292,8 @@ namespace undine::particles
                                                   now.identities.data(),
                                                   next.places.data(),
                                                   next.motions.data(),
+                                                  equation.gaps.data(),
+                                                  equation.vectors.data(),
                                                   bodies.accelerations.data(),
                                                   bodies.surfaces.data(),
                                                   bodies.surface_moments.data(),
@@ -303,6 +307,11 @@ namespace undine::particles
                                                  next.places.data(),
                                                  next.motions.data(),
                                                  control.data()});
+      else if (constants.is_alone)
+        executor.for_each(
+          n,
+          LocalShift<dim, Real>{
+            constants, neighbours(), equation.vectors.data(), next.places.data(), control.data()});
       std::swap(now.places, next.places);
       std::swap(now.motions, next.motions);
       move_bodies(ElasticRun::final);

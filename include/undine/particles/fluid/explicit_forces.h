@@ -44,7 +44,8 @@ namespace undine::particles
               if (constants.wall_friction.acts())
                 motion.v += friction_of_walls(i, motion.v, dt);
               const Real ahead = (1 - constants.path_weight) * dt;
-              place.x          = constants.grid.wrapped(place.x + dt * (motion.v - ahead * force));
+              place.x          = constants.grid.wrapped(place.x + constants.pressure_place * dt *
+                                                           (motion.v - ahead * force));
             }
           else if (place.tag.kind() == Kind::solid)
             solid_velocities[identities[i]] =

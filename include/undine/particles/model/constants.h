@@ -61,8 +61,12 @@ namespace undine::particles
     /// particles: pressures are what is beyond it (P11), and of body forces only what acts on a
     /// density other than the fluid's is left.
     bool is_full;
+    /// Fluid at a free surface that moves by mean velocities, without bodies and walls that move:
+    /// sub-steps, shifts and weights then let waves go on. Beside bodies they would cost light ones
+    /// 3 % of their way, and beside walls that move let single particles through.
+    bool is_alone;
     Real displaced_density; ///< the fluid's if is_full, else zero [kg/m^3]
-    Real top_potential;     ///< [J/kg]
+    Real top_potential;     ///< of Setup [J/kg]
 
     Real               viscosity;        ///< kinematic, of the fluid [m^2/s]
     WallFriction<Real> wall_friction;    ///< instead of friction by pairs on walls
@@ -92,6 +96,9 @@ namespace undine::particles
     /// beta of PositionUpdate: an acceleration a takes a particle along by beta h^2 a in a
     /// sub-step; 1 with the velocity at its end, 1/2 with the mean velocity [1].
     Real path_weight;
+    /// gamma: the part of its way in a sub-step that a particle has gone when pressures are found
+    /// [1]. With gamma = 1 - beta sub-steps neither feed nor dampen waves.
+    Real pressure_place;
 
     Real collision_distance; ///< [m]
     /// The same between particles of the fluid; shorter in a full domain, where EvenSpacing keeps

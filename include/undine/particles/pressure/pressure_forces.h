@@ -60,26 +60,31 @@ namespace undine::particles
   /// middle
   ///     P_ij = (rho_j P_i + rho_i P_j) / (rho_i + rho_j)
   /// that makes both particles of a pair accelerate alike, and virtual faces a_ij by PairForce;
-  /// then the correction of velocity and place (P7b), and a shift
-  /// towards even spacing, next to the free surface along it: across, it would push the surface
-  /// outwards. For bodies the acceleration is only kept.
+  /// then the correction of velocity and place (P7b), and a shift towards even spacing, next to the
+  /// free surface along it: across, it would push the surface outwards. LocalShift makes it
+  /// where the fluid is alone. For bodies the acceleration is only kept.
   ///
   /// Inside the fluid the body force f = -grad phi, of which the particles already have all, is
   /// replaced by that through the same faces,
-  ///     sum_j a_ij (phi_i - phi_j) - f(x_i),
+  ///     sum_j a_ij (phi_i - phi_j) + 2 (P_rest / rho) sum_j a_ij - f(x_i),
   /// so that it weighs the volume on which pressure acts: else particles that are locally a little
   /// too dense or too sparse sink or rise like cold and warm water, and keep water at rest moving.
+  /// The second term, with the pressure at rest below the surface at the start but not more than
+  /// the present one, takes out what that pressure does to what the solver has left open of faces:
+  /// else it drives or brakes all of the water (only where the fluid is alone).
   template <int dim, class Real>
   struct PressureForces
   {
-    Constants<dim, Real>     constants;
-    Neighbours<dim, Real>    neighbours;
-    Neighbourhood<dim, Real> neighbourhood;
-    VirtualFaces<dim, Real>  faces;
-    const Motion<dim, Real> *motions;
-    const int               *identities;
-    Place<dim, Real>        *new_places;
-    Motion<dim, Real>       *new_motions;
+    Constants<dim, Real>           constants;
+    Neighbours<dim, Real>          neighbours;
+    Neighbourhood<dim, Real>       neighbourhood;
+    VirtualFaces<dim, Real>        faces;
+    const Motion<dim, Real>       *motions;
+    const int                     *identities;
+    Place<dim, Real>              *new_places;
+    Motion<dim, Real>             *new_motions;
+    const StoredVector<dim, Real> *gaps; ///< of AssemblePressure
+    StoredVector<dim, Real> *shifts; ///< receives those towards even spacing, for LocalShift [m]
     Vector<dim, Real>       *solid_accelerations;   ///< by identity [m/s^2]
     Vector<dim, Real>       *solid_surfaces;        ///< of ElasticBodies
     Matrix<dim, Real>       *solid_surface_moments; ///< of ElasticBodies
@@ -93,6 +98,8 @@ namespace undine::particles
       Motion<dim, Real> motion = motions[i];
       if (!control->done() && place.tag.kind() == Kind::fluid)
         move(i, place, motion);
+      else if (!control->done() && place.tag.material() == inflow_material)
+        place.x += (1 - constants.pressure_place) * static_cast<Real>(control->dt) * motion.v;
       else if (!control->done() && place.tag.kind() == Kind::solid)
         {
           const int      identity         = identities[i];
@@ -122,6 +129,7 @@ namespace undine::particles
     {
       Vector<dim, Real> acceleration = Vector<dim, Real>::zero(); ///< [m/s^2]
       Vector<dim, Real> weight       = Vector<dim, Real>::zero(); ///< f by the faces [m/s^2]
+      Vector<dim, Real> opening      = Vector<dim, Real>::zero(); ///< sum of the faces [1/m]
       Vector<dim, Real> crowd        = Vector<dim, Real>::zero(); ///< sum w r / r^2 [1/m]
       Vector<dim, Real> bodies       = Vector<dim, Real>::zero(); ///< the same of bodies only [1/m]
       Vector<dim, Real> surface      = Vector<dim, Real>::zero(); ///< and of the free surface [1/m]
@@ -146,6 +154,7 @@ namespace undine::particles
       {
         acceleration += face.by_pressure;
         weight += (face.force * face.pair.r) * face.area;
+        opening += face.area;
       }
     };
 
@@ -267,22 +276,51 @@ namespace undine::particles
       const Real coverage = neighbourhood.coverages[i];
       if (constants.pair_force == PairForce::balanced)
         sum.acceleration += coverage * (sum.weight - constants.fluid_acceleration(place.x));
+      if (constants.pair_force == PairForce::balanced && constants.is_alone)
+        sum.acceleration +=
+          (2 * weight_of_column(place.x, motion.pressure)) * left_open(i, coverage, sum.opening);
       move(place, motion, sum.acceleration);
-      if (!constants.is_full) // else EvenSpacing
-        place.x += coverage * along_surface(sum.surface, shift(sum.crowd));
+      const auto evened = coverage * along_surface(sum.surface, shift(sum.crowd));
+      if (constants.is_alone)
+        shifts[i] = evened;
+      else if (!constants.is_full) // else EvenSpacing
+        place.x += evened;
       place.x += way_out(sum);
       place.x = constants.grid.wrapped(place.x);
       if (!constants.grid.contains(place.x))
         atomic_or(&control->failures, static_cast<unsigned int>(Failure::outside));
     }
 
+    /// The pressure at rest over the density, as far as the fluid has it [J/kg].
+    UNDINE_HOST_DEVICE
+    Real
+    weight_of_column(const Vector<dim, Real> &x, const Real pressure) const
+    {
+      const Real at_rest = constants.top_potential - constants.force.potential(x);
+      return maximum(Real(0), minimum(at_rest, pressure / constants.fluid_density));
+    }
+
+    /// What the solver has left open of faces that it should have closed, times the coverage: the
+    /// part 1 - coverage of a particle at the free surface is open by intention [1/m].
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    left_open(const int i, const Real coverage, const Vector<dim, Real> &opening) const
+    {
+      return coverage * opening + (1 - coverage) * Vector<dim, Real>(gaps[i]);
+    }
+
+    /// The rest of the way, and what the pressure does to all of it.
     UNDINE_HOST_DEVICE
     void
     move(Place<dim, Real>        &place,
          Motion<dim, Real>       &motion,
          const Vector<dim, Real> &acceleration) const
     {
-      const Real dt = static_cast<Real>(control->dt);
+      const Real dt   = static_cast<Real>(control->dt);
+      const Real rest = (1 - constants.pressure_place) * dt;
+      if (rest > 0)
+        place.x += rest * (motion.v - (1 - constants.path_weight) * dt *
+                                        constants.fluid_acceleration(place.x));
       motion.v += dt * acceleration;
       place.x += (constants.path_weight * dt * dt) * acceleration;
       atomic_maximum(&control->largest_speed,

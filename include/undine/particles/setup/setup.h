@@ -107,8 +107,8 @@ namespace undine::particles
     /// Fluid and bodies fill a domain that is closed or periodic: there is no free surface, and
     /// pressures are known up to a constant. Without inflows, outflows and room around.
     bool is_full = false;
-    /// Potential energy per mass of the body force where the fluid at rest has no pressure, if
-    /// it fills its domain [J/kg].
+    /// Potential energy per mass of the body force where the fluid at rest has no pressure: in
+    /// the highest corner of a domain that it fills, else at its surface at the start [J/kg].
     double top_potential = 0;
 
     std::vector<OpenSide> open_sides;
