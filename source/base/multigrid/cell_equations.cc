@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/matrix_row.h>
 #include <undine/base/multigrid/cell_equations.h>
+#include <undine/base/parallel/matrix_row.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
 

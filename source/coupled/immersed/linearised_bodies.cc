@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/rounding.h>
+#include <undine/base/parallel/rounding.h>
 #include <undine/coupled/immersed/begin_of.h>
 #include <undine/coupled/immersed/linearised_bodies.h>
 #include <undine/solid/assembly/prescribed_motion.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/matrix_row.h>
+#include <undine/base/parallel/matrix_row.h>
 #include <undine/coupled/linear/joint_factorisation.h>
 
 #include <deal.II/base/mpi.h>

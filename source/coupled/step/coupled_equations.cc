@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/relative.h>
-#include <undine/base/core/rounding.h>
 #include <undine/base/parallel/interruption.h>
+#include <undine/base/parallel/rounding.h>
 #include <undine/coupled/step/coupled_equations.h>
 #include <undine/solid/assembly/prescribed_motion.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_base_core_rounding_h
-#define undine_base_core_rounding_h
+#ifndef undine_base_parallel_rounding_h
+#define undine_base_parallel_rounding_h
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
