@@ -64,7 +64,7 @@ namespace undine
     BlockTriangular        triangular;
     mutable BandCorrection corrected;
     mutable bool           is_corrected = false;
-    unsigned int           most_calls   = 20;
+    unsigned int           most_calls   = 40;
     mutable unsigned int   n_calls      = 0; ///< of vmult() in this solve
     const BlockSystem     *system       = nullptr;
     const SchurComplement *schur        = nullptr;
