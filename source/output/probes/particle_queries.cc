@@ -2,6 +2,7 @@
 #include <undine/base/core/disjoint_sets.h>
 #include <undine/output/probes/particle_queries.h>
 #include <undine/particles/model/lattice.h>
+#include <undine/particles/setup/make_constants.h>
 
 #include <algorithm>
 #include <limits>
@@ -28,6 +29,20 @@ namespace undine
   {
     const auto &identities = state.identities;
     return std::find(identities.begin(), identities.end(), identity) - identities.begin();
+  }
+
+
+  template <int dim>
+  double
+  mean_pressure(const ParticleModel<dim>            &model,
+                const particles::ParticleState<dim> &state,
+                const std::vector<int>              &identities)
+  {
+    double sum = 0;
+    for (std::size_t k = 0; k < state.identities.size(); ++k)
+      if (std::binary_search(identities.begin(), identities.end(), state.identities[k]))
+        sum += state.pressures[k] + pressure_at_rest(model.setup(), state.positions[k]);
+    return sum / identities.size();
   }
 
 
@@ -110,11 +125,13 @@ namespace undine
   }
 
 
-#define UNDINE_INSTANTIATE(dim)                                                                    \
-  template std::size_t place_of_identity(const particles::ParticleState<dim> &, const int);        \
-  template int nearest_of_body(const ParticleModel<dim> &, const int, const dealii::Point<dim> &); \
-  template std::vector<std::size_t> main_part_of_fluid(const particles::ParticleState<dim> &,      \
-                                                       const double);                              \
+#define UNDINE_INSTANTIATE(dim)                                                                        \
+  template std::size_t place_of_identity(const particles::ParticleState<dim> &, const int);            \
+  template double      mean_pressure(                                                                  \
+         const ParticleModel<dim> &, const particles::ParticleState<dim> &, const std::vector<int> &); \
+  template int nearest_of_body(const ParticleModel<dim> &, const int, const dealii::Point<dim> &);     \
+  template std::vector<std::size_t> main_part_of_fluid(const particles::ParticleState<dim> &,          \
+                                                       const double);                                  \
   template class SurfaceOffset<dim>;
 
   UNDINE_INSTANTIATE(2)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/output/probes/particle_queries.h>
 #include <undine/output/probes/probe.h>
-#include <undine/particles/setup/make_constants.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,13 +47,8 @@ namespace undine
     Columns
     columns(const Models<dim> &models, const State<dim> &state) const override
     {
-      const auto &particles = state.particles;
-      double      sum       = 0;
-      for (std::size_t k = 0; k < particles.identities.size(); ++k)
-        if (std::binary_search(identities.begin(), identities.end(), particles.identities[k]))
-          sum += particles.pressures[k] +
-                 pressure_at_rest(models.particles->setup(), particles.positions[k]);
-      return {{name + " pressure", "Pa", sum / identities.size()}};
+      return {
+        {name + " pressure", "Pa", mean_pressure(*models.particles, state.particles, identities)}};
     }
 
   private:

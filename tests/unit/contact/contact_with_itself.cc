@@ -169,24 +169,29 @@ TEST_CASE(
   "turned boxes, whose faces lie in a plane to rounding only, do not pass through themselves",
   "[contact]")
 {
-  const auto complaint = [](const std::string &cells, const std::string &rotation) {
+  // Found among random boxes: of most that are turned edges in a face are parallel to it, or miss
+  // its other facets, in spite of rounding.
+  const auto complaint = [](const std::string &box) {
     const Scene<3> scene(
       "subsection Bodies\nsubsection box\nset Density = 1\nset Young's modulus = "
-      "1\nset Poisson's ratio = 0\nset Lower corner = .69, .16, .18\nset Upper "
-      "corner = .81, .34, .32\nset Cells = " +
-        cells + "\nset Rotation = " + rotation +
-        "\nend\nend\nsubsection Solid numerics\nset Element degree = 1\nend\n",
+      "1\nset Poisson's ratio = 0\n" +
+        box + "\nend\nend\n",
       .03);
     return message_of([&] { scene.contact.check_start(scene.model.vector(), 0); });
   };
-  for (const char *cells : {"2, 3, 1", "3, 3, 2", "2, 1, 3"})
-    for (const char *rotation : {"16.07, -38.63, 36.75",
-                                 "-35.93, 11.57, -30.11",
-                                 "-22.31, -17.28, 11.73",
-                                 "5, 40, -3",
-                                 "31, 7, 22",
-                                 "-12, 33, 8"})
-      CHECK(complaint(cells, rotation) == "no error");
+  CHECK(
+    complaint("set Lower corner = 0.6915407906360895, 0.15834836948126502, 0.17885465733282854\n"
+              "set Upper corner = 0.8084592093639106, 0.34165163051873504, 0.32114534266717143\n"
+              "set Cells = 2, 3, 1\nset Rotation = 16.074439225789938, -38.63455908181142, "
+              "36.752439524694665") == "no error");
+  CHECK(complaint("set Lower corner = 0.18443937773012575, 0.669445786679693, 0.1451505458260658\n"
+                  "set Upper corner = 0.31556062226987425, 0.830554213320307, 0.3548494541739342\n"
+                  "set Cells = 3, 3, 2\nset Rotation = -35.934833698371385, 11.56747091209067, "
+                  "-30.112880420607713") == "no error");
+  CHECK(complaint("set Lower corner = 0.6539958988124763, 0.6857125469514724, 0.6808402401098097\n"
+                  "set Upper corner = 0.8460041011875237, 0.8142874530485276, 0.8191597598901903\n"
+                  "set Cells = 2, 1, 3\nset Rotation = -22.313378533096593, -17.284253300913406, "
+                  "11.728120736762541") == "no error");
 }
 
 

@@ -17,6 +17,14 @@ namespace undine
   std::size_t
   place_of_identity(const particles::ParticleState<dim> &state, const int identity);
 
+  /// Mean pressure, with that at rest, of the particles with these identities, which ascend and
+  /// of which there is one at least [Pa].
+  template <int dim>
+  double
+  mean_pressure(const ParticleModel<dim>            &model,
+                const particles::ParticleState<dim> &state,
+                const std::vector<int>              &identities);
+
   /// Identity of the particle of body number `body` that rests nearest to `place` [m].
   template <int dim>
   int
