@@ -18,7 +18,7 @@ namespace undine
   namespace
   {
     /// A tenth of the facets' size: bodies seem larger by half of it.
-    constexpr double share_of_facet = 0.1;
+    constexpr double distance_over_facet = 0.1;
 
 
     template <int dim>
@@ -55,7 +55,7 @@ namespace undine
               const ContactSurfaces<dim> &surfaces)
     {
       if (settings.activation_distance == 0)
-        settings.activation_distance = share_of_facet * surfaces.facet_size();
+        settings.activation_distance = distance_over_facet * surfaces.facet_size();
       if (settings.stiffness == 0)
         settings.stiffness = least_modulus(solid);
       return settings;

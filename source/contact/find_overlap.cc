@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/options/point_text.h>
 #include <undine/contact/contact_boxes.h>
 #include <undine/contact/find_overlap.h>
 #include <undine/surface/held_pairs.h>
@@ -22,14 +23,6 @@ namespace undine
   {
     template <int dim>
     std::string
-    written(const dealii::Point<dim> &place)
-    {
-      return fmt::format("({:.6g})", fmt::join(place.begin_raw(), place.begin_raw() + dim, ", "));
-    }
-
-
-    template <int dim>
-    std::string
     wall_complaint(const ContactSurfaces<dim>                     &surfaces,
                    const typename ContactSurfaces<dim>::Positions &places)
     {
@@ -43,7 +36,7 @@ namespace undine
               return fmt::format("body '{}' is not on the free side of wall '{}' at {}",
                                  surfaces.surface().body_names()[body],
                                  plane.name,
-                                 written(places[node]));
+                                 text_of(places[node]));
           }
       return "";
     }
@@ -109,7 +102,7 @@ namespace undine
         result = fmt::format("'{}' {} at {}",
                              surfaces.surface().body_names()[surfaces.surface_of_node(node)],
                              what,
-                             written(places[node]));
+                             text_of(places[node]));
       };
       for (unsigned int node = 0; node < surfaces.bodies().n_nodes() && result.empty(); ++node)
         if (distances.of_own(node) <= surfaces.rounding())
@@ -176,7 +169,7 @@ namespace undine
       return fmt::format("'{}' overlaps '{}' at {}",
                          surfaces.surface().body_names()[surfaces.surface_of_node(overlap->node)],
                          surfaces.surface().body_names()[overlap->surface],
-                         written(places[overlap->node]));
+                         text_of(places[overlap->node]));
     return own_complaint(surfaces, distances, places);
   }
 

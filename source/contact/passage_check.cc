@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/options/point_text.h>
 #include <undine/contact/find_overlap.h>
 #include <undine/contact/passage_check.h>
 
@@ -23,12 +24,6 @@ namespace undine
     }
 
 
-    template <int dim>
-    std::string
-    written(const dealii::Point<dim> &place)
-    {
-      return fmt::format("({:.6g})", fmt::join(place.begin_raw(), place.begin_raw() + dim, ", "));
-    }
   } // namespace
 
 
@@ -106,7 +101,7 @@ namespace undine
             "body '{}' passes the wall at side '{}' of the domain, at {}. Try: {}.",
             surfaces.surface().body_names()[body],
             walls[w].plane.name,
-            written(to[node]),
+            text_of(to[node]),
             hint);
         }
     return "";
@@ -133,7 +128,7 @@ namespace undine
                        "support of the body that begins in the obstacle.",
                        names[body],
                        names[obstacle],
-                       written(places[overlap->node]));
+                       text_of(places[overlap->node]));
   }
 
 

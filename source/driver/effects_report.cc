@@ -2,28 +2,13 @@
 #include <undine/coupled/model/implied_effect.h>
 #include <undine/driver/effects_report.h>
 #include <undine/driver/json_text.h>
+#include <undine/driver/size_check.h>
 #include <undine/particles/execution/phases.h>
 
 #include <algorithm>
 
 namespace undine
 {
-  namespace
-  {
-    std::string
-    readable_bytes(const double bytes)
-    {
-      if (bytes < 1e3)
-        return fmt::format("{:.0f} B", bytes);
-      if (bytes < 1e6)
-        return fmt::format("{:.1f} kB", bytes / 1e3);
-      if (bytes < 1e9)
-        return fmt::format("{:.1f} MB", bytes / 1e6);
-      return fmt::format("{:.1f} GB", bytes / 1e9);
-    }
-  } // namespace
-
-
   template <int dim>
   EffectsReport<dim>::EffectsReport(const Scene<dim> &scene, const TimingTree &timing)
     : timing(timing)

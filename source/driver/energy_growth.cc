@@ -22,7 +22,7 @@ namespace undine
     // Of the largest energy within the longest window: what ripples while it dies away has less.
     constexpr double as_before = 0.9;
 
-    constexpr double rounding = 1e-12; // of the energy there is
+    constexpr double rounding_of_energy = 1e-12; // of the energy there is
 
     // Of the energy at its peak: then what has grown has died away.
     constexpr double died_away = 0.1;
@@ -127,10 +127,10 @@ namespace undine
         growth->what  = "energy";
         peak          = 0;
       }
-    growth->since      = std::min(growth->since, begin.time);
-    growth->until      = now.time;
-    const double put   = now.input_known ? now.input - begin.input : 0;
-    const double old   = std::max(begin.energy + std::max(0., put), rounding * now.energy);
+    growth->since    = std::min(growth->since, begin.time);
+    growth->until    = now.time;
+    const double put = now.input_known ? now.input - begin.input : 0;
+    const double old = std::max(begin.energy + std::max(0., put), rounding_of_energy * now.energy);
     const double alone = old + now.energy - begin.energy - put; // nothing else would be lost
     growth->factor     = std::max(growth->factor, std::pow(alone / old, 1. / steps));
     window_of_growth   = std::min(steps, windows.back());

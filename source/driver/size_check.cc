@@ -112,6 +112,8 @@ namespace undine
   std::string
   readable_bytes(const double bytes)
   {
+    if (bytes < 1000)
+      return fmt::format("{:.0f} B", bytes);
     const std::array<const char *, 5> units{{"kB", "MB", "GB", "TB", "PB"}};
     double                            number = bytes / 1000;
     unsigned int                      unit   = 0;

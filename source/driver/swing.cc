@@ -22,7 +22,7 @@ namespace undine
   {
     // An energy that grows by 1 % a step grows by 2.05 between quarters that are 72 steps apart, an
     // amplitude by 1.43. In fewer steps means are less certain.
-    constexpr std::array<Swing::Window, 4> windows{
+    constexpr std::array<Swing::Window, 4> swing_windows{
       {{16, 5., 0.1}, {32, 2., 0.01}, {64, 1.5, 0.01}, {96, 1.4, 0.01}}};
 
     constexpr unsigned int first_steps    = 10;  // may jump as they like
@@ -34,11 +34,11 @@ namespace undine
     constexpr double       least_root     = 0.95;        // noise makes a root smaller than it is
     constexpr double       longest_period = 4;           // steps
     constexpr double       clear = 4, very_clear = 1000; // times the share of noise
-    constexpr unsigned int often_enough  = 4;            // more steps in which it grows than others
-    constexpr double       a_third       = 1. / 3;
-    constexpr unsigned int steps_of_rest = 48;
-    constexpr unsigned int least_window  = 6; // in which a mode shows
-    constexpr double       rounding      = 1e-12;
+    constexpr unsigned int often_enough      = 4;        // more steps in which it grows than others
+    constexpr double       a_third           = 1. / 3;
+    constexpr unsigned int steps_of_rest     = 48;
+    constexpr unsigned int least_window      = 6; // in which a mode shows
+    constexpr double       rounding_of_swing = 1e-12;
 
 
     double
@@ -88,7 +88,7 @@ namespace undine
         now.record = moments.back().record;
       }
     moments.push_back(now);
-    if (moments.size() > windows.back().length + 2)
+    if (moments.size() > swing_windows.back().length + 2)
       moments.pop_front();
     follow_size();
     look_for_growth();
@@ -122,7 +122,7 @@ namespace undine
   {
     for (auto *track : {&sure, &unsure})
       track->n_seen -= track->n_seen > 0;
-    for (auto window = windows.rbegin(); window != windows.rend(); ++window)
+    for (auto window = swing_windows.rbegin(); window != swing_windows.rend(); ++window)
       if (moments.size() > window->length)
         if (const auto mode = growing_mode(*window))
           {
@@ -300,7 +300,7 @@ namespace undine
     growth->mode         = words(recurrence.period);
     const auto   quarter = track.window / 4;
     const double size    = mean_size(quarter, 0);
-    const double begin   = std::max(track.first_size, rounding * size);
+    const double begin   = std::max(track.first_size, rounding_of_swing * size);
     growth->factor       = std::pow(size / begin, 1. / (n_steps - track.first_step - quarter));
   }
 

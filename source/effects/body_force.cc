@@ -199,6 +199,6 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, BodyForce>
-      registered("body force", "A prescribed force on the fluid and on bodies.");
+      registered_body_force("body force", "A prescribed force on the fluid and on bodies.");
   }
 } // namespace undine

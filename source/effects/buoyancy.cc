@@ -173,6 +173,6 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, Buoyancy>
-      registered("buoyancy", "Lift by an advected field, such as heat or smoke.");
+      registered_buoyancy("buoyancy", "Lift by an advected field, such as heat or smoke.");
   }
 } // namespace undine

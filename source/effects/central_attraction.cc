@@ -56,6 +56,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, CentralAttraction>
-      registered("central attraction", "A force towards a point that grows with the distance.");
+      registered_central_attraction("central attraction",
+                                    "A force towards a point that grows with the distance.");
   }
 } // namespace undine

@@ -99,6 +99,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, ContactEffect>
-      registered("contact", "Bodies touch walls, obstacles and each other without friction.");
+      registered_contact("contact",
+                         "Bodies touch walls, obstacles and each other without friction.");
   }
 } // namespace undine

@@ -195,6 +195,6 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, Convection>
-      registered("convection", "The flow advects its own momentum.");
+      registered_convection("convection", "The flow advects its own momentum.");
   }
 } // namespace undine

@@ -61,7 +61,7 @@ namespace undine
 
   namespace
   {
-    const RegisterForDimensions<Effect, Damping> registered("damping",
-                                                            "Rayleigh damping of bodies.");
+    const RegisterForDimensions<Effect, Damping> registered_damping("damping",
+                                                                    "Rayleigh damping of bodies.");
   }
 } // namespace undine

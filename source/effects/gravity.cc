@@ -47,6 +47,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, Gravity>
-      registered("gravity", "Weight of bodies; the fluid's is part of its reduced pressure.");
+      registered_gravity("gravity",
+                         "Weight of bodies; the fluid's is part of its reduced pressure.");
   }
 } // namespace undine

@@ -279,6 +279,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, ScalarTransport>
-      registered("scalar transport", "Fields such as smoke and temperature move with the flow.");
+      registered_scalar_transport("scalar transport",
+                                  "Fields such as smoke and temperature move with the flow.");
   }
 } // namespace undine

@@ -65,6 +65,6 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, Sleep>
-      registered("sleep", "Bodies at rest are skipped until the loads on them change.");
+      registered_sleep("sleep", "Bodies at rest are skipped until the loads on them change.");
   }
 } // namespace undine

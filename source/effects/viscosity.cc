@@ -137,6 +137,6 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, Viscosity>
-      registered("viscosity", "Friction in the fluid and on its walls.");
+      registered_viscosity("viscosity", "Friction in the fluid and on its walls.");
   }
 } // namespace undine

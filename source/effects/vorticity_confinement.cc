@@ -237,6 +237,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, VorticityConfinement>
-      registered("vorticity confinement", "Keeps vortices that the grid would smooth away.");
+      registered_vorticity_confinement("vorticity confinement",
+                                       "Keeps vortices that the grid would smooth away.");
   }
 } // namespace undine

@@ -61,6 +61,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Effect, WallFriction>
-      registered("wall friction", "Turbulent friction of particles on walls and obstacles.");
+      registered_wall_friction("wall friction",
+                               "Turbulent friction of particles on walls and obstacles.");
   }
 } // namespace undine

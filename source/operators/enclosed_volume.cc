@@ -12,7 +12,7 @@ namespace undine
     /// The share that a fragment has of its facet where the grid was cut, and keeps [1].
     template <int dim>
     double
-    share_of_facet(const typename CutCells<dim>::Fragment &fragment,
+    share_when_cut(const typename CutCells<dim>::Fragment &fragment,
                    const Surface<dim>                     &surface,
                    const std::vector<dealii::Point<dim>>  &cut_at)
     {
@@ -159,7 +159,7 @@ namespace undine
             cut.block.owned().contains(cut.cells[cell].index) &&
             fragment.component != cut.no_component && boundary.has_component[fragment.component])
           {
-            const double share = share_of_facet(fragment, surface, cut_at);
+            const double share = share_when_cut(fragment, surface, cut_at);
             double       mean  = 0;
             for (unsigned int k = 0; k < dim; ++k)
               mean += fragment.mean[k] * positions[surface.facets()[fragment.facet][k]][axis];

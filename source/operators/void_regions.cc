@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/base/options/point_text.h>
 #include <undine/base/parallel/throw_together.h>
 #include <undine/operators/pressure_place_at.h>
 #include <undine/operators/void_regions.h>
@@ -15,12 +16,6 @@ namespace undine
 {
   namespace
   {
-    template <int dim>
-    std::string
-    place(const dealii::Point<dim> &point)
-    {
-      return fmt::format("({:.6g})", fmt::join(point.begin_raw(), point.begin_raw() + dim, ", "));
-    }
   } // namespace
 
 
@@ -93,7 +88,7 @@ namespace undine
         throw SolveError(fmt::format("The seed of the void region '{}' at {} {}. Try: a seed "
                                      "farther away from the bodies, or a smaller time step.",
                                      region.name,
-                                     place(region.seed),
+                                     text_of(region.seed),
                                      error.what()));
       }
   }
@@ -196,7 +191,7 @@ namespace undine
         complaint = fmt::format("The void region '{}' has joined the fluid, which has been at {}. "
                                 "Try: close the gap in the bodies around it.",
                                 regions[voids.cells[position]].name,
-                                place(grid.cells()->point(cell)));
+                                text_of(grid.cells()->point(cell)));
     });
     throw_together(complaint, grid.communicator());
   }

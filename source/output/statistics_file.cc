@@ -48,7 +48,7 @@ namespace undine
 
 
     void
-    assert_finite(const Columns &columns)
+    assert_finite_columns(const Columns &columns)
     {
       for (const auto &column : columns)
         if (!std::isfinite(column.value))
@@ -133,7 +133,7 @@ namespace undine
   void
   StatisticsFile::append(const Columns &columns)
   {
-    assert_finite(columns);
+    assert_finite_columns(columns);
     on_first_rank(communicator, [&] {
       const std::string wanted = header_of(columns);
       if (!header.empty() && header != wanted)

@@ -11,7 +11,7 @@ namespace undine
 {
   namespace
   {
-    constexpr double rounding = 1e-6; // [spacings]
+    constexpr double rounding_in_bodies = 1e-6; // [spacings]
 
 
     template <int dim>
@@ -140,7 +140,7 @@ namespace undine
         auto place = first;
         for (unsigned int d = 0; d < dim; ++d)
           place[d] += index[d] * spacing;
-        if (surface->nearest(place).distance < -rounding * spacing)
+        if (surface->nearest(place).distance < -rounding_in_bodies * spacing)
           places.push_back(place);
         for (axis = 0; axis < dim && ++index[axis] == count[axis]; ++axis)
           index[axis] = 0;
@@ -182,8 +182,8 @@ namespace undine
           throw boundary.options.error("Where",
                                        "is not a number at (" + write_value(places[k]) + ")",
                                        "Try: an expression that is finite in the whole body.");
-        if (where > 0 && (!near_surface ||
-                          std::abs(part.nearest(places[k]).distance) < (1 - rounding) * spacing))
+        if (where > 0 && (!near_surface || std::abs(part.nearest(places[k]).distance) <
+                                             (1 - rounding_in_bodies) * spacing))
           {
             clamped[k] = 1;
             any        = true;

@@ -11,7 +11,7 @@ namespace undine
 {
   namespace
   {
-    constexpr double rounding = 1e-6; // [spacings]
+    constexpr double rounding_in_fluid = 1e-6; // [spacings]
 
 
     template <int dim>
@@ -31,8 +31,8 @@ namespace undine
           check_closed(surface, boundary.nodes);
           for (const auto &node : boundary.nodes)
             for (unsigned int axis = 0; axis < dim; ++axis)
-              if (node[axis] < domain.lower[axis] - rounding * domain.spacing ||
-                  node[axis] > domain.upper[axis] + rounding * domain.spacing)
+              if (node[axis] < domain.lower[axis] - rounding_in_fluid * domain.spacing ||
+                  node[axis] > domain.upper[axis] + rounding_in_fluid * domain.spacing)
                 throw shape.options.error("",
                                           "the fluid reaches out of the domain, to (" +
                                             write_value(node) + ")",
@@ -52,7 +52,7 @@ namespace undine
     {
       return std::any_of(distances.begin(), distances.end(), [&](const auto &distance) {
         return distance->box().point_inside(place) &&
-               distance->nearest(place).distance < -rounding * spacing;
+               distance->nearest(place).distance < -rounding_in_fluid * spacing;
       });
     }
 

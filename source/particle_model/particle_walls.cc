@@ -11,12 +11,12 @@ namespace undine
 {
   namespace
   {
-    constexpr double       rounding         = 1e-6; // [spacings]
-    constexpr double       nearest_accepted = 0.6;  // [spacings]
-    constexpr double       misfit           = 0.2;  // of the depth [spacings]
-    constexpr double       room             = 0.85; // that a misfit needs [spacings]
-    constexpr unsigned int projections      = 5;    // after which depths are right, if they can be
-    constexpr unsigned int relaxations      = 60;
+    constexpr double       rounding_in_walls = 1e-6; // [spacings]
+    constexpr double       nearest_accepted  = 0.6;  // [spacings]
+    constexpr double       misfit            = 0.2;  // of the depth [spacings]
+    constexpr double       room              = 0.85; // that a misfit needs [spacings]
+    constexpr unsigned int projections       = 5;    // after which depths are right, if they can be
+    constexpr unsigned int relaxations       = 60;
 
 
     template <int dim>
@@ -91,7 +91,7 @@ namespace undine
           for (unsigned int d = 0; d < dim; ++d)
             place[d] = domain.lower[d] + (index[d] + 0.5) * l0;
           const double depth = -surface.nearest(place).distance / l0;
-          const int    layer = static_cast<int>(std::floor(depth + rounding));
+          const int    layer = static_cast<int>(std::floor(depth + rounding_in_walls));
           if (layer >= 0 && layer < static_cast<int>(domain.layers))
             result.push_back({place, static_cast<unsigned int>(layer)});
           for (axis = 0; axis < dim && ++index[axis] == end[axis]; ++axis)
@@ -141,7 +141,7 @@ namespace undine
       for (std::size_t i = 0; i < particles.size(); ++i)
         {
           dealii::Tensor<1, dim> push;
-          grid.for_each_near(grid[i], (1 - rounding) * spacing, [&](const std::size_t j) {
+          grid.for_each_near(grid[i], (1 - rounding_in_walls) * spacing, [&](const std::size_t j) {
             const auto   way    = grid[i] - grid[j];
             const double length = way.norm();
             if (length > 0)

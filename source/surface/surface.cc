@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/base/options/point_text.h>
 #include <undine/surface/simplex.h>
 #include <undine/surface/surface.h>
 
@@ -29,12 +30,6 @@ namespace undine
     };
 
 
-    template <int dim>
-    std::string
-    place(const dealii::Point<dim> &point)
-    {
-      return fmt::format("({:.6g})", fmt::join(point.begin_raw(), point.begin_raw() + dim, ", "));
-    }
   } // namespace
 
 
@@ -100,7 +95,7 @@ namespace undine
                             "join two facets: give parts that touch nodes of their own.",
                     surface.body_names()[surface.body(facet)],
                     why,
-                    place(positions[ridge(surface.facets()[facet], k)[0]])));
+                    text_of(positions[ridge(surface.facets()[facet], k)[0]])));
     };
     for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
       for (unsigned int k = 0; k < dim; ++k)

@@ -304,6 +304,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Scheme, ParticleScheme>
-      registered("particle", "Fluid and elastic bodies of particles, coupled by one pressure.");
+      registered_particle_scheme("particle",
+                                 "Fluid and elastic bodies of particles, coupled by one pressure.");
   }
 } // namespace undine

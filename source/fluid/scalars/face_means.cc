@@ -14,8 +14,8 @@ namespace undine
 {
   namespace
   {
-    constexpr double none     = std::numeric_limits<double>::quiet_NaN();
-    constexpr double rounding = 1e-6; ///< lest it decide, in cells
+    constexpr double no_mean        = std::numeric_limits<double>::quiet_NaN();
+    constexpr double cells_rounding = 1e-6; ///< lest it decide, in cells
 
 
     /// How many cells there are between the ends of a path.
@@ -42,13 +42,13 @@ namespace undine
     {
       const auto   middle = tracer.trace(place, -tracer.dt() / 2);
       const double cells  = 2 * cells_between(tracer.model().grid(), place, middle.foot.point);
-      const int    n      = std::max(1, static_cast<int>(std::ceil(cells - rounding)));
+      const int    n      = std::max(1, static_cast<int>(std::ceil(cells - cells_rounding)));
       double       sum    = 0;
       for (int k = 0; k < n; ++k)
         {
           const auto trace = n == 1 ? middle : tracer.trace(place, -(k + .5) / n * tracer.dt());
           if (trace.near_body)
-            return none;
+            return no_mean;
           sum += interpolate_cubic(source, trace.foot.point, Overshoot::kept) / n;
         }
       return sum;
@@ -91,11 +91,11 @@ namespace undine
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
         auto &means = result[axis] = Field<dim>(grid.faces(axis), flow.topology());
-        std::fill(means.parts().begin(), means.parts().end(), none);
+        std::fill(means.parts().begin(), means.parts().end(), no_mean);
         for_each(means.owned(), [&](const GridIndex<dim> &face) {
           const auto below = moved<dim>(face, axis, -1);
           if (!is_whole(means.divided(), face))
-            means(face) = none;
+            means(face) = no_mean;
           else if (!grid.at_boundary(axis, face) && is_fixed(below) && is_fixed(face))
             means(face) = (half(below) + half(face)) / 2;
           else

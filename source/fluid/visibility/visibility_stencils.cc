@@ -9,8 +9,8 @@ namespace undine
 {
   namespace
   {
-    constexpr double rounding = 1e-12; ///< of places, over the size of cells
-    constexpr double flatness = 0.02;  ///< height of an occluder over the size of cells
+    constexpr double rounding_of_places = 1e-12; ///< of places, over the size of cells
+    constexpr double flatness           = 0.02;  ///< height of an occluder over the size of cells
 
 
     template <int dim>
@@ -89,7 +89,7 @@ namespace undine
     cube.samples   = samples.size();
     cube.occluders = cube.occluders_end = occluders.size();
     std::tie(cube.lower, cube.upper)    = facets.corners(cells);
-    const auto rim                      = rounding * (cube.upper - cube.lower);
+    const auto rim                      = rounding_of_places * (cube.upper - cube.lower);
     cube.lower -= rim, cube.upper += rim;
     cube.is_clear = has_nothing(lower, cells);
     if (!cube.is_clear && !add_to(cube, lower, cells))

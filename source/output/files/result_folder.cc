@@ -12,7 +12,7 @@ namespace undine
   {
     namespace fs = std::filesystem;
 
-    const std::string first_line =
+    const std::string record_head =
       "# Files that runs of Undine have written into this folder: a new "
       "run replaces these and no others.";
 
@@ -130,7 +130,7 @@ namespace undine
     std::istringstream lines(read_file(record()));
     std::string        line;
     std::getline(lines, line);
-    if (line != first_line)
+    if (line != record_head)
       throw FileError("'" + record().string() +
                       "' is not what this program writes under this name. Move it away, or choose "
                       "another folder with --output.");
@@ -145,7 +145,7 @@ namespace undine
   void
   ResultFolder::write_record() const
   {
-    std::string text = first_line + "\n";
+    std::string text = record_head + "\n";
     for (const auto &name : names)
       text += "file " + name + "\n";
     write_file(record(), text + "run has begun\n");

@@ -9,6 +9,10 @@
 
 namespace undine_tests
 {
+  /// Energy and momentum of every step are balanced.
+  inline const std::string budget = section("Output", "set Budget = true");
+
+
   /// Bodies, a fluid or both, step by step, by the scheme that the text names.
   template <int dim>
   struct CoupledRun

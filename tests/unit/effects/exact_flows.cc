@@ -9,7 +9,6 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double pi = dealii::numbers::PI;
 
   /// Largest velocity error of the decaying Taylor-Green vortices at t = 0.2, nu = 0.01, with n
   /// cells a side and `steps` steps.

@@ -9,7 +9,6 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double pi = dealii::numbers::PI;
 
   template <int dim>
   std::string

@@ -8,7 +8,6 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double pi = dealii::numbers::PI;
 
   /// A periodic box of cells of different widths, in which the flow turns and passes.
   template <int dim>
@@ -25,7 +24,7 @@ namespace
 
   template <int dim>
   const Field<dim> &
-  smoke(const FlowRun<dim> &run)
+  smoke_of(const FlowRun<dim> &run)
   {
     return run.state.scalars.at("smoke");
   }
@@ -36,7 +35,7 @@ namespace
   double
   mean_error(const FlowRun<dim> &run, const Exact &exact)
   {
-    auto difference = smoke(run);
+    auto difference = smoke_of(run);
     for_each_value(difference, [&](double &value, const auto &place, const auto &) {
       value = std::abs(value - exact(place));
     });
@@ -72,12 +71,12 @@ TEMPLATE_TEST_CASE_SIG("Fluxes conserve a scalar and keep it in its bounds, what
       FlowRun<dim> run(graded_box<dim>(),
                        smoke_by_fluxes("set Initial value = if((x-.4)^2 + (y-.5)^2 < .06, 3, 1)"));
       const double dt    = cells / (dim == 2 ? 24 : 10) / 2;
-      const double start = integral(run.model, smoke(run));
+      const double start = integral(run.model, smoke_of(run));
       for (unsigned int n = 0; n < 8; ++n)
         {
           run.step(dt);
-          const auto [least, most] = range_of(smoke(run));
-          const double drift       = integral(run.model, smoke(run)) / start - 1;
+          const auto [least, most] = range_of(smoke_of(run));
+          const double drift       = integral(run.model, smoke_of(run)) / start - 1;
           INFO(fmt::format("{} cells: {:.2e} {:.2e} {:.2e}", cells, drift, 1 - least, most - 3));
           CHECK(std::abs(drift) <= 1e-12);
           CHECK(least >= 1 - 1e-13);
@@ -141,9 +140,10 @@ TEMPLATE_TEST_CASE_SIG(
       // The last cells get some of it with any implicit step.
       const double end = .1;
       run.run(std::lround(end / dt), dt);
-      CHECK(integral(run.model, smoke(run)) == Approx(1 + 2 * end + end * end / 4).epsilon(1e-9));
+      CHECK(integral(run.model, smoke_of(run)) ==
+            Approx(1 + 2 * end + end * end / 4).epsilon(1e-9));
       run.run(20, .2);
-      CHECK(range_of(smoke(run)).first >= 3 - 1e-6);
+      CHECK(range_of(smoke_of(run)).first >= 3 - 1e-6);
     }
 }
 
@@ -158,7 +158,7 @@ TEST_CASE("Fluxes conduct heat linearly between walls, and leave it at rest", "[
     smoke_by_fluxes("set Diffusivity = 1\nset Dirichlet boundaries = hot, cold\n"
                     "set Dirichlet value = 5-3*x"));
   const auto error = [&] {
-    return largest_error(smoke(run), [](const auto &place) { return 5 - 3 * place[0]; });
+    return largest_error(smoke_of(run), [](const auto &place) { return 5 - 3 * place[0]; });
   };
   run.run(40, 1);
   CHECK(error() < 1e-9);

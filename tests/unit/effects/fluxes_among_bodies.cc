@@ -10,7 +10,7 @@ namespace
 {
   template <int dim>
   const Field<dim> &
-  smoke(const ObstacleRun<dim> &run)
+  smoke_among(const ObstacleRun<dim> &run)
   {
     return run.state.fluid.scalars.at("smoke");
   }
@@ -20,7 +20,7 @@ namespace
   double
   total(const ObstacleRun<dim> &run)
   {
-    return integral(*run.models.fluid, smoke(run));
+    return integral(*run.models.fluid, smoke_among(run));
   }
 
 
@@ -35,7 +35,7 @@ namespace
       {
         run.step();
         REQUIRE(run.column("Flagged cells") == 0);
-        const auto [least, most] = range_of(smoke(run));
+        const auto [least, most] = range_of(smoke_among(run));
         INFO(fmt::format("{:.2e} {:.2e} {:.2e}", total(run) / start - 1, least, most - 1));
         REQUIRE(std::abs(total(run) / start - 1) <= 1e-12);
         REQUIRE(least >= -1e-13);
@@ -120,7 +120,7 @@ TEMPLATE_TEST_CASE_SIG("A uniform scalar stays so by fluxes while bodies move",
       auto run = swinging<dim>(thickness, .02, "set Initial value = 1.7");
       for (unsigned int n = 0; n < 12; ++n)
         run.step();
-      CHECK(largest_in_cells(smoke(run), [](const double value, const auto &) {
+      CHECK(largest_in_cells(smoke_among(run), [](const double value, const auto &) {
               return std::abs(value - 1.7);
             }) <= 1e-13);
     }
@@ -156,7 +156,7 @@ TEMPLATE_TEST_CASE_SIG("Nothing leaks by fluxes through a thin sheet that moves"
           // Where it is in the fluid's grid: at the begin of the step.
           const double at = .30005 + .4 * std::sin(3 * run.state.clock.time);
           run.step();
-          REQUIRE(largest_in_cells(smoke(run), [&](const double value, const auto &place) {
+          REQUIRE(largest_in_cells(smoke_among(run), [&](const double value, const auto &place) {
                     return std::abs(value - (place[0] < at ? 1 : 0));
                   }) <= 1e-12);
         }
@@ -188,7 +188,7 @@ TEST_CASE("Diffusion goes around a cylinder", "[coupled][scalars][mpi]")
       1.);
     for (unsigned int k = 0; k < 20; ++k)
       run.step();
-    auto difference = smoke(run);
+    auto difference = smoke_among(run);
     for_each_value(difference, [&](double &value, const auto &place, const auto &) {
       const double x = place[0] - centre[0], y = place[1] - centre[1];
       value = std::abs(value - x * (1 + radius * radius / (x * x + y * y)));

@@ -9,7 +9,7 @@ using namespace undine_tests;
 
 namespace
 {
-  const std::string gravity = section("gravity", "set Acceleration = 0, -10");
+  const std::string weight = section("gravity", "set Acceleration = 0, -10");
 
   std::string
   heat(const std::string &keys)
@@ -72,7 +72,7 @@ TEST_CASE("stable layers stay at rest, the pressure carries them", "[scalars][mp
 {
   FlowRun<2> run(
     FluidText{"10, 12", "", "", "set Grading y = x^1.2", 2.},
-    gravity + convection() + viscosity(0.1) + heat("set Initial value = y^2") +
+    weight + convection() + viscosity(0.1) + heat("set Initial value = y^2") +
       section("buoyancy",
               section("heat", "set Expansion coefficient = 0.1\nset Reference value = 0.5")));
   run.run(5, 0.1);
@@ -101,7 +101,7 @@ TEST_CASE("light fluid below rises, with the acceleration of the Boussinesq forc
   // Uniformly light fluid between a pressure above and below: dv/dt = beta (s - s0) |g|.
   FlowRun<2> run(
     FluidText{"4, 6", boundary("open", "bottom, top", "pressure", "set Pressure = 0"), "", "", 3.},
-    gravity + convection() + heat("set Initial value = 2\nset Inflow value = 2") +
+    weight + convection() + heat("set Initial value = 2\nset Inflow value = 2") +
       section("buoyancy",
               section("heat", "set Expansion coefficient = 0.05\nset Reference value = 1")));
   run.run(10, 0.02);

@@ -5,32 +5,21 @@
 #include <undine/fluid/model/fluid_model.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
 
 #include <fmt/format.h>
 #include <message_of.h>
+#include <scene_text.h>
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <string>
-#include <unistd.h>
 
 namespace undine_tests
 {
   using namespace undine;
 
-  /// The options that a text gives.
-  inline Options
-  read_scene_text(const std::string &text)
-  {
-    const auto name =
-      std::filesystem::temp_directory_path() / fmt::format("fluid_scene_{}.prm", getpid());
-    std::ofstream(name) << text;
-    const ParameterFile file(name.string());
-    std::filesystem::remove(name);
-    return Options(file);
-  }
+  constexpr double pi = dealii::numbers::PI;
 
 
   /// "subsection NAME ... end", with keys separated by ';;'.

@@ -9,8 +9,6 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double pi = dealii::numbers::PI;
-
   /// Prescribed at one boundary named "hot", free elsewhere.
   template <int dim>
   class Heat : public BoundaryCondition<dim>

@@ -59,7 +59,7 @@ namespace
 
   template <class Number>
   Number
-  sum(const Number number)
+  sum_over_ranks(const Number number)
   {
     return dealii::Utilities::MPI::sum(number, MPI_COMM_WORLD);
   }
@@ -203,7 +203,7 @@ TEMPLATE_TEST_CASE_SIG("the fluid in corners: exact for linear fields, up to the
   std::uint64_t n_cells = 0;
   for (const auto &patch : part.patches)
     n_cells += dealii::Utilities::pow(patch.n_subdivisions, dim);
-  CHECK(sum(n_cells) == scene.models.fluid->grid().n_cells());
+  CHECK(sum_over_ranks(n_cells) == scene.models.fluid->grid().n_cells());
 
   double vorticity = 0; // of the linear velocity
   for (unsigned int a = 0; a < dim; ++a)

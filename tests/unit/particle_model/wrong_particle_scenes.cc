@@ -8,7 +8,7 @@ using namespace undine_tests;
 
 namespace
 {
-  const std::string water = section("Fluid", "set Density = 1000");
+  const std::string fluid_section = section("Fluid", "set Density = 1000");
   const std::string material =
     "set Density = 700\n set Young's modulus = 2e5\n set Poisson's ratio = "
     "0.4\n";
@@ -34,7 +34,8 @@ TEST_CASE("particles: wrong domains are refused with what would do")
 {
   const auto domain = [](const std::string &spacing, const std::string &keys) {
     return section("Particles", "set Spacing = " + spacing) +
-           section("Domain", "set Lower corner = 0, 0\n set Upper corner = 1, 1\n" + keys) + water;
+           section("Domain", "set Lower corner = 0, 0\n set Upper corner = 1, 1\n" + keys) +
+           fluid_section;
   };
   check_message(domain("0.3", ""), {"'Upper corner'", "3.33333 spacings", "0.9, 0.9"});
   check_message(domain("-0.1", ""), {"'Spacing'", "> 0"});
@@ -94,18 +95,18 @@ TEST_CASE("particles: wrong bodies are refused")
 TEST_CASE("particles: wrong obstacles and effects are refused")
 {
   const auto obstacle = [](const std::string &keys) {
-    return particle_box<2>(10) + water + section("Obstacles", section("pillar", keys));
+    return particle_box<2>(10) + fluid_section + section("Obstacles", section("pillar", keys));
   };
   check_message(obstacle("set Centre = 5, 5\n set Size = 0.001, 4"), {"thinner than a spacing"});
   check_message(obstacle("set Shape = ball\n set Displacement = log(-1-t); 0"),
                 {"'Displacement'", "not a number at the start"});
-  check_message(particle_box<2>(10) + water +
+  check_message(particle_box<2>(10) + fluid_section +
                   section("Obstacles",
                           section("one", "set Displacement = t; 0") +
                             section("other", "set Displacement = 0; t")),
                 {"'Obstacles/other'", "another one that moves"});
   check_message(obstacle("set Surface = there_is_no_such_file.stl"),
                 {"'Surface'", "cannot be read"});
-  check_message(particle_box<2>(10) + water + section("Effects", section("convection", "")),
+  check_message(particle_box<2>(10) + fluid_section + section("Effects", section("convection", "")),
                 {"'Effects/convection'", "'gravity', 'viscosity', 'wall friction'"});
 }

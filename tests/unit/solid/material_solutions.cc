@@ -14,42 +14,44 @@ using dealii::Tensor;
 
 namespace
 {
-  const ElasticConstants constants{1e6, 0.35};
+  const ElasticConstants stiff_constants{1e6, 0.35};
 
-  const double lambda = constants.lame_modulus();
-  const double mu     = constants.shear_modulus();
+  const double lambda = stiff_constants.lame_modulus();
+  const double mu     = stiff_constants.shear_modulus();
 
-  const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
+  const Tensor<2, 3> unit_tensor = dealii::unit_symmetric_tensor<3>();
 } // namespace
 
 
 TEST_CASE("elastic constants agree with each other", "[material]")
 {
-  CHECK(constants.youngs_modulus == Approx(mu * (3 * lambda + 2 * mu) / (lambda + mu)));
-  CHECK(constants.poissons_ratio == Approx(lambda / (2 * (lambda + mu))));
-  CHECK(constants.bulk_modulus() == Approx(constants.youngs_modulus / (3 * (1 - 2 * 0.35))));
-  CHECK(constants.p_wave_modulus() == Approx(lambda + 2 * mu));
+  CHECK(stiff_constants.youngs_modulus == Approx(mu * (3 * lambda + 2 * mu) / (lambda + mu)));
+  CHECK(stiff_constants.poissons_ratio == Approx(lambda / (2 * (lambda + mu))));
+  CHECK(stiff_constants.bulk_modulus() ==
+        Approx(stiff_constants.youngs_modulus / (3 * (1 - 2 * 0.35))));
+  CHECK(stiff_constants.p_wave_modulus() == Approx(lambda + 2 * mu));
 }
 
 
 TEST_CASE("linear elastic: a sum of deformations gives the sum of stresses", "[material]")
 {
-  const auto material = make_material("linear elastic", constants);
+  const auto material = make_material("linear elastic", stiff_constants);
   Generator  generator;
   const auto first    = generator.displacement_gradient<3>();
   const auto second   = generator.displacement_gradient<3>();
-  const auto together = material->stress(identity + first - 3 * second);
-  const auto apart = material->stress(identity + first) - 3 * material->stress(identity + second);
-  CHECK((together - apart).norm() < 1e-13 * constants.p_wave_modulus());
+  const auto together = material->stress(unit_tensor + first - 3 * second);
+  const auto apart =
+    material->stress(unit_tensor + first) - 3 * material->stress(unit_tensor + second);
+  CHECK((together - apart).norm() < 1e-13 * stiff_constants.p_wave_modulus());
 }
 
 
 TEST_CASE("Saint Venant-Kirchhoff: a bar stretched without contraction", "[material]")
 {
-  const auto material = make_material("Saint Venant-Kirchhoff", constants);
+  const auto material = make_material("Saint Venant-Kirchhoff", stiff_constants);
   for (const double stretch : {0.7, 1.4})
     {
-      auto F              = identity;
+      auto F              = unit_tensor;
       F[0][0]             = stretch;
       const double strain = 0.5 * (stretch * stretch - 1);
       const auto   P      = material->stress(F);
@@ -61,9 +63,9 @@ TEST_CASE("Saint Venant-Kirchhoff: a bar stretched without contraction", "[mater
 
 TEST_CASE("neo-Hookean: simple shear", "[material]")
 {
-  const auto   material = make_material("neo-Hookean", constants);
+  const auto   material = make_material("neo-Hookean", stiff_constants);
   const double shear    = 0.8;
-  auto         F        = identity;
+  auto         F        = unit_tensor;
   F[0][1]               = shear;
   const auto sigma      = material->stress(F) * transpose(F); // J = 1
   CHECK(sigma[0][1] == Approx(mu * shear));
@@ -75,13 +77,13 @@ TEST_CASE("neo-Hookean: simple shear", "[material]")
 TEST_CASE("neo-Hookean: no finite energy turns a volume into nothing or into infinity",
           "[material]")
 {
-  const auto material = make_material("neo-Hookean", constants);
+  const auto material = make_material("neo-Hookean", stiff_constants);
   double     previous = 0;
   for (unsigned int i = 1; i < 6; ++i)
     {
       // Pressure rises without bound in compression and without softening in expansion.
-      const double pressed = -material->stress(std::pow(0.5, i) * identity)[0][0];
-      const double blown   = material->stress(std::pow(2., i) * identity)[0][0];
+      const double pressed = -material->stress(std::pow(0.5, i) * unit_tensor)[0][0];
+      const double blown   = material->stress(std::pow(2., i) * unit_tensor)[0][0];
       CHECK(pressed > 2 * previous);
       CHECK(blown > 2 * previous);
       previous = std::min(pressed, blown);
@@ -91,7 +93,7 @@ TEST_CASE("neo-Hookean: no finite energy turns a volume into nothing or into inf
 
 TEST_CASE("nearly incompressible rubber: stress does no work in pure dilatation", "[material]")
 {
-  const auto material = make_material("nearly incompressible rubber", constants);
+  const auto material = make_material("nearly incompressible rubber", stiff_constants);
   Generator  generator;
   for (unsigned int sample = 0; sample < 10; ++sample)
     {

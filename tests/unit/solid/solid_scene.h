@@ -8,31 +8,16 @@
 #include <undine/solid/step/solid_stepper.h>
 
 #include <fmt/format.h>
+#include <scene_text.h>
 
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <string>
-#include <unistd.h>
 
 namespace undine_tests
 {
   using namespace undine;
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
-
-  /// The options that a text gives.
-  inline Options
-  read_scene_text(const std::string &text)
-  {
-    const auto name =
-      std::filesystem::temp_directory_path() / fmt::format("solid_scene_{}.prm", getpid());
-    std::ofstream(name) << text;
-    const ParameterFile file(name.string());
-    std::filesystem::remove(name);
-    return Options(file);
-  }
-
 
   /// A scene with one body 'body', whose section holds `body`, and boundaries `boundaries`; the
   /// others are sections 'Solid numerics' and 'Time'.

@@ -29,6 +29,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<ImpliedEffect, DeformableBodies>
-      registered("deformable bodies", "Bodies move and deform by the forces on them, (T1).");
+      registered_deformable_bodies("deformable bodies",
+                                   "Bodies move and deform by the forces on them, (T1).");
   }
 } // namespace undine

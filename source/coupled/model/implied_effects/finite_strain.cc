@@ -34,6 +34,6 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<ImpliedEffect, FiniteStrain>
-      registered("finite strain", "Large strains and rotations of bodies.");
+      registered_finite_strain("finite strain", "Large strains and rotations of bodies.");
   }
 } // namespace undine

@@ -39,6 +39,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<ImpliedEffect, MotionOfObstacles>
-      registered("motion of obstacles", "Obstacles move as prescribed and push the fluid, (I2).");
+      registered_motion_of_obstacles("motion of obstacles",
+                                     "Obstacles move as prescribed and push the fluid, (I2).");
   }
 } // namespace undine

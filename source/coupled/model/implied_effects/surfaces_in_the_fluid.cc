@@ -32,6 +32,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<ImpliedEffect, SurfacesInTheFluid>
-      registered("surfaces in the fluid", "Bodies and obstacles cut the grid, (I1)-(I4).");
+      registered_surfaces_in_the_fluid("surfaces in the fluid",
+                                       "Bodies and obstacles cut the grid, (I1)-(I4).");
   }
 } // namespace undine

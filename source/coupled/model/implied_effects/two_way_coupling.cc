@@ -35,6 +35,6 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<ImpliedEffect, TwoWayCoupling>
-      registered("two-way coupling", "Fluid and bodies push each other, (C1).");
+      registered_two_way_coupling("two-way coupling", "Fluid and bodies push each other, (C1).");
   }
 } // namespace undine

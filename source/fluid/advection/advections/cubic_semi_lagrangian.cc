@@ -46,9 +46,9 @@ namespace undine
 
   namespace
   {
-    const RegisterForDimensions<Advection, CubicSemiLagrangian>
-      registered("cubic",
-                 "Follow the flow back for one step and interpolate there with cubics: "
-                 "most accurate.");
+    const RegisterForDimensions<Advection, CubicSemiLagrangian> registered_cubic_semi_lagrangian(
+      "cubic",
+      "Follow the flow back for one step and interpolate there with cubics: "
+      "most accurate.");
   }
 } // namespace undine

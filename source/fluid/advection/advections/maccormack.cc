@@ -94,6 +94,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Advection, MacCormack>
-      registered("MacCormack", "Semi-Lagrangian, corrected by a step back: second order in space.");
+      registered_maccormack("MacCormack",
+                            "Semi-Lagrangian, corrected by a step back: second order in space.");
   }
 } // namespace undine

@@ -43,8 +43,8 @@ namespace undine
 
   namespace
   {
-    const RegisterForDimensions<Advection, SemiLagrangian>
-      registered("semi-Lagrangian",
-                 "Follow the flow back for one step and interpolate there: robust, smears most.");
+    const RegisterForDimensions<Advection, SemiLagrangian> registered_semi_lagrangian(
+      "semi-Lagrangian",
+      "Follow the flow back for one step and interpolate there: robust, smears most.");
   }
 } // namespace undine

@@ -60,5 +60,6 @@ namespace undine
 
 
   static const Register<Material, LinearElastic>
-    registered("linear elastic", "Hooke's law; displacements and rotations have to stay small.");
+    registered_linear_elastic("linear elastic",
+                              "Hooke's law; displacements and rotations have to stay small.");
 } // namespace undine

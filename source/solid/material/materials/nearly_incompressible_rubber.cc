@@ -88,7 +88,8 @@ namespace undine
 
 
   static const Register<Material, NearlyIncompressibleRubber>
-    registered("nearly incompressible rubber",
-               "Large strains at nearly constant volume: Poisson's ratio up to 0.4999 and beyond "
-               "without locking, by a dilatation averaged over each cell.");
+    registered_nearly_incompressible_rubber(
+      "nearly incompressible rubber",
+      "Large strains at nearly constant volume: Poisson's ratio up to 0.4999 and beyond "
+      "without locking, by a dilatation averaged over each cell.");
 } // namespace undine

@@ -65,5 +65,6 @@ namespace undine
 
 
   static const Register<Material, NeoHookean>
-    registered("neo-Hookean", "Compressible rubber or tissue: large rotations and large strains.");
+    registered_neo_hookean("neo-Hookean",
+                           "Compressible rubber or tissue: large rotations and large strains.");
 } // namespace undine

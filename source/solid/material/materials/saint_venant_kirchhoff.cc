@@ -61,7 +61,7 @@ namespace undine
   };
 
 
-  static const Register<Material, SaintVenantKirchhoff>
-    registered("Saint Venant-Kirchhoff",
-               "Hooke's law in Green-Lagrange strain: large rotations, moderate strains.");
+  static const Register<Material, SaintVenantKirchhoff> registered_saint_venant_kirchhoff(
+    "Saint Venant-Kirchhoff",
+    "Hooke's law in Green-Lagrange strain: large rotations, moderate strains.");
 } // namespace undine

@@ -7,9 +7,6 @@ using namespace undine_tests;
 
 namespace
 {
-  const std::string budget = section("Output", "set Budget = true");
-
-
   /// Everything at once: a stream with a body and a moving obstacle in it, gravity, friction,
   /// damping and a load.
   template <int dim>

@@ -38,7 +38,7 @@ namespace
 
   /// A soft ball in a wind.
   std::string
-  ball()
+  fixed_ball()
   {
     return section(
       "Bodies",
@@ -94,6 +94,6 @@ TEST_CASE("what transport makes of momentum vanishes with cells and steps", "[co
   }
   SECTION("ball, 2D")
   {
-    check_decay<2>("1; 0", ball(), {{16, 32, 64}}, 1.8);
+    check_decay<2>("1; 0", fixed_ball(), {{16, 32, 64}}, 1.8);
   }
 }

@@ -5,13 +5,13 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double length = .5, column = .8, youngs_modulus = 2e5;
+  constexpr double length_of_bar = .5, column = .8, modulus_of_bar = 2e5;
 
   /// lambda of the first mode, by bisection.
   double
   exact_wave_number(const double density)
   {
-    const double ratio = density * length / (1000 * column);
+    const double ratio = density * length_of_bar / (1000 * column);
     double       lower = 0, upper = M_PI / 2;
     for (unsigned int n = 0; n < 60; ++n)
       {
@@ -26,7 +26,7 @@ namespace
   double
   exact_frequency(const double density)
   {
-    return exact_wave_number(density) * std::sqrt(youngs_modulus / density) / length;
+    return exact_wave_number(density) * std::sqrt(modulus_of_bar / density) / length_of_bar;
   }
 
 
@@ -46,7 +46,7 @@ namespace
       return clamp("slides_" + axis, "1", "set Components = " + axis);
     };
     const double height = .2;
-    const auto   end    = length + column;
+    const auto   end    = length_of_bar + column;
     return steps_of(dt) +
            section("Domain",
                    fmt::format(plane_or_space<dim>("set Lower corner = .3, 0\nset Upper corner = "
@@ -65,14 +65,14 @@ namespace
                                                         "set Lower corner = 0, 0, 0\nset Upper "
                                                         "corner = {0}, {1}, {1}\nset Cells = 30, "
                                                         "3, 3"),
-                                    length,
+                                    length_of_bar,
                                     height) +
                           fmt::format("\nset Density = {}\nset Young's modulus = {}\nset "
                                       "Poisson's ratio = 0\nset Material = linear elastic\nset "
                                       "Initial displacement = 1e-4*sin({}*x){}",
                                       density,
-                                      youngs_modulus,
-                                      exact_wave_number(density) / length,
+                                      modulus_of_bar,
+                                      exact_wave_number(density) / length_of_bar,
                                       plane_or_space<dim>(";0", ";0;0")),
                         clamp("wall", "1", "set Sides = left") + slides("y") +
                           plane_or_space<dim>("", slides("z")))) +
@@ -87,11 +87,11 @@ namespace
   {
     CoupledRun<dim>     run(bar_and_water<dim>(density, dt, integrator));
     std::vector<double> passages;
-    double              before = run.column("centre of mass bar x") - length / 2;
+    double              before = run.column("centre of mass bar x") - length_of_bar / 2;
     for (unsigned int n = 0; n < 1000 && passages.size() < 5; ++n)
       {
         run.step();
-        const double now = run.column("centre of mass bar x") - length / 2;
+        const double now = run.column("centre of mass bar x") - length_of_bar / 2;
         if (before * now < 0)
           passages.push_back(run.state.clock.time - run.report.dt * now / (now - before));
         before = now;
@@ -128,7 +128,7 @@ namespace
     for (unsigned int n = 0; n < 3000 && extremes.size() < 9; ++n)
       {
         run.step();
-        last               = {{last[1], last[2], run.column("centre of mass bar x") - length / 2}};
+        last = {{last[1], last[2], run.column("centre of mass bar x") - length_of_bar / 2}};
         const double slope = (last[2] - last[0]) / 2, bend = last[2] - 2 * last[1] + last[0];
         if (n > 2 && (last[1] - last[0]) * (last[2] - last[1]) <= 0)
           extremes.push_back(std::abs(last[1] - slope * slope / (2 * bend)));

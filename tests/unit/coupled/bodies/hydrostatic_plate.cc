@@ -7,9 +7,9 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double gravity = 9.81;
+  constexpr double free_fall = 9.81;
 
-  const std::string swept = section("Coupling", "set Boundary flux = swept");
+  const std::string with_swept_flux = section("Coupling", "set Boundary flux = swept");
 
   /// prm/hydrostatic_plate.prm: water on a plate that is clamped on both sides, air below.
   std::string
@@ -47,8 +47,9 @@ namespace
 TEST_CASE("A plate under water bends as under its pressure and stays at rest", "[coupled][mpi]")
 {
   // Steps so long that the water's inertia does not matter: the limit is the place of rest.
-  CoupledRun<2> run(plate_under_water(1000, section("Time", "set Integrator = static") + swept));
-  double        inflow = 0;
+  CoupledRun<2> run(
+    plate_under_water(1000, section("Time", "set Integrator = static") + with_swept_flux));
+  double inflow = 0;
   for (unsigned int n = 0; n < 8; ++n)
     {
       run.step();
@@ -67,7 +68,7 @@ TEST_CASE("A plate under water bends as under its pressure and stays at rest", "
   CHECK(run.column("reaction plate/ends y") == Approx(weight).epsilon(1e-9));
 
   const double rest = deflection(run);
-  for (const auto &method : {section("Time", "set Integrator = theta") + swept,
+  for (const auto &method : {section("Time", "set Integrator = theta") + with_swept_flux,
                              section("Time", "set Integrator = trapezoid_bdf2")})
     {
       INFO(method);

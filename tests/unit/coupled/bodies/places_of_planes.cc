@@ -7,9 +7,6 @@ namespace
 {
   constexpr double dt = 1. / 60;
 
-  const std::string budget = section("Output", "set Budget = true");
-
-
   /// A fifth of a second of the flow into a chamber.
   double
   speed(const double time)

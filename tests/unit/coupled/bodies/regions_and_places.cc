@@ -8,7 +8,7 @@ using namespace undine_tests;
 namespace
 {
   std::string
-  ball(const std::string &name, const std::string &where, const std::string &displacement)
+  pushed_ball(const std::string &name, const std::string &where, const std::string &displacement)
   {
     return section(name,
                    "set Shape = ball\nset Centre = " + where + "\nset Radius = .15\n" +
@@ -39,7 +39,7 @@ TEST_CASE("A region without a compliant body keeps its fluid beside coupled bodi
                  clamp("foot", "-y"))) +
     section("Obstacles",
             section("wall", "set Lower corner = 1, -1\nset Upper corner = 1.1, 2") +
-              ball("stirrer", "1.55, .5", ".1*sin(5*t); 0")) +
+              pushed_ball("stirrer", "1.55, .5", ".1*sin(5*t); 0")) +
     section("Effects", convection()));
   for (unsigned int n = 0; n < 6; ++n)
     {
@@ -89,7 +89,7 @@ TEST_CASE("A step that cannot be cut into open air ends with the reason, however
               section("door",
                       "set Lower corner = .9, .4\nset Upper corner = 1.1, 2\nset Displacement = 0; "
                       ".5*t") +
-              ball("stirrer", "1.35, .25", ".02*sin(4*t); 0")));
+              pushed_ball("stirrer", "1.35, .25", ".02*sin(4*t); 0")));
   const auto open_the_door = [&] {
     for (unsigned int n = 0; n < 12; ++n)
       run.step();
@@ -103,7 +103,7 @@ TEST_CASE("Nothing remembers the motion of an obstacle that has stopped", "[coup
   const auto force = [](const std::string &creep) {
     CoupledRun<2> run(
       steps_of(.05) + stream_to_the_right<2>("16, 16", 1, 1) +
-      section("Obstacles", ball("ball", ".3, .43", "2*min(t, .1) + " + creep + "*t; 0")) +
+      section("Obstacles", pushed_ball("ball", ".3, .43", "2*min(t, .1) + " + creep + "*t; 0")) +
       section("Effects", convection()));
     for (unsigned int n = 0; n < 20; ++n)
       run.step();

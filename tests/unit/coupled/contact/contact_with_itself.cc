@@ -10,9 +10,6 @@ using namespace undine_tests;
 namespace
 {
   const std::string only_contact = section("Effects", section("contact", ""));
-  const std::string budget       = section("Output", "set Budget = true");
-
-
   /// A flat sheet whose halves fly up and fold it.
   template <int dim>
   std::string

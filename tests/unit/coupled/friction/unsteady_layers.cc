@@ -9,7 +9,7 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double pi = dealii::numbers::PI, dynamic_viscosity = .05;
+  constexpr double dynamic_viscosity = .05;
 
   /// The fluid between two plane walls normal to y. They are sides of the domain, or surfaces of
   /// obstacles between planes of the grid.

@@ -16,7 +16,9 @@ namespace
 
   template <int dim>
   std::string
-  box(const std::string &lower, const std::string &upper, const std::string &displacement = "0; 0")
+  flush_box(const std::string &lower,
+            const std::string &upper,
+            const std::string &displacement = "0; 0")
   {
     return obstacle("box",
                     "box",
@@ -26,14 +28,14 @@ namespace
   }
 
 
-  struct Result
+  struct FlushResult
   {
     double force, speed, divergence;
   };
 
 
   template <int dim>
-  Result
+  FlushResult
   run_stream(const std::string &obstacles)
   {
     ObstacleRun<dim> run(channel<dim>(), obstacles, convection(), .02);
@@ -50,7 +52,7 @@ namespace
   void
   check_steps()
   {
-    const auto check = [](const Result &flush, const Result &beyond) {
+    const auto check = [](const FlushResult &flush, const FlushResult &beyond) {
       CHECK(flush.force == Approx(beyond.force).epsilon(1e-5));
       CHECK(flush.speed == Approx(beyond.speed).epsilon(1e-5));
       CHECK(flush.divergence <= 1e-10);

@@ -7,7 +7,7 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double density = 800, acceleration = 9.7;
+  constexpr double fluid_density = 800, acceleration = 9.7;
 
   /// Expressions that turn by an angle in each coordinate plane, then shift.
   template <int dim>
@@ -75,7 +75,7 @@ namespace
                                   "set Upper corner = 1, 2.3, 1\nset Cells = 10, 23, 9\n") +
                 more_domain) +
         section("Fluid",
-                fmt::format("set Density = {}\n", density) +
+                fmt::format("set Density = {}\n", fluid_density) +
                   section("Boundaries", boundary("lid", "top", kind_of_top))),
       things<dim>() +
         obstacle("wedge",
@@ -98,7 +98,7 @@ namespace
         REQUIRE(speed <= 1e-12 * std::sqrt(scale));
         REQUIRE(largest_in_cells(run.state.fluid.pressure, [](const double value, const auto &) {
                   return std::abs(value);
-                }) <= 1e-12 * density * acceleration);
+                }) <= 1e-12 * fluid_density * acceleration);
       }
     CHECK(run.column("Flagged cells") == 0);
 
@@ -111,10 +111,11 @@ namespace
       {
         const auto name = run.surface().body_names()[b];
         const auto error =
-          run.column_vector("pressure force " + name) + density * volumes[b] * gravity;
+          run.column_vector("pressure force " + name) + fluid_density * volumes[b] * gravity;
         INFO(name << " of volume " << volumes[b]);
         // Of a sheet the forces on both sides cancel.
-        CHECK(error.norm() <= 1e-12 * density * acceleration * std::max(volumes[b], 2.3 * .05));
+        CHECK(error.norm() <=
+              1e-12 * fluid_density * acceleration * std::max(volumes[b], 2.3 * .05));
       }
   }
 } // namespace

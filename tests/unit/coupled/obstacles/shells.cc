@@ -7,12 +7,12 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr unsigned int n_segments = 48;
-  constexpr double       radius     = .21;
+  constexpr unsigned int n_segments   = 48;
+  constexpr double       shell_radius = .21;
 
   // Thicker than the shell's facets differ from arcs.
   template <int dim>
-  constexpr double thickness = dim == 2 ? 2e-3 : 1e-2;
+  constexpr double shell_thickness = dim == 2 ? 2e-3 : 1e-2;
 
   // All of the shell's inner side is nearer, all of the outer one farther from the centre.
   template <int dim>
@@ -70,7 +70,7 @@ namespace
     for (unsigned int k = 0; k < n_segments; ++k)
       {
         const double angle = 2 * M_PI * (k + .3) / n_segments;
-        for (const double r : {radius, radius + thickness<2>})
+        for (const double r : {shell_radius, shell_radius + shell_thickness<2>})
           nodes.emplace_back(r * std::cos(angle), r * std::sin(angle));
         const unsigned int next = (k + 1) % n_segments;
         cells.push_back({2 * k, 2 * k + 1, 2 * next + 1, 2 * next});
@@ -95,7 +95,7 @@ namespace
           dealii::Point<3> x;
           for (unsigned int d = 0; d < 3; ++d)
             x[d] = std::tan(M_PI / 4 * (2. * at[d] / n - 1));
-          nodes.emplace_back((radius + layer * thickness<3>) / x.norm() * x);
+          nodes.emplace_back((shell_radius + layer * shell_thickness<3>) / x.norm() * x);
         }
       return found.first->second;
     };

@@ -35,14 +35,14 @@ namespace
   }
 
 
-  struct Result
+  struct StepResult
   {
     double force, position, iterations;
   };
 
 
   template <int dim>
-  Result
+  StepResult
   after_steps(const std::string &coupling, const std::string &numerics = "")
   {
     CoupledRun<dim> run(jet_on_sheet<dim>(coupling, numerics));
@@ -68,7 +68,7 @@ namespace
     const auto direct = after_steps<dim>("set Linear solver = direct");
     CHECK(direct.iterations == 0);
     CHECK(std::abs(direct.position - .515) > 1e-3);
-    const auto compare = [&](const Result &result, const double most) {
+    const auto compare = [&](const StepResult &result, const double most) {
       CHECK(result.force == Approx(direct.force).epsilon(1e-7));
       CHECK(result.position - .515 == Approx(direct.position - .515).epsilon(1e-7));
       CHECK(result.iterations > 0);

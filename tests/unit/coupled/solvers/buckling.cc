@@ -10,10 +10,10 @@ namespace
   /// bent by more than a trace: far beyond Euler's load its tangent is indefinite, inertia
   /// included.
   std::string
-  column(const double       shortening,
-         const std::string &motion,
-         const std::string &cells,
-         const std::string &numerics)
+  slender_column(const double       shortening,
+                 const std::string &motion,
+                 const std::string &cells,
+                 const std::string &numerics)
   {
     const auto moved = fmt::format("1e-4 * sin(pi * y / .7)^2; -{:.17g} * (y + .05)", shortening);
     return steps_of(1. / 60) +
@@ -39,7 +39,7 @@ namespace
   }
 
 
-  struct Result
+  struct Buckled
   {
     double       sideways, energy_left;
     std::string  notes;
@@ -48,12 +48,12 @@ namespace
 
 
   /// The column leaves its straight shape: two steps. By backward Euler.
-  Result
+  Buckled
   buckle(const std::string &numerics)
   {
-    CoupledRun<2> run(column(.1, "-.075", "4, 64", numerics));
+    CoupledRun<2> run(slender_column(.1, "-.075", "4, 64", numerics));
     const double  start = run.column("solid elastic energy");
-    Result        result;
+    Buckled       result;
     for (unsigned int n = 0; n < 2; ++n)
       {
         run.step();
@@ -94,7 +94,7 @@ TEST_CASE("Supports that move by more than a cell in a step draw bodies in a flu
           "[coupled][mpi]")
 {
   // Each of 16 cells is 47 mm long; the first step shortens the column by 60 mm.
-  CoupledRun<2> run(column(0, "-3.6 * t", "1, 16", ""));
+  CoupledRun<2> run(slender_column(0, "-3.6 * t", "1, 16", ""));
   run.step();
   CHECK(run.report.cuts == 0);
   CHECK(run.column("momentum residual column") <= 1e-9);
@@ -104,7 +104,8 @@ TEST_CASE("Supports that move by more than a cell in a step draw bodies in a flu
 TEST_CASE("What no step can do to a body in a fluid is cut, and said", "[coupled][mpi]")
 {
   // The head passes the foot after 0.01 s.
-  CoupledRun<2> run(column(0, "-75 * t", "1, 16", "") + section("Time", "set Maximum cuts = 3"));
+  CoupledRun<2> run(slender_column(0, "-75 * t", "1, 16", "") +
+                    section("Time", "set Maximum cuts = 3"));
   try
     {
       for (unsigned int n = 0; n < 100; ++n)

@@ -10,7 +10,6 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double pi = dealii::numbers::PI;
 
   std::string
   vortices(const unsigned int cells, const double viscosity, const std::string &stream)

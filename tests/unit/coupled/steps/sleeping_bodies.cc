@@ -7,14 +7,11 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double speed = 1e-3; // V [m/s]
-  constexpr double rest  = 0.25; // T [s]
-
-  const std::string budget = section("Output", "set Budget = true");
-
+  constexpr double drift_speed = 1e-3; // V [m/s]
+  constexpr double rest        = 0.25; // T [s]
 
   std::string
-  sleep(const double slow = speed, const double time = rest)
+  sleep(const double slow = drift_speed, const double time = rest)
   {
     return section("sleep", fmt::format("set Speed = {}\nset Time = {}", slow, time));
   }
@@ -133,12 +130,12 @@ TEMPLATE_TEST_CASE_SIG(
   CHECK(run.column("asleep a") == 0);
   CHECK(run.column("asleep b") == 1);
   CHECK(run.column("max speed b") == 0);
-  CHECK(largest < speed * rest);
-  CHECK(largest > 1e-3 * speed * rest);
+  CHECK(largest < drift_speed * rest);
+  CHECK(largest > 1e-3 * drift_speed * rest);
   // The largest energy with which two of these posts may fall asleep.
   const double mass = std::stod(plane_or_space<dim>("50", "10"));
   CHECK(taken < 0);
-  CHECK(-taken < 2 * mass * speed * speed / 2);
+  CHECK(-taken < 2 * mass * drift_speed * drift_speed / 2);
 }
 
 

@@ -8,8 +8,8 @@ using namespace undine_tests;
 
 namespace
 {
-  constexpr double frequency = 2;  // [rad/s]
-  constexpr double length    = 20; // of a run [s]
+  constexpr double turning_frequency = 2;  // [rad/s]
+  constexpr double length_of_run     = 20; // of a run [s]
 
   /// A bar of one linear element between guides: its end swings by sin(frequency t), if pushed.
   std::string
@@ -21,7 +21,7 @@ namespace
                         fmt::format("set Upper corner = 1, 1\nset Cells = 1, 1\nset Density = 1\n"
                                     "set Material = linear elastic\nset Poisson's ratio = 0\n"
                                     "set Young's modulus = {}\n",
-                                    frequency * frequency / 3) +
+                                    turning_frequency * turning_frequency / 3) +
                           more,
                         clamp("wall", "1", "set Sides = left") +
                           clamp("guides", "1", "set Components = y"))) +
@@ -35,7 +35,7 @@ namespace
   {
     return bar(integrator,
                fmt::format("set Tolerance = {}", tolerance),
-               fmt::format("set Initial velocity = {}*x; 0\n", frequency));
+               fmt::format("set Initial velocity = {}*x; 0\n", turning_frequency));
   }
 
 
@@ -44,7 +44,7 @@ namespace
     explicit Run(const std::string &text)
       : CoupledRun<2>(text)
     {
-      state.clock.end_time = length;
+      state.clock.end_time = length_of_run;
     }
 
     void
@@ -68,8 +68,8 @@ namespace
       while (!state.clock.ended())
         {
           advance();
-          largest =
-            std::max(largest, std::abs(displacement() - std::sin(frequency * state.clock.time)));
+          largest = std::max(
+            largest, std::abs(displacement() - std::sin(turning_frequency * state.clock.time)));
         }
       return largest;
     }
