@@ -89,14 +89,17 @@ add_test(NAME runs/certificate
                  ${PROJECT_SOURCE_DIR}/prm)
 set_tests_properties(runs/certificate PROPERTIES TIMEOUT 300)
 
-# Hard cases: every scene of prm/hard for a few steps of 1/30 and of 1/240 s, and to its end.
+# Hard cases: every scene of prm/hard for a few steps of 1/30 and of 1/240 s, and to its end; what their heads say of time
+# and size.
 file(GLOB hard_cases CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/prm/hard/*.prm)
 foreach(scene ${hard_cases})
   get_filename_component(name ${scene} NAME_WE)
   add_test(NAME runs/hard_cases.${name}
            COMMAND ${PROJECT_SOURCE_DIR}/benchmarks/hard_cases.py
                    $<TARGET_FILE:undine> --short --case ${name})
-  set_tests_properties(runs/hard_cases.${name} PROPERTIES TIMEOUT 300)
+  add_test(NAME scenes/head_of_${name}
+           COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/scene_costs.py $<TARGET_FILE:undine> ${scene} --check)
+  set_tests_properties(runs/hard_cases.${name} scenes/head_of_${name} PROPERTIES TIMEOUT 300)
   add_test(NAME long/hard_cases.${name}
            COMMAND ${PROJECT_SOURCE_DIR}/benchmarks/hard_cases.py
                    $<TARGET_FILE:undine> --check --case ${name})

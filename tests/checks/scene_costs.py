@@ -8,6 +8,7 @@ machine as fast: like with like, so that neither a busy machine nor a scene whos
 change. Bytes are those of the last of two steps' pictures, times the number of pictures.
 
 usage: scene_costs.py PROGRAM SCENE.prm... [--limit SECONDS]     measure, write costs.csv and the heads of the scenes
+       scene_costs.py PROGRAM SCENE.prm... --check               are the heads true?
 
 What takes longer than the limit is stopped, and goes on costing what its steps but the first two have cost.
 """
@@ -168,13 +169,28 @@ def write_head(scene, row):
     pathlib.Path(scene).write_text(text[:comment] + line + text[comment:].lstrip("\n"))
 
 
+def check(program, scenes, settings):
+    """Two steps of each."""
+    found = []
+    for scene in scenes:
+        with tempfile.TemporaryDirectory() as folder:
+            run(program, scene, folder + "/two", None, *settings(scene))
+            found += faults(scene, folder + "/two")
+    if found:
+        raise SystemExit("\n".join(found))
+
+
 def main():
     import check_scene
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("scenes", nargs="+")
     parser.add_argument("--limit", type=float)
+    parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
+    if options.check:
+        check(options.program, options.scenes, check_scene.settings)
+        return
     for scene in options.scenes:
         row = measured(options.program, scene, options.limit, check_scene.settings(scene))
         table = rows() if TABLE.exists() else {}

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """`./undine build` and `./undine test -R unit/MODULE/FILE` for a tutorial that adds sources: these are compiled as their
-neighbours were, and linked with the objects of the finished build, which stays as it is.
+module was, and linked with the objects of the finished build, which stays as it is.
 
 usage, in a folder that looks like that of the sources: tutorial_build.py BUILD build
                                                         tutorial_build.py BUILD test -R unit/MODULE/FILE
@@ -21,10 +21,12 @@ def added_sources():
     return sorted(file for file in (FOLDER / "source").rglob("*.cc") if not file.is_symlink())
 
 
-def compile_like(neighbour, source, result, build):
-    """Compile a source by the command of a neighbour."""
+def compile_in(module, source, result, build):
+    """Compile a source by the command of another one of its module."""
     with open(build / "compile_commands.json") as file:
-        known = next(entry for entry in json.load(file) if pathlib.Path(entry["file"]) == neighbour)
+        known = next(entry for entry in json.load(file)
+                     if f"/undine_{module}.dir/" in entry["command"] and entry["file"].endswith((".cc", ".cxx"))
+                     and "cmake_pch" not in entry["file"])
     words = shlex.split(known["command"])
     words[words.index("-o") + 1] = str(result)
     words[words.index("-c") + 1] = str(source)
@@ -37,8 +39,8 @@ def objects(build):
     for source in added_sources():
         result = FOLDER / "build" / f"{source.stem}.o"
         if not result.exists() or result.stat().st_mtime < source.stat().st_mtime:
-            neighbour = next(entry.resolve() for entry in source.parent.iterdir() if entry.is_symlink() and entry.suffix == ".cc")
-            compile_like(neighbour, source, result, build)
+            module = source.relative_to(FOLDER / "source").parts[0]
+            compile_in(module, source, result, build)
         yield result
 
 

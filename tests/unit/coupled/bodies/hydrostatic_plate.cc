@@ -30,7 +30,7 @@ namespace
                         clamp("ends", "1", "set Sides = left, right"))) +
            section("Effects",
                    convection() +
-                     section("gravity", fmt::format("set Acceleration = 0, -{}", gravity))) +
+                     section("gravity", fmt::format("set Acceleration = 0, -{}", free_fall))) +
            method;
   }
 
@@ -63,7 +63,7 @@ TEST_CASE("A plate under water bends as under its pressure and stays at rest", "
   CHECK(deflection(run) == Approx(converged).epsilon(.01));
 
   // The clamp bears the plate, the water that was there, and what has flown in since.
-  const double weight = gravity * (1100 * .04 + 1000 * (.5 + inflow));
+  const double weight = free_fall * (1100 * .04 + 1000 * (.5 + inflow));
   CHECK(inflow > .01);
   CHECK(run.column("reaction plate/ends y") == Approx(weight).epsilon(1e-9));
 

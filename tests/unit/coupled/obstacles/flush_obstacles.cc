@@ -57,13 +57,13 @@ namespace
       CHECK(flush.speed == Approx(beyond.speed).epsilon(1e-5));
       CHECK(flush.divergence <= 1e-10);
     };
-    check(run_stream<dim>(box<dim>(".31, 0", ".72, .3")),
-          run_stream<dim>(box<dim>(".31, -.5", ".72, .3")));
-    check(run_stream<dim>(box<dim>(".31, .64", ".72, 1")),
-          run_stream<dim>(box<dim>(".31, .64", ".72, 1.2")));
+    check(run_stream<dim>(flush_box<dim>(".31, 0", ".72, .3")),
+          run_stream<dim>(flush_box<dim>(".31, -.5", ".72, .3")));
+    check(run_stream<dim>(flush_box<dim>(".31, .64", ".72, 1")),
+          run_stream<dim>(flush_box<dim>(".31, .64", ".72, 1.2")));
     // What covers a part of the inflow keeps that part from flowing in.
-    check(run_stream<dim>(box<dim>("0, 0", ".37, .3")),
-          run_stream<dim>(box<dim>("-1, -1", ".37, .3")));
+    check(run_stream<dim>(flush_box<dim>("0, 0", ".37, .3")),
+          run_stream<dim>(flush_box<dim>("-1, -1", ".37, .3")));
   }
 
 
@@ -72,7 +72,8 @@ namespace
   check_motion(const std::string &lower, const std::string &upper, const std::string &displacement)
   {
     INFO(dim << "D, " << displacement);
-    ObstacleRun<dim> run(channel<dim>(), box<dim>(lower, upper, displacement), convection(), .02);
+    ObstacleRun<dim> run(
+      channel<dim>(), flush_box<dim>(lower, upper, displacement), convection(), .02);
     for (unsigned int n = 0; n < 4; ++n)
       {
         run.step();
