@@ -33,7 +33,8 @@ HEAD = re.compile(r"^# Takes about (\S+ (?:s|min|h)) on one core and writes abou
 ENDS = (0, 3, 7)  # exit codes: at the end, where a scene shows that a step fails, stopped
 FACTOR = 3
 PREFACE = """# Written by tests/checks/scene_costs.py, which says what it means. Core seconds of whole runs of mok_channel, turek_hron_cfd
-# and _fsi, elastic_plate_cross_flow and pressure_pulse_tube are those of doc/viscous_flows.md, in which they were measured.
+# and _fsi, elastic_plate_cross_flow and pressure_pulse_tube are those of doc/viscous_flows.md, in which they were measured; those of
+# at_rest, body_against_wall_3d, fifty_bodies_3d, folding_sheet_3d, inflated_sphere and two_hundred_bodies are of doc/hard_cases.md.
 """
 LEAST_SECONDS, LEAST_BYTES = 0.3, 1.5e6  # of two steps, of results: less is not told apart
 ENDS_EARLY = {"jet_two_sheets_split_2d"}  # a step fails, which is what they show: fewer results than their time asks for
