@@ -4,13 +4,12 @@
 than sixteen times shorter ones do.
 
 usage: benchmarks/hard_cases.py [PROGRAM] [--case NAME]... [--scheme NAME...] [--step STEP...] [--shorter STEP...]
-                                [--check | --short | --pictures] [--limit SECONDS] [--out DIR] [--jobs N]
+                                [--check | --short] [--limit SECONDS] [--out DIR] [--jobs N]
 
 Makes the runs, or takes those that are there, and writes hard_cases.md (table) to DIR (default: output/hard_cases).
 Scenes of particles have that scheme alone, of which steps are frames, and a table of their own. --check: only the scheme that
 must be stable, and an error if it is not or does not show what must be seen. --short: the same for the first few steps only, as
-the tests do. --pictures: only a picture of each scene, all of them in hard_cases.png; runs that take longer than --limit are shown
-as far as they came, and say so.
+the tests do.
 """
 import argparse
 import math
@@ -21,7 +20,6 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, ROOT)
 import hard_case_laws as laws  # noqa: E402
-import hard_case_pictures  # noqa: E402
 from study import campaign, cases, columns, description, tables  # noqa: E402
 
 SPLITTING = {"Scheme": "time_splitting", "Time/Integrator": "theta"}  # with that of two stages u and w are the same
@@ -184,7 +182,6 @@ def main():
     parser.add_argument("--case", action="append", choices=list(laws.SCENES), metavar="NAME")
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--short", action="store_true")
-    parser.add_argument("--pictures", action="store_true")
     parser.add_argument("--shorter", nargs="*", default=list(STEPS), help="steps that are compared with h/16 (default: all)")
     parser.add_argument("--scheme", nargs="*", choices=[*SCHEMES, *PARTICLE], default=[*SCHEMES, *PARTICLE])
     parser.add_argument("--step", nargs="*", choices=STEPS, default=list(STEPS))
@@ -194,9 +191,7 @@ def main():
     options = parser.parse_args()
     options.case = options.case or list(laws.SCENES)
     os.makedirs(options.out, exist_ok=True)
-    if options.pictures:
-        hard_case_pictures.sheet(options, {name: scene_file(name) for name in options.case})
-    elif options.check or options.short:
+    if options.check or options.short:
         check(options)
     else:
         full(options)

@@ -51,7 +51,7 @@ def place_of(name, unit, probes):
         term, of_axis = booked[2] or booked[3], f" along {component}" if component else ""
         if term in TERMS:
             return "Ledger", f"{booked[1].capitalize()}{of_axis} gained since the start, by where it came from", term, "stack"
-        return "Ledger", "What of the energy is due to single effects", term, "sums"
+        return "Ledger", "Energy by effect", term, "sums"
     if CLOSURE.match(name):
         return "Ledger", "What the sums lack, as a share of what they add up", name, "lines"
     if ACCOUNT.match(name):

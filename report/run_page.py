@@ -11,7 +11,9 @@ from report.template import PlotOfPage, Section
 
 REFRESH = 60  # seconds between two looks of a browser at the page of a run that goes on
 REMARKS = {"Ledger": "Added up since the first row of the file. Above zero: gained; below: lost; the black line: what there is more of. "
-                     "Point at the plot for the sums, click a name to hide it."}
+                     "Transport: carried by the flow; boundary values, sides: at the sides of the domain; interface: between fluid and "
+                     "bodies; supports: what holds bodies; integrator: what the steps' rule adds or takes. Point at the plot for the sums, "
+                     "click a name to hide it."}
 
 
 def figure_of(plot, table, identifier, most_rows):

@@ -70,7 +70,7 @@ def of_certificate(certificate, prefix):
     if violated:
         return Verdict("warning", prefix + (word or "stable"), text, advice=VIOLATED)
     if text == "stable":
-        text = "Nothing grows that nobody has put in, and what is conserved is kept."
+        text = "No energy appeared from nowhere; volume and momentum are conserved. This does not say how accurate the run is."
     return Verdict("good" if not prefix else "neutral", prefix + word, text)
 
 

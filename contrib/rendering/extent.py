@@ -47,6 +47,7 @@ class Extent:
     def __init__(self):
         self.bounds = vtk.vtkBoundingBox()
         self.ranges = {}  # by (is_bodies, field)
+        self.fields = {"speed"}  # that there are
         self.has_particles = False
 
     def add_domain(self, run):
@@ -59,6 +60,8 @@ class Extent:
             return
         self.bounds.AddBounds(self.bounds_of(part, options))
         self.has_particles |= part.is_particles
+        arrays = part.data.GetPointData()
+        self.fields |= {arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())}
         fields = {part.colour_field(options.field)}
         if part.is_fluid() and (options.vectors or options.streamlines):
             fields.add("velocity")
@@ -101,7 +104,7 @@ class Extent:
         if not self.ranges:
             return f"no data for the frames '{options.frames}' in '{', '.join(map(str, options.results))}'"
         if options.field and options.field not in {field for _, field in self.ranges}:
-            return f"no part has a field '{options.field}'"
+            return f"no part has a field '{options.field}'; there are: {', '.join(sorted(self.fields - {None}))}"
         if (options.vectors or options.streamlines) and (False, "velocity") not in self.ranges:
             return "--vectors and --streamlines show how a fluid flows, and there is none"
         if options.surface and not self.has_particles:

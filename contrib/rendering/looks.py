@@ -20,7 +20,7 @@ LOOKS = {
     "dam_break_impact_particles_3d": Look("--surface --field speed", at=0.6),
     "dam_break_particles": Look(at=0.4),
     "dfg_2d1": Look(run=f"{FIELDS} Output/Interval=1/4"),
-    "elastic_sphere": Look("--surface"),
+    "elastic_sphere": Look("--surface", at=0.07),
     "elastic_plate_cross_flow": Look("--streamlines"),
     "hard/at_rest": Look(run=f"{FIELDS} Output/Interval=10"),
     "hard/body_drifts_through": Look(at=0.5),
