@@ -7,7 +7,7 @@ import sys
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 
-from study import description, runs
+from study import columns, description, quantities, runs
 from study.cases import make_cases, ranks
 from study.predictions import Predictions
 
@@ -51,6 +51,7 @@ class Campaign:
         self.folders = {case: os.path.join(self.parent, runs.identity(study, case, digest)) for case in cases}
         self.end = None if within is None else time.monotonic() + within
         self.predictions, self.results = Predictions(study), {}
+        self.has_warned = False
 
     def say(self, text):
         print(text, file=sys.stderr, flush=True)
@@ -83,6 +84,18 @@ class Campaign:
     def report(self, case, result, waiting):
         said = result["failure"] or f"{result['core seconds']:.3g} core s"
         self.say(f"[{len(self.results)}/{len(self.cases)}] {case.name(self.study)}: {said}{self.time_left(waiting)}")
+
+    def warn_early(self, case):
+        """A column that is misspelt is told after the first run, not after the last."""
+        if self.results[case]["failure"] or self.has_warned:
+            return
+        self.has_warned = True
+        data = columns.read(os.path.join(self.folders[case], "statistics"))
+        for quantity in self.study.quantities:
+            try:
+                quantities.evaluate(quantity.in_case(case.settings(self.study)), data)
+            except columns.NotEvaluated as reason:
+                self.say(f"study: '{quantity.name}' cannot be evaluated from this run: {reason}")
 
     def make(self, case):
         """A run; one that was expected to fit into the time must not break that promise."""
@@ -118,6 +131,7 @@ class Campaign:
                         self.results[case] = future.result()
                         self.predictions.add(case, self.results[case])
                         self.report(case, self.results[case], waiting + list(under_way.values()))
+                        self.warn_early(case)
             except KeyboardInterrupt:
                 self.say("stopped; finished runs are kept, the same command goes on")
                 os._exit(130)

@@ -218,6 +218,9 @@ def check_mistakes(program, studies, folder):
         done = run(program, path, os.path.join(folder, "wrong"))
         require(done.returncode not in (0, -11) and said in done.stdout + done.stderr,
                 f"'{said}' is not said, exit code {done.returncode}:\n{done.stdout}\n{done.stderr}")
+        if "displacment" in wrong:
+            first, _, later = done.stderr.partition("[2/")
+            require(later and "cannot be evaluated" in first, f"a column that is misspelt is not told after the first run:\n{done.stderr}")
 
 
 def check_accuracy(program, _, folder):

@@ -212,14 +212,20 @@ namespace undine
   void
   Options::assert_all_used(const std::vector<std::string> &sections_of_others) const
   {
+    std::set<std::string>
+      told; // a section that is not known is told once, not for each of its lines
     for (const auto &full_path : store->file.paths())
       {
         const bool judged = std::none_of(
           store->unjudged.begin(), store->unjudged.end(), [&](const std::string &section) {
             return full_path.compare(0, section.size(), section) == 0;
           });
-        if (judged && !store->file.at(full_path).used)
-          mistake(unknown(full_path, sections_of_others));
+        if (!judged || store->file.at(full_path).used)
+          continue;
+        const auto        found = unknown(full_path, sections_of_others);
+        const std::string text  = found.what();
+        if (told.insert(text.substr(store->file.at(full_path).place.size())).second)
+          mistake(found);
       }
   }
 

@@ -155,8 +155,13 @@ namespace undine
           understand(line, name, number, sections);
       }
     if (sections.size() != depth_at_start)
-      throw InputError(name + ": section '" + sections.back() +
-                       "' is still open at the end of the file; an 'end' is missing.");
+      {
+        std::string text = name + ": section '" + sections.back() +
+                           "' is still open at the end of the file; an 'end' is missing.";
+        for (const auto &mistake : line_mistakes) // one of them may be the 'end', misspelt
+          text += "\n" + mistake;
+        throw InputError(text);
+      }
     open_files.pop_back();
   }
 

@@ -46,7 +46,7 @@ namespace undine
   {
     auto sorted = known;
     sort_by_distance(sorted, word);
-    const std::size_t near = std::max<std::size_t>(1, word.size() / 3);
+    const std::size_t near = std::max<std::size_t>(1, (word.size() + 1) / 3);
     return !sorted.empty() && distance(sorted.front(), word) <= near
              ? "Did you mean '" + sorted.front() + "'?"
              : "";

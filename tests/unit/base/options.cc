@@ -153,6 +153,28 @@ TEST_CASE("all mistakes of a scene are reported at once", "[options]")
 }
 
 
+TEST_CASE("a section that is not known is one mistake, however many lines it has", "[options]")
+{
+  std::ofstream("scene_under_test.prm") << "subsection Bodys\n subsection ball\n  set Density = 1\n"
+                                           "  set Shape = ball\n  set Radius = 2\n end\nend\n";
+  const auto options = Options::collecting(ParameterFile("scene_under_test.prm"));
+  options.assert_all_used({"Bodies/"});
+  CHECK(options.n_mistakes() == 1);
+  CHECK_THAT(message([&] { options.throw_mistakes(); }),
+             Catch::Contains("subsection 'Bodys': there is no such subsection here. Did you mean "
+                             "'Bodies'?"));
+}
+
+
+TEST_CASE("where an 'end' is missing, lines that are not understood are told", "[options]")
+{
+  std::ofstream("scene_under_test.prm") << "subsection Time\n set End = 1\ned\n";
+  const auto text = message([&] { ParameterFile("scene_under_test.prm"); });
+  CHECK_THAT(text, Catch::Contains("section 'Time' is still open"));
+  CHECK_THAT(text, Catch::Contains(":3: cannot understand the line 'ed'"));
+}
+
+
 TEST_CASE("what a reading that was given up has not read is no mistake", "[options]")
 {
   std::ofstream("scene_under_test.prm") << "subsection Fluid\n set Density = 1\nend\n"
