@@ -9,6 +9,7 @@ MOST = 60
 WIDTH = 720  # pixels
 FILM = "film.mp4"
 MOST_BYTES = 8_000_000  # of a film that is part of the page; a larger one must lie beside it
+SOON = 60  # seconds: files of a folder that was copied are no older than this beside each other
 
 
 def small(path):
@@ -23,9 +24,21 @@ def small(path):
     return "data:image/jpeg;base64," + base64.b64encode(stream.getvalue()).decode()
 
 
+def is_of_earlier_run(results, file):
+    """Was it made before the run began that this folder is about now? A run leaves what it has not written."""
+    begin = results.path("original.prm")
+    try:
+        return os.path.getmtime(file) < os.path.getmtime(begin) - SOON
+    except OSError:  # one of them is not there
+        return False
+
+
 def of_run(results):
     """([data URI], number of frames that there are): all frames, or MOST of them evenly."""
     files = sorted(glob.glob(os.path.join(glob.escape(results.folder), "frames", "frame_*.png")))
+    if files and is_of_earlier_run(results, files[-1]):
+        results.problems.append("the pictures in 'frames' are of an earlier run in this folder; contrib/render makes them anew")
+        return [], 0
     step = -(-len(files) // MOST) or 1
     pictures = []
     for file in files[::step]:
@@ -39,6 +52,9 @@ def of_run(results):
 def film_of(results):
     """(what a page plays, whether that is a part of it): a data URI, or the name of the file beside it; "" if there is no film."""
     path = results.path(FILM)
+    if is_of_earlier_run(results, path):
+        results.problems.append(f"'{FILM}' is of an earlier run in this folder; contrib/render --film makes it anew")
+        return "", False
     try:
         if os.path.getsize(path) > MOST_BYTES:
             return FILM, False

@@ -215,6 +215,22 @@ class Sections(Folder):
         self.assertLess(len(large), LIMIT)
         self.assertIn("film.mp4", Page(large).links)
 
+    def test_frames_and_film_of_an_earlier_run_are_not_shown(self):
+        folder = self.folder()
+        os.mkdir(os.path.join(folder, "frames"))
+        frame = os.path.join(folder, "frames", "frame_0000.png")
+        Image.new("RGB", (40, 40)).save(frame)
+        self.put(folder, "film.mp4", "moving pictures")
+        self.put(folder, "original.prm", "set Dimension = 2\n")
+        self.assertIn("film", Page(self.text(folder)).sections)
+        begin = os.path.getmtime(os.path.join(folder, "original.prm"))
+        for file in (frame, os.path.join(folder, "film.mp4")):
+            os.utime(file, (begin - 3600, begin - 3600))
+        page = Page(self.text(folder))
+        self.assertNotIn("film", page.sections)
+        self.assertNotIn("frames", page.sections)
+        self.assertIn("of an earlier run", page.sections["first"])
+
     def test_phases_are_a_tree(self):
         top = phases.tree(os.path.join(self.folder(), "timing"))
         self.assertEqual([(phase.name, phase.seconds) for phase in top], [("initialise", 0.5), ("step", 1.0)])
