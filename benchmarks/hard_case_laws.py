@@ -34,7 +34,6 @@ class Hard:
     mean: float = math.nan
     short: float = 0.2  # end of the run with steps of 1/30 s that is made as a test, a quarter for 1/240 [s]; where steps are dear
     # a little less than a whole number of them, since what is left over would be a step, too
-    shown: float = 1.0  # share of the run after which there is a picture
     scheme: str = "simultaneous"  # that must be stable; of 'particle' steps are frames, and no others are compared with them
     above: float = 1e-3  # share of the potential energy by which that of particles may rise above the start
 
@@ -285,18 +284,18 @@ SCENES = {
     "body_against_wall_3d": Hard(Law("force of the floor / weight in water", carried("ball", 0.5), 1, 0.15),
                                  "centre displacement y", mean=0.5, short=0.0666),
     "body_against_body": Hard(Law("departure from mirror images", mirrored, 0, 0.05, True), "left_centre displacement x",
-                              mean=0.1, short=0.1666, shown=0.5),
+                              mean=0.1, short=0.1666),
     "body_against_body_3d": Hard(Law("departure from mirror images", mirrored, 0, 0.05, True), "left_centre displacement x",
-                                 mean=0.1, short=0.0333, shown=0.5),
+                                 mean=0.1, short=0.0333),
     "folding_sheet": Hard(Law(GAP, narrowest, 0.5, 0.4999), "fold displacement x", mean=1, short=0.5),
     "folding_sheet_3d": Hard(Law(GAP, narrowest, 0.5, 0.4999), "fold displacement x", mean=1, short=0.0666),
     "sheets_close_pocket": Hard(Law("largest kinetic energy of the water [J]", largest("Fluid kinetic energy"), 0.4, 0.2),
                                 "tip displacement x", mean=0.5),
     "folding_sheet_pocket": Hard(Law(GAP, narrowest, 0.5, 0.4999), "fold displacement x", mean=1, short=0.5),
     "body_drifts_through": Hard(Law("way of the disc [m]", gained("centre displacement x"), 2.6, 0.01),
-                                "centre displacement x", mean=0, shown=0.5),
+                                "centre displacement x", mean=0),
     "body_drifts_through_3d": Hard(Law("way of the ball [m]", gained("centre displacement x"), 1.8, 0.01),
-                                   "centre displacement x", mean=0, shown=0.5, short=0.1),
+                                   "centre displacement x", mean=0, short=0.1),
     "two_hundred_bodies": Hard(Law("energy created / largest", created, 0, 0.02, True), "", short=0.034),
     "fifty_bodies_3d": Hard(Law("energy created / largest", created, 0, 0.02, True), "", short=0.034),
     "no_gravity": Hard(Law("energy at the end / at the start", kept_energy, 0.9, 0.1), "centre displacement x", mean=0),
@@ -310,9 +309,9 @@ SCENES = {
                               swings=0.5, short=0.7),
     "at_rest": Hard(Law("speed at the end [m/s]", last("top velocity y"), 0, 1e-9), "top displacement y", mean=10, short=1),
     "arch_snaps": Hard(Law("lowest place of the middle [m]", least("middle displacement y"), -0.2, 0.03), "middle displacement y",
-                       mean=0, shown=0.4),
+                       mean=0),
     "arch_snaps_3d": Hard(Law("lowest place of the middle [m]", least("middle displacement y"), -0.2, 0.03), "middle displacement y",
-                          mean=0, shown=0.4, short=0.1),
+                          mean=0, short=0.1),
     "column_buckles": Hard(Law("bow / theory", bow_over_theory(0.02), 1, 0.05), "middle displacement x", mean=1.1),
     "column_buckles_3d": Hard(Law("bow / theory", bow_over_theory(0.03), 1, 0.05), "middle displacement x", mean=1.1, short=0.1),
     "viscous_flag": Hard(Law("tip [m]", last("tip displacement y"), 0.82e-3, 0.2e-3), "tip displacement y", mean=2, short=0.1),

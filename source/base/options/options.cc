@@ -212,8 +212,8 @@ namespace undine
   void
   Options::assert_all_used(const std::vector<std::string> &sections_of_others) const
   {
-    std::set<std::string>
-      told; // a section that is not known is told once, not for each of its lines
+    // A section that is not known is told once, not for each of its lines.
+    std::set<std::string> told;
     for (const auto &full_path : store->file.paths())
       {
         const bool judged = std::none_of(

@@ -10,7 +10,7 @@
 
 namespace undine
 {
-  /// A place in messages: "(0.5, 1)", with six digits.
+  /// A place [m] in messages: "(0.5, 1)", with six digits.
   template <int dim>
   std::string
   text_of(const dealii::Point<dim> &place)
