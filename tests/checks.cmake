@@ -106,12 +106,15 @@ foreach(scene ${hard_cases})
   set_tests_properties(long/hard_cases.${name} PROPERTIES LABELS long TIMEOUT 7200)
 endforeach()
 
-# Studies: their arithmetic, and tiny ones of each kind.
+# Studies: their arithmetic, tiny ones of each kind, and those that are shipped.
 add_test(NAME studies/arithmetic COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/test_study.py)
-add_test(NAME studies/tiny
-         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_study.py $<TARGET_FILE:undine>
-                 ${CMAKE_CURRENT_SOURCE_DIR}/studies)
-set_tests_properties(studies/tiny PROPERTIES PROCESSORS 2 TIMEOUT 300)
+foreach(part kinds budgets mistakes accuracy shipped)
+  add_test(NAME studies/${part}
+           COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_study.py $<TARGET_FILE:undine>
+                   ${CMAKE_CURRENT_SOURCE_DIR}/studies ${part})
+  set_tests_properties(studies/${part} PROPERTIES TIMEOUT 300)
+endforeach()
+set_tests_properties(studies/kinds studies/budgets PROPERTIES PROCESSORS 2)
 
 # Stopped by signals, and what a user is told then.
 add_test(NAME runs/signals

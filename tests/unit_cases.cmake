@@ -20,6 +20,9 @@ function(undine_unit_parallel title filter n_cases)
              COMMAND ${DEAL_II_MPIEXEC} -np ${ranks} $<TARGET_FILE:unit_${module}> "${filter}"
                      --filenames-as-tags --warn NoTests)
     undine_unit_limits("${test}" ${n_cases} ${ranks})
+    if(ranks EQUAL 3 AND title IN_LIST given_LONG_ON_THREE)
+      set_tests_properties("${test}" PROPERTIES LABELS long)
+    endif()
   endforeach()
 endfunction()
 
@@ -35,12 +38,12 @@ endfunction()
 # @}
 
 
-# undine_unit_cases(MODULE SOURCES file.cc... BY_FILE name...) makes of each case in the sources of the program
+# undine_unit_cases(MODULE SOURCES file.cc... BY_FILE name... LONG_ON_THREE name...) makes of each case in the sources of the program
 # unit_MODULE a test unit/MODULE/<name of the case>, but one test unit/MODULE/<name> of all that are in a file
 # named after BY_FILE (ALL: in every file), and of the cases tagged [mpi] in a file the tests
-# unit/MODULE/<file>.mpirun=2 and 3.
+# unit/MODULE/<file>.mpirun=2 and 3; the latter is a long test of files named after LONG_ON_THREE.
 function(undine_unit_cases module)
-  cmake_parse_arguments(PARSE_ARGV 1 given "" "" "SOURCES;BY_FILE")
+  cmake_parse_arguments(PARSE_ARGV 1 given "" "" "SOURCES;BY_FILE;LONG_ON_THREE")
   set(by_file)
   foreach(source ${given_SOURCES})
     get_filename_component(title ${source} NAME_WE)

@@ -3,7 +3,7 @@
 """Tiny studies of each kind, as users run them: orders of convergence, budgets, files, resumption after a kill, limits of
 time, and what is said of mistakes.
 
-usage: check_study.py PROGRAM STUDIES
+usage: check_study.py PROGRAM STUDIES PART
 """
 import csv
 import glob
@@ -279,11 +279,19 @@ def check_shipped(program, _, folder):
                 references.rows_of(quantity)
 
 
+PARTS = {
+    "kinds": (check_kinds, check_earlier),  # the second needs what the first has computed
+    "budgets": (check_budgets, check_map),
+    "mistakes": (check_kill, check_limit, check_mistakes),
+    "accuracy": (check_accuracy,),
+    "shipped": (check_shipped,),
+}
+
+
 def main():
-    program, studies = sys.argv[1:]
+    program, studies, part = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
-        for check in (check_kinds, check_budgets, check_map, check_kill, check_limit, check_mistakes, check_accuracy,
-                      check_earlier, check_shipped):
+        for check in PARTS[part]:
             check(program, studies, folder)
 
 
