@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Surfaces of bodies and obstacles as what lines along a flow must not cross."""
+"""Surfaces of bodies and obstacles as what ends lines along a flow, and the fluid."""
 import vtk
 
 
@@ -21,12 +21,17 @@ class Barrier:
         self.locator.SetDataSet(faces)
         self.locator.BuildLocator()
 
+    def share_before(self, begin, end):
+        """What share of the straight line between two points is before the barrier; 1: it does not cross it."""
+        if self.locator is None:
+            return 1.0
+        share, piece, place, inner = vtk.reference(0.0), vtk.reference(0), [0.0] * 3, [0.0] * 3
+        crosses = self.locator.IntersectWithLine(begin, end, 1e-9 * self.length, share, place, inner, piece)
+        return float(share) if crosses else 1.0
+
     def is_crossed(self, begin, end):
         """By the straight line between two points."""
-        if self.locator is None:
-            return False
-        share, piece, place, inner = vtk.reference(0.0), vtk.reference(0), [0.0] * 3, [0.0] * 3
-        return self.locator.IntersectWithLine(begin, end, 1e-9 * self.length, share, place, inner, piece) != 0
+        return self.share_before(begin, end) < 1
 
 
 def ribbon(lines, width):

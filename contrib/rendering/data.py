@@ -74,7 +74,7 @@ class Run:
 
     def parts(self, time, options):
         """The parts at one of its times that exist, are not empty, and are drawn: obstacles are, but the pieces into which the
-        grid cuts all surfaces only hinder lines along the flow."""
+        grid cuts all surfaces only end the fluid and lines along its flow."""
         files = {name_of(file): file for file in self.files[time] if file.is_file()}
         surface = files.pop("surface", None)
         parts = []
@@ -88,8 +88,7 @@ class Run:
             if part.is_fluid() and "velocity" in part.fields:
                 if options.field == "vorticity":
                     part.derive_vorticity()
-                if surface and (options.vectors or options.streamlines):
-                    part.barrier = read(surface)
+                part.surface = read(surface) if surface else None
         return parts
 
 

@@ -63,7 +63,7 @@ def arrows(part, fastest, planes):
         seen = inside & (numpy.linalg.norm(values, axis=1) > SLOWEST * fastest)
         points, lengths, values = points[seen], lengths[seen], values[seen]
         _, ends_inside = velocities(region, points + lengths)
-        barrier = Barrier(part.barrier)
+        barrier = Barrier(part.surface)
         free = numpy.array([inside and not barrier.is_crossed(p, p + v) for p, v, inside in zip(points, lengths, ends_inside)], bool)
         found.append(numpy.stack([points, lengths, values])[:, free])
     return numpy.concatenate(found, axis=1)
@@ -129,7 +129,7 @@ def before_barrier(line, barrier):
 def stream_lines(part, planes):
     """Lines (k, 3) along the flow, none of which comes near another."""
     region, kind = part.region(), "plane" if planes or part.is_flat() else "space"
-    barrier, result = Barrier(part.barrier), []
+    barrier, result = Barrier(part.surface), []
     if region.GetNumberOfCells() == 0:
         return result
     seeds, distance = lattice(region.GetBounds(), LINES[kind], planes[0] if planes else None)

@@ -5,6 +5,7 @@ import vtk
 from .actors import particle_actor, surface_actor
 from .cloud import cloud
 from .liquid import surface_props
+from .trim import trimmed
 
 CLOSED = 1.15  # diameter of discs in spacings, so that liquids have no holes
 
@@ -24,14 +25,14 @@ def cut(data, axis, place):
 def fluid_props(part, meaning, extent, options):
     """What is drawn of a fluid that a grid has, coloured by `meaning`."""
     if extent.is_flat():
-        return [surface_actor(part.data, meaning, True)]
+        return [surface_actor(trimmed(part.data, part.surface), meaning, True)]
     planes = options.slice
     if not planes and not (meaning and part.is_carried(meaning.field)):
         if options.vectors or options.streamlines:
             return []
         planes = [(2, part.data.GetCenter()[2])]
     if planes:
-        return [surface_actor(cut(part.data, *plane), meaning, True) for plane in planes]
+        return [surface_actor(trimmed(cut(part.data, *plane), part.surface), meaning, True) for plane in planes]
     return [cloud(part.data, meaning)]
 
 

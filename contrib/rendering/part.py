@@ -2,8 +2,9 @@
 """A part of a solution: bodies, obstacles or the fluid of a grid at one time."""
 import numpy
 import vtk
-from vtk.util.numpy_support import vtk_to_numpy
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
+from .trim import WET
 from .vorticity import with_vorticity
 
 NOT_CARRIED = ("pressure", "vorticity", "vorticity_magnitude", "component", "fluid_fraction")
@@ -58,7 +59,8 @@ def selected(data, field, low, high):
 def blended(data):
     """A fluid among bodies, to be drawn as one continuous field. A cell that a body divides is there
     once for each of its parts; its corners get what the cells around say that are fluid all over,
-    where there are none the mean by the share of fluid. Cells in bodies are left out."""
+    where there are none the mean by the share of fluid. Cells in bodies are left out. The field WET
+    tells corners of cells that are fluid all over."""
     data = selected(data, "fluid_fraction", 1e-12, 2)
     if data.GetNumberOfPoints() == 0:
         return data
@@ -68,8 +70,9 @@ def blended(data):
     fraction = vtk_to_numpy(arrays.GetArray("fluid_fraction")).copy()
     weight = numpy.where(fraction > 1 - 1e-6, 1e9, fraction)
     total = numpy.bincount(corner, weight)
-    least = numpy.ones(len(total))
+    least, most = numpy.ones(len(total)), numpy.zeros(len(total))
     numpy.minimum.at(least, corner, fraction)
+    numpy.maximum.at(most, corner, fraction)
     for name in [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())]:
         values = vtk_to_numpy(arrays.GetArray(name))  # the array's own memory
         if name == "fluid_fraction":
@@ -77,6 +80,9 @@ def blended(data):
         elif name != "component":
             for column in values.reshape(len(values), -1).T:
                 column[:] = (numpy.bincount(corner, weight * column) / total)[corner]
+    wet = numpy_to_vtk((most > 1 - 1e-6).astype(float)[corner], deep=True)
+    wet.SetName(WET)
+    arrays.AddArray(wet)
     return data
 
 
@@ -97,12 +103,13 @@ class Part:
         self.is_bodies = "displacement" in self.fields
         self.is_obstacles = name_of(file) == "obstacles"
         self.moved = moved
-        self.barrier = None  # surfaces that the fluid does not pass
+        self.surface = None  # of bodies and obstacles, which the fluid does not pass
         self.joined = not among_bodies
 
     def note_fields(self):
         point_data = self.data.GetPointData()
-        self.fields = [point_data.GetArrayName(i) for i in range(point_data.GetNumberOfArrays())]
+        names = [point_data.GetArrayName(i) for i in range(point_data.GetNumberOfArrays())]
+        self.fields = [name for name in names if name != WET]
 
     def is_fluid(self):
         return not self.is_bodies and not self.is_obstacles

@@ -24,7 +24,7 @@ class ParticlePart(Part):
         self.is_obstacles = name == "walls"
         self.spacing = spacing
         self.filled = None
-        self.barrier = None
+        self.surface = None
 
     def colour_field(self, wanted):
         if self.is_obstacles:

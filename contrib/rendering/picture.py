@@ -11,6 +11,7 @@ from .room import room_actors
 from .scale import colour_scale, text
 
 LETTERS = 26  # in the height of a picture
+LETTERS_ACROSS = 42  # in its width at least, or scales would not have room for their names
 FEWEST = 11  # pixels of a letter
 BELOW = 3.9  # letters, for scales and time
 ABOVE = 4.2  # letters, for words about two runs
@@ -24,7 +25,7 @@ class Painter:
     def __init__(self, extent, options, digits):
         """`digits`: of times, after the point."""
         self.extent, self.options, self.digits = extent, options, digits
-        self.letter = max(FEWEST, round(options.height / LETTERS))
+        self.letter = max(FEWEST, round(min(options.height / LETTERS, options.width / LETTERS_ACROSS)))
         self.window = vtk.vtkRenderWindow()
         self.window.SetOffScreenRendering(True)
         self.window.SetMultiSamples(0)

@@ -22,7 +22,7 @@ try:
 except ImportError:
     print("skipped: the Debian packages python3-vtk9 and python3-numpy are not installed")
     sys.exit(77)
-from rendering import colours, extent, film, flow, liquid, part, particle_part, vorticity  # noqa: E402
+from rendering import colours, extent, film, flow, liquid, part, particle_part, trim, vorticity  # noqa: E402
 
 OMEGA = 1.5  # rad/s
 RADIUS = 0.3  # of bodies, m
@@ -41,7 +41,8 @@ def uniform(points):
 
 def with_fields(data, velocity):
     points = vtk_to_numpy(data.GetPoints().GetData())
-    for name, values in (("velocity", velocity(points)), ("kind", numpy.zeros(len(points)))):
+    for name, values in (("velocity", velocity(points)), ("kind", numpy.zeros(len(points))),
+                         ("distance", numpy.linalg.norm(points, axis=1))):
         array = numpy_to_vtk(values.astype(float), deep=True)
         array.SetName(name)
         data.GetPointData().AddArray(array)
@@ -63,7 +64,7 @@ def grid(dim, n, velocity):
 def fluid(dim, n, velocity, surface=None):
     """A fluid of a grid, as contrib/render has it."""
     result = part.Part.__new__(part.Part)
-    result.data, result.barrier, result.is_bodies, result.is_obstacles = grid(dim, n, velocity), surface, False, False
+    result.data, result.surface, result.is_bodies, result.is_obstacles = grid(dim, n, velocity), surface, False, False
     result.joined = True
     result.note_fields()
     return result
@@ -82,6 +83,37 @@ def ball(dim):
     shape.SetRadius(RADIUS)
     shape.Update()
     return shape.GetOutput()
+
+
+def thin_ring():
+    """Both surfaces of a ring that is thinner than a cell, as lines."""
+    both = vtk.vtkAppendPolyData()
+    for radius in (RADIUS, 1.1 * RADIUS):
+        shape = vtk.vtkRegularPolygonSource()
+        shape.SetNumberOfSides(60)
+        shape.GeneratePolygonOff()
+        shape.SetRadius(radius)
+        shape.Update()
+        both.AddInputData(shape.GetOutput())
+    both.Update()
+    return both.GetOutput()
+
+
+def with_wet(data, is_wet):
+    array = numpy_to_vtk(is_wet(vtk_to_numpy(data.GetPoints().GetData())).astype(float), deep=True)
+    array.SetName(trim.WET)
+    data.GetPointData().AddArray(array)
+    return data
+
+
+def area(data):
+    properties = vtk.vtkMassProperties()
+    triangles = vtk.vtkTriangleFilter()
+    triangles.SetInputData(trim.polygons_of(data))
+    triangles.Update()
+    properties.SetInputData(triangles.GetOutput())
+    properties.Update()
+    return properties.GetSurfaceArea()
 
 
 def block(dim, velocity):
@@ -150,6 +182,35 @@ class Flows(unittest.TestCase):
         for line in flow.stream_lines(fluid(2, 20, rotation), []):
             radii = numpy.linalg.norm(line, axis=1)
             self.assertLess(numpy.ptp(radii), 0.02)
+
+
+class Fluids(unittest.TestCase):
+    def test_a_fluid_ends_at_a_thin_body_with_nothing_behind_it(self):
+        """Only what is within the ring is drawn of the cells that the ring divides: nearer to a disc on finer grids."""
+        errors = []
+        for n in (24, 48):
+            width = 2 / n
+            within = with_wet(grid(2, n, uniform), lambda points: numpy.linalg.norm(points, axis=1) < RADIUS - 1.5 * width)
+            touched = vtk.vtkThreshold()
+            touched.SetInputData(within)
+            touched.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_POINTS, "distance")
+            touched.SetLowerThreshold(0)
+            touched.SetUpperThreshold(RADIUS)
+            touched.AllScalarsOff()
+            touched.Update()
+            inner = touched.GetOutput()
+            drawn = trim.trimmed(inner, thin_ring())
+            lengths = numpy.linalg.norm(vtk_to_numpy(drawn.GetPoints().GetData())[vtk_to_numpy(
+                drawn.GetPolys().GetConnectivityArray())], axis=1)
+            self.assertLessEqual(lengths.max(), RADIUS + 1e-6)
+            self.assertGreater(area(inner), 1.15 * numpy.pi * RADIUS ** 2)
+            errors.append(abs(area(drawn) / (numpy.pi * RADIUS ** 2) - 1))
+        self.assertLess(errors[0], 0.03)
+        self.assertLess(errors[1], 0.6 * errors[0])
+
+    def test_a_fluid_on_both_sides_of_a_thin_body_is_drawn_up_to_it(self):
+        data = with_wet(grid(2, 24, uniform), lambda points: abs(numpy.linalg.norm(points, axis=1) - RADIUS) > 0.1)
+        self.assertLessEqual(4 - area(trim.trimmed(data, thin_ring())), numpy.pi * RADIUS ** 2 * (1.1 ** 2 - 1))
 
 
 class Liquids(unittest.TestCase):
