@@ -54,6 +54,11 @@ def draw_front(axes, found, result):
     axes.plot([found.cost(case) for case in front], [max(result.errors[case], 1e-16) for case in front], "o",
               markersize=10, markerfacecolor="none", markeredgecolor="black", markeredgewidth=0.9,
               label="none is cheaper and more accurate")
+    for axis in found.study.refinements()[-1:]:
+        for case in front:
+            axes.annotate(found.study.variations[axis].names[case.index[axis]],
+                          (found.cost(case), max(result.errors[case], 1e-16)), xytext=(6, 5), textcoords="offset points",
+                          fontsize=7)
     if 0 < result.uncertainty() < math.inf:
         axes.axhline(result.uncertainty(), color="grey", linestyle="-.", linewidth=0.8,
                      label="uncertainty of the reference")

@@ -90,7 +90,7 @@ namespace undine
       readable_bytes(needed.memory),
       Estimate::uncertainty_of_memory,
       readable_seconds(needed.seconds),
-      Estimate::uncertainty_of_seconds,
+      needed.uncertainty_of_seconds,
       readable_seconds(needed.seconds * size->steps),
       size->steps);
     if (may_be_too_large())

@@ -66,6 +66,12 @@ namespace undine
                          settings->walls.size());
     }
 
+    typename Effect<dim>::Work
+    work() const override
+    {
+      return {0, 0, true};
+    }
+
     void
     affect(SolidEnvironment<dim> &environment) const override
     {

@@ -26,7 +26,10 @@ namespace undine
         size.stages *
         (grid.cells * (figures.projection + (grid.moves ? figures.moving : 0) +
                        grid.advected * figures.advected + grid.implicit * figures.implicit) +
-         grid.cut_cells * grid.advected * figures.advected_cut);
+         grid.cut_cells *
+           (grid.advected * figures.advected_cut + grid.implicit * cost_figures::implicit_cut +
+            (size.is_coupled ? figures.cut_coupled : 0)) +
+         (size.has_contact ? grid.facets * figures.contact : 0));
       const double values = size.dimension + 1. + grid.scalars;
       result.picture += grid.cells * values * cost_figures::picture_value;
       // Velocity, its acceleration and change are kept, pressure, scalars and their rates.
@@ -50,7 +53,8 @@ namespace undine
       if (size.is_coupled)
         {
           result.memory += solid.entries * figures.bytes_coupled;
-          result.seconds += size.stages * size.grid.cells * figures.coupled_cell;
+          result.seconds += size.stages * (size.grid.cells * figures.coupled_cell +
+                                           solid.entries * figures.coupled_entry);
         }
       result.picture += solid.unknowns * cost_figures::picture_unknown;
       result.checkpoint += 3 * sizeof(double) * solid.unknowns;
@@ -82,6 +86,8 @@ namespace undine
   estimate(const SceneSize &size, const unsigned int n_ranks)
   {
     Estimate result;
+    if (size.has_contact)
+      result.uncertainty_of_seconds = Estimate::uncertainty_with_contact;
     result.program =
       cost_figures::program + (size.is_coupled ? cost_figures::program_of_coupling : 0);
     result.memory = n_ranks * result.program;

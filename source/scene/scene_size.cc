@@ -231,6 +231,8 @@ namespace undine
     if (has_body)
       measure_bodies<dim>(size, scene, width);
     size.is_coupled = has_grid && has_body;
+    for (const auto &effect : read_effects<dim>(scene.section("Effects")))
+      size.has_contact = size.has_contact || effect->work().has_contact;
     size.grid.moves =
       size.grid.moves || (size.is_coupled && read_direction(scene) != Direction::fluid_to_body);
     size.grid.cut_cells = std::min(size.grid.cut_cells, size.grid.cells);

@@ -78,11 +78,13 @@ namespace undine
     diffuse(FluidStage<dim> &step) const;
     /// @}
 
-    /// What a stage of a step computes for the effect on every cell of the grid.
+    /// What a stage of a step computes for the effect on every cell of the grid, and whether on the
+    /// facets of bodies.
     struct Work
     {
-      unsigned int advected = 0; ///< fields that the flow advects
-      unsigned int implicit = 0; ///< fields for which a linear system is solved
+      unsigned int advected    = 0;     ///< fields that the flow advects
+      unsigned int implicit    = 0;     ///< fields for which a linear system is solved
+      bool         has_contact = false; ///< bodies may touch
     };
 
     /// For estimates of memory and time before anything is built.

@@ -36,10 +36,15 @@ namespace undine
       double implicit;       ///< a cell and field: cavity, CPU time of a run [s]
       double advected_cut;   ///< a cut cell and field: ball_in_stream's transport less plume's [s]
       double moving; ///< a cell around what moves: the ball that moves less the fixed one [s]
+      double
+        cut_coupled;  ///< a cut cell, solving together with bodies: see Solid::coupled_entry [s]
+      double contact; ///< a facet, where bodies may touch: the same scenes with contact [s]
     };
     constexpr std::array<Grid, 2> grid{
-      {{650, 80, 170, 3e3, 300, 0.9e-6, 0.3e-6, 0.35e-6, 5e-6, 1e-6},
-       {550, 75, 170, 30e3, 1500, 1.2e-6, 0.35e-6, 0.5e-6, 60e-6, 1.8e-6}}};
+      {{650, 80, 170, 3e3, 300, 0.9e-6, 0.3e-6, 0.35e-6, 5e-6, 1e-6, 110e-6, 0.9e-3},
+       {550, 75, 170, 30e3, 1500, 1.2e-6, 0.35e-6, 0.5e-6, 60e-6, 1.8e-6, 0, 19e-3}}};
+    /// A cut cell for each implicit field, whatever the dimension: see Solid::coupled_entry. [s]
+    constexpr double implicit_cut = 64e-6;
 
     /// Bodies of finite elements: prm/cantilever.prm, three sizes.
     struct Solid
@@ -51,8 +56,12 @@ namespace undine
       double entry;    ///< of all iterations of Newton's method [s]
       double factor;   ///< of the work of a factorisation, likewise [s]
       double coupled_cell; ///< of a cell around bodies, solving together: jet_two_sheets [s]
+      /// Of an entry of the tangent besides, solving together: fitted, with Grid::cut_coupled,
+      /// Grid::contact and implicit_cut, to the logarithms of what the scenes of prm/ and prm/hard
+      /// cost by tests/scenes/costs.csv. [s]
+      double coupled_entry;
     };
-    constexpr Solid solid{58, 24, 60, 0.45e-6, 4e-10, 1e-6};
+    constexpr Solid solid{58, 24, 60, 0.45e-6, 4e-10, 1e-6, 0.57e-6};
 
     /// Particles on the host, by particles_benchmark on one core, 7992 to 1052600 particles: what
     /// one takes in memory in single precision and in all of a sub-step; in double precision the

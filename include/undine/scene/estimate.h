@@ -13,8 +13,9 @@ namespace undine
   struct Estimate
   {
     /// By which factors a run may take more or less, as far as has been measured.
-    static constexpr double uncertainty_of_memory  = 1.5;
-    static constexpr double uncertainty_of_seconds = 3;
+    static constexpr double uncertainty_of_memory    = 1.5;
+    static constexpr double uncertainty_with_contact = 30; ///< of seconds: few or many may touch
+    double                  uncertainty_of_seconds   = 3;
 
     double program    = 0; ///< memory of a rank before it has read a scene [bytes]
     double memory     = 0; ///< at its largest, of all ranks, the program included [bytes]

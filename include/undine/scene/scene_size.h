@@ -62,7 +62,8 @@ namespace undine
     GridSize     grid;
     SolidSize    solid;
     ParticleSize particles;
-    bool         is_coupled = false; ///< fluid and bodies are solved together
+    bool         is_coupled  = false; ///< fluid and bodies are solved together
+    bool         has_contact = false; ///< bodies may touch
   };
 
   /// Read a parameter file for it; nothing is built but the meshes of curved shapes before their

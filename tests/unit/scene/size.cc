@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include <filesystem>
+#include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -66,6 +68,23 @@ namespace
     else
       CHECK(size.particles.all() == 0);
   }
+
+  /// Core seconds of whole runs of the scenes in prm/ and prm/hard, as tests/scenes/costs.csv has
+  /// them.
+  std::map<std::string, double>
+  recorded_costs()
+  {
+    std::map<std::string, double> result;
+    std::ifstream                 table(fs::path(UNDINE_SOURCE_DIR) / "tests/scenes/costs.csv");
+    for (std::string line; std::getline(table, line);)
+      if (line[0] != '#' && line.rfind("scene,", 0) != 0)
+        {
+          const auto comma              = line.find(',');
+          result[line.substr(0, comma)] = std::stod(line.substr(comma + 1));
+        }
+    return result;
+  }
+
 
   /// Of a grid of n cells along each edge.
   Estimate
@@ -162,6 +181,30 @@ TEST_CASE("estimates grow with what there is to compute")
       CHECK(on_two.seconds > coarse.seconds / 2);
       CHECK(fine.checkpoint == Approx(cells * coarse.checkpoint));
     }
+}
+
+
+TEST_CASE("most scenes take within the factor that is promised what is estimated")
+{
+  unsigned int n_scenes = 0, n_within = 0;
+  for (const auto &[name, core_seconds] : recorded_costs())
+    {
+      CAPTURE(name);
+      const auto file    = fs::exists(scene(name)) ? scene(name) : scene("hard/" + name);
+      const auto options = read(file);
+      const auto size =
+        read_dimension(options) == 2 ? measure_scene<2>(options) : measure_scene<3>(options);
+      // Runs that a failed step ends soon, and particles: other laws.
+      if (size.particles.all() > 0 || name == "jet_two_sheets_split_2d")
+        continue;
+      const auto   expected = estimate(size, 1);
+      const double factor   = core_seconds / (expected.seconds * size.steps);
+      ++n_scenes;
+      n_within += is_within(factor, 1, expected.uncertainty_of_seconds);
+      CHECK(is_within(factor, 1, 3 * expected.uncertainty_of_seconds));
+    }
+  CHECK(n_scenes > 60);
+  CHECK(n_within >= 0.9 * n_scenes);
 }
 
 
