@@ -13,17 +13,28 @@ function(undine_unit_serial title filter n_cases)
   endif()
 endfunction()
 
-function(undine_unit_parallel title filter n_cases)
-  foreach(ranks 2 3)
-    set(test "unit/${module}/${title}.mpirun=${ranks}")
-    add_test(NAME "${test}"
-             COMMAND ${DEAL_II_MPIEXEC} -np ${ranks} $<TARGET_FILE:unit_${module}> "${filter}"
-                     --filenames-as-tags --warn NoTests)
-    undine_unit_limits("${test}" ${n_cases} ${ranks})
-    if(ranks EQUAL 3 AND title IN_LIST given_LONG_ON_THREE)
-      set_tests_properties("${test}" PROPERTIES LABELS long)
-    endif()
+# On several ranks all in one test: three processes that share two processors take seconds to start.
+function(undine_unit_parallel n_cases)
+  set(short "[mpi]")
+  set(long)
+  foreach(file ${given_LONG_ON_THREE})
+    string(APPEND short "~[#${file}]")
+    list(APPEND long "[mpi][#${file}]")
   endforeach()
+  list(JOIN long "," long)
+  undine_unit_on_ranks(unit/${module}/mpirun=2 2 "[mpi]")
+  undine_unit_on_ranks(unit/${module}/mpirun=3 3 "${short}")
+  if(long)
+    undine_unit_on_ranks(unit/${module}/long.mpirun=3 3 "${long}")
+    set_tests_properties(unit/${module}/long.mpirun=3 PROPERTIES LABELS long)
+  endif()
+endfunction()
+
+function(undine_unit_on_ranks test ranks filter)
+  add_test(NAME ${test}
+           COMMAND ${DEAL_II_MPIEXEC} -np ${ranks} $<TARGET_FILE:unit_${module}> "${filter}"
+                   --filenames-as-tags --warn NoTests)
+  undine_unit_limits(${test} ${n_cases} ${ranks})
 endfunction()
 
 # Ten minutes a case, half an hour for all of a file.
@@ -38,10 +49,10 @@ endfunction()
 # @}
 
 
-# undine_unit_cases(MODULE SOURCES file.cc... BY_FILE name... LONG_ON_THREE name...) makes of each case in the sources of the program
-# unit_MODULE a test unit/MODULE/<name of the case>, but one test unit/MODULE/<name> of all that are in a file
-# named after BY_FILE (ALL: in every file), and of the cases tagged [mpi] in a file the tests
-# unit/MODULE/<file>.mpirun=2 and 3; the latter is a long test of files named after LONG_ON_THREE.
+# undine_unit_cases(MODULE SOURCES file.cc... BY_FILE name... LONG_ON_THREE name...) makes of each case in the
+# sources of the program unit_MODULE a test unit/MODULE/<name of the case>, but one test unit/MODULE/<name> of all that are in a file
+# named after BY_FILE (ALL: in every file), and of all cases tagged [mpi] the tests unit/MODULE/mpirun=2 and 3;
+# the latter without files named after LONG_ON_THREE, which are a long test, unit/MODULE/long.mpirun=3.
 function(undine_unit_cases module)
   cmake_parse_arguments(PARSE_ARGV 1 given "" "" "SOURCES;BY_FILE;LONG_ON_THREE")
   set(by_file)

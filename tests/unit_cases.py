@@ -8,7 +8,7 @@ usage: unit_cases.py write CALL [--by-file NAME]... FILE.cc...
 The first reads the sources, since to ask the program would need its build, and prints CMake code: calls of
 
     CALL_serial(NAME FILTER N_CASES)      a case, or all cases of a file that is given --by-file
-    CALL_parallel(NAME FILTER N_CASES)    the cases of a file that are tagged [mpi]
+    CALL_parallel(N_CASES)                all cases that are tagged [mpi], if there are any
 
 The second compares what the program says that it contains with what ctest, in the folder of a build, runs of it in
 tests whose names begin with PREFIX: every case alone, and every case that is tagged [mpi] on several ranks.
@@ -126,15 +126,16 @@ def write(call, files, by_file):
     unknown = set(by_file) - {file.stem for file in files}
     if unknown:
         raise Unreadable(f"there is no file {' or '.join(sorted(unknown))}")
-    for file, found in cases_by_file(files).items():
+    by_file_of = cases_by_file(files)
+    for file, found in by_file_of.items():
         if file.stem in by_file and found:
             yield f"{call}_serial([=[{file.stem}]=] [=[[#{file.stem}]]=] {len(found)})"
         else:
             for case in found:
                 yield f"{call}_serial([=[{case.name}]=] [=[{case.filter()}]=] 1)"
-        parallel = sum(case.is_parallel() for case in found)
-        if parallel:
-            yield f"{call}_parallel([=[{file.stem}]=] [=[[#{file.stem}][mpi]]=] {parallel})"
+    parallel = sum(case.is_parallel() for found in by_file_of.values() for case in found)
+    if parallel:
+        yield f"{call}_parallel({parallel})"
 
 
 def listed(program, of_filter):

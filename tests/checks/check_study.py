@@ -261,19 +261,18 @@ def check_earlier(program, _, folder):
 
 
 def check_shipped(program, _, folder):
-    """That the program reads all shipped studies, and their scenes with the settings of the coarsest and the finest run;
-    that the rows of reference files are there."""
+    """That the program reads all shipped studies, and their scenes with the settings of the finest run; that the rows of
+    reference files are there."""
     sys.path.insert(0, ROOT)
     from study import cases, description, references, runs
     files = sorted(glob.glob(os.path.join(ROOT, "prm", "studies", "*.prm")))
     require(files, "no studies are shipped")
     for file in files:
         study = description.read(program, file)
-        every = cases.make_cases(study)
-        for case in (every[0], every[-1]):
-            scene, settings = runs.scene_and_settings(study, case, folder)
-            done = subprocess.run([program, "read-scene", scene, *runs.assignments(settings)], capture_output=True, text=True)
-            require(done.returncode == 0, f"{file}, {case.name(study)}: {done.stderr}")
+        case = cases.make_cases(study)[-1]
+        scene, settings = runs.scene_and_settings(study, case, folder)
+        done = subprocess.run([program, "read-scene", scene, *runs.assignments(settings)], capture_output=True, text=True)
+        require(done.returncode == 0, f"{file}, {case.name(study)}: {done.stderr}")
         for quantity in study.quantities:
             if quantity.reference_file:
                 references.rows_of(quantity)

@@ -217,7 +217,7 @@ class UnitCases(Tree):
     def test_several_ranks(self):
         self.assertEqual(self.lines('TEST_CASE("a", "[solid][mpi]") {}\nTEST_CASE("b", "[solid]") {}', "beam"),
                          ["unit_serial([=[beam]=] [=[[#beam]]=] 2)",
-                          "unit_parallel([=[beam]=] [=[[#beam][mpi]]=] 1)"])
+                          "unit_parallel(1)"])
 
     def test_comments_and_strings(self):
         self.assertEqual(self.lines('// TEST_CASE("a")\n/* TEST_CASE("b") */\n'

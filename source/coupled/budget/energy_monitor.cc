@@ -21,6 +21,10 @@ namespace undine
     // by a step that adds to them.
     constexpr double largest_sum = 0.005, share_in_sum = 0.002;
 
+    // Of the largest energy: what may be gained back of what steps have lost. Where vibrations are
+    // just resolved, the energy that a step gets wrong is lost and gained in turns.
+    constexpr double most_regained = 0.05;
+
     // A step of half the length is worth its time only if it creates less than half as much, and
     // where that is still too much for one step if it is less. After one that is not the next may
     // be.
@@ -61,7 +65,8 @@ namespace undine
       "What to do about a step in which fluid and bodies gain more energy than has been put "
       "into them from outside, by more than a tenth of it and of what goes in and out: "
       "nothing; a warning; or redo it with half its length, as long as that creates less. Smaller "
-      "amounts add up to a two-hundredth of the largest energy before that.");
+      "amounts add up, less what was lost before, to a two-hundredth of the largest energy before "
+      "that.");
     output.add(
       "Energy account",
       writes_columns,
@@ -155,7 +160,7 @@ namespace undine
     step.share         = least / scale;
     step.uncertain     = largest_share * input.of_powers + step.energy - least;
     step.exceeds_sum =
-      step.share > share_in_sum && last.created - last.excused + step.energy >
+      step.share > share_in_sum && last.balance - last.excused + step.energy >
                                      largest_sum * now.largest + last.uncertain + step.uncertain;
     return step;
   }
@@ -219,6 +224,7 @@ namespace undine
     if (step.is_known)
       {
         now.created   = std::max(0., last.created + step.energy);
+        now.balance   = std::max(-most_regained * now.largest, last.balance + step.energy);
         now.excused   = std::min(now.created, last.excused + (step.is_allowed() ? 0 : step.energy));
         now.uncertain = last.uncertain + step.uncertain;
       }

@@ -16,7 +16,8 @@ namespace undine
                                   account.created,
                                   account.excused,
                                   account.uncertain,
-                                  account.known ? 1. : 0.},
+                                  account.known ? 1. : 0.,
+                                  account.balance},
                                  communicator);
   }
 
@@ -34,6 +35,7 @@ namespace undine
     account.excused   = numbers[5];
     account.uncertain = numbers[6];
     account.known     = numbers[7] != 0;
+    account.balance   = numbers.size() > 8 ? numbers[8] : account.created; // which older ones lack
     return account;
   }
 } // namespace undine

@@ -86,7 +86,7 @@ TEST_CASE("checkpoint: what the energy monitor knows is read back, or nothing is
   const SampleScene<2> scene(MPI_COMM_WORLD);
   auto                 watched = state_at(scene, 11);
   write_checkpoint(folder.path / "unwatched", scene.models, watched);
-  watched.account = EnergyAccount{1. / 3, -2. / 3, 4, 0, 0, 0, 5, 6, 7, 8, true};
+  watched.account = EnergyAccount{1. / 3, -2. / 3, 4, 0, 0, 0, 5, 6, -9, 7, 8, true};
   write_checkpoint(folder.path / "watched", scene.models, watched);
 
   auto read = scene.zero_state();
@@ -101,6 +101,7 @@ TEST_CASE("checkpoint: what the energy monitor knows is read back, or nothing is
   CHECK(read.account->exchange == 4);
   CHECK(read.account->largest == 5);
   CHECK(read.account->created == 6);
+  CHECK(read.account->balance == -9);
   CHECK(read.account->excused == 7);
   CHECK(read.account->uncertain == 8);
   CHECK(read.account->known);

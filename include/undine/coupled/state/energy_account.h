@@ -39,6 +39,7 @@ namespace undine
     double work_exchange = 0; ///< sum of their sizes [J]
     double largest       = 0; ///< energy so far [J]
     double created       = 0; ///< by all steps since it last was lost again [J]
+    double balance       = 0; ///< the same, less than nothing where more was lost than created [J]
     double excused       = 0; ///< of these what shorter steps would not avoid [J]
     double uncertain     = 0; ///< how far `created` may be off, as rules for work go [J]
     bool   known         = false;
