@@ -7,7 +7,6 @@ import os
 import re
 import shutil
 import signal
-import statistics
 import subprocess
 import tempfile
 import time
@@ -174,21 +173,26 @@ def finished(folder, limit):
 
 
 def run(program, study, case, folder, limit):
-    """Make a run, three times if it is short: the medians count. Kept are those that succeed, that the program refuses or
-    cannot solve, and that are stopped at the limit [s] of the study; not those that were stopped otherwise."""
+    """Make a run, three times if it is short: the one of median cost counts, with all its times. Kept are those that
+    succeed, that the program refuses or cannot solve, and that are stopped at the limit [s] of the study; not those that
+    were stopped otherwise."""
     begin, results = time.monotonic(), []
+    folders = [folder] + [f"{folder}.again{number}" for number in range(1, REPETITIONS)]
     while not results or (not results[0]["failure"] and results[0]["core seconds"] < study.repeat_below
                           and len(results) < REPETITIONS):
         left = max(1.0, limit + begin - time.monotonic()) if limit else 0
-        again = once(program, study, case, folder + ".again" if results else folder, left)
+        again = once(program, study, case, folders[len(results)], left)
         if results and again["failure"]:
             break
         results.append(again)
-    shutil.rmtree(folder + ".again", ignore_errors=True)
-    result = results[0]
+    middle = sorted(range(len(results)), key=lambda number: results[number]["core seconds"])[(len(results) - 1) // 2]
+    if middle > 0:
+        shutil.rmtree(folder)
+        os.replace(folders[middle], folder)
+    for other in folders[1:]:
+        shutil.rmtree(other, ignore_errors=True)
+    result = results[middle]
     result["elapsed"], result["limit"] = time.monotonic() - begin, study.limit
-    for cost in ("core seconds", "wall seconds"):
-        result[cost] = statistics.median(each[cost] for each in results)
     result["repetitions"] = len(results)
     result["case"] = case.name(study)
     result["settings"] = case.settings(study)

@@ -54,7 +54,7 @@ def reached(polygons, wet, is_open):
 
 
 class Beside:
-    """Corners of polygons near others that the fluid reaches."""
+    """Which points near a polygon the fluid reaches."""
 
     def __init__(self, polygons, wet):
         self.wet, self.at_point = wet, collections.defaultdict(list)

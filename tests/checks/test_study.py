@@ -8,11 +8,12 @@ import os
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-from study import analysis, columns, convergence, predictions, quantities, report, scene_files, tables  # noqa: E402
+from study import analysis, columns, convergence, predictions, quantities, report, runs, scene_files, tables  # noqa: E402
 from study.cases import Case, make_cases, of_scene, ranks  # noqa: E402
 from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
@@ -266,6 +267,29 @@ class Cases(unittest.TestCase):
         for case in cases[:6]:
             known.add(case, {"failure": "", "elapsed": seconds(case)})
         self.assertLess(abs(math.log(known.wall_seconds(cases[-1]) / seconds(cases[-1]))), 0.2)
+
+
+class Repetitions(unittest.TestCase):
+    def test_all_times_are_those_of_the_repetition_of_median_cost(self):
+        for costs, middle in (([3, 1, 2], 2), ([1, 2, 3], 2), ([5, 1, 9], 5)):
+            left = list(costs)
+
+            def once(_program, _study, _case, folder, _limit, left=left):
+                os.makedirs(os.path.join(folder, "run"))
+                cost = left.pop(0)
+                with open(os.path.join(folder, "run", "timing"), "w") as file:
+                    file.write(str(cost))
+                return {"failure": "", "stopped": False, "exit code": 0, "core seconds": cost, "wall seconds": 10 * cost}
+
+            with tempfile.TemporaryDirectory() as above, unittest.mock.patch.object(runs, "once", once):
+                folder = os.path.join(above, "case")
+                long_enough = dataclasses.replace(study(refinement("step", [1])), repeat_below=100.0)
+                result = runs.run("", long_enough, Case((0,)), folder, 0)
+                self.assertEqual((result["core seconds"], result["wall seconds"], result["repetitions"]),
+                                 (middle, 10 * middle, 3))
+                with open(os.path.join(folder, "timing")) as file:
+                    self.assertEqual(file.read(), str(middle))
+                self.assertEqual(os.listdir(above), ["case"])
 
 
 class FakePilot:
