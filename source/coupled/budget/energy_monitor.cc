@@ -23,7 +23,7 @@ namespace undine
 
     // Of the largest energy: what may be gained back of what steps have lost. Where vibrations are
     // just resolved, the energy that a step gets wrong is lost and gained in turns.
-    constexpr double most_regained = 0.05;
+    constexpr double most_regained = 3 * largest_sum;
 
     // A step of half the length is worth its time only if it creates less than half as much, and
     // where that is still too much for one step if it is less. After one that is not the next may

@@ -26,10 +26,10 @@ namespace undine
   /// A step may create a tenth of E^n, of the works and of the work of the sizes of all powers: so
   /// much is the error of that rule in steps that only just resolve what happens. Instead of their
   /// means forces and powers may also be those at the end of the step, where they rise within few.
-  /// Steps that create less add up: together, less what is lost again or was lost before, up to a
-  /// twentieth of the largest energy so far, they may create a two-hundredth of it, and what (B3)
-  /// may be off by. For the first step of a run, which may begin with a jump, there is no P^n. It
-  /// is not judged if powers matter in it.
+  /// Steps that create less add up: together, less what is lost again or was lost before, up to
+  /// three times as much, they may create a two-hundredth of the largest energy so far, and what
+  /// (B3) may be off by. For the first step of a run, which may begin with a jump, there is no P^n.
+  /// It is not judged if powers matter in it.
   class EnergyMonitor
   {
   public:
