@@ -76,9 +76,19 @@ namespace undine
       const Budget<dim>     budget_before = budget;
       SurfacePlacement<dim> placement(models);
       bool                  is_corrected = false; ///< friction
+      const auto            go_back      = [&] {
+        state = begin;
+        budget.go_back_to(budget_before);
+        go_back_to(report_before, report);
+      };
       while (true)
         {
-          solve_once(state, stage, report);
+          if (!is_solved(state, stage, report, placement))
+            {
+              fluid_side.expect(placement.retreat());
+              go_back();
+              continue;
+            }
           const auto cut_at = fluid_side.geometry()->surface_positions();
           // Stages of other integrators begin where the grid is cut.
           const auto places =
@@ -97,9 +107,7 @@ namespace undine
               begin.fluid.pressure    = state.fluid.pressure;
               begin.solid.fluid_loads = state.solid.fluid_loads;
             }
-          state = begin;
-          budget.go_back_to(budget_before);
-          go_back_to(report_before, report);
+          go_back();
         }
     }
 
@@ -110,6 +118,27 @@ namespace undine
     }
 
   private:
+    /// False if the stage has no solution where the grid was cut, and `placement` knows a place
+    /// closer to one at which it has.
+    bool
+    is_solved(State<dim>                  &state,
+              const Stage                 &stage,
+              Report                      &report,
+              const SurfacePlacement<dim> &placement)
+    {
+      try
+        {
+          solve_once(state, stage, report);
+          return true;
+        }
+      catch (const SolveError &)
+        {
+          if (!placement.can_retreat())
+            throw;
+          return false;
+        }
+    }
+
     /// Before the stage is solved again. Iterations count.
     static void
     go_back_to(const Report &before, Report &report)
