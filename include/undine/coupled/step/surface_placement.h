@@ -36,13 +36,13 @@ namespace undine
       misplacements.push_back(by);
       if (by.cells <= (is_last ? largest_misplacement : enough()))
         return true;
-      if (is_last || (round == most_rounds && std::min(by.cells, lowest) > largest_misplacement))
-        throw SolveError(misplacement_complaint(models, reached, misplacements));
       if (by.cells < lowest)
         {
           lowest = by.cells;
           best   = at;
         }
+      if (is_last || (round >= hopeless_rounds && lowest > largest_misplacement))
+        throw SolveError(misplacement_complaint(models, reached, misplacements));
       return false;
     }
 
@@ -110,6 +110,7 @@ namespace undine
     static constexpr double       small_misplacement   = 0.01;
     static constexpr double       largest_misplacement = 0.3;
     static constexpr unsigned int strict_rounds        = 3;
+    static constexpr unsigned int hopeless_rounds      = 6; ///< if none is as close as the second
     static constexpr unsigned int most_rounds          = 12;
 
     const Models<dim>        &models;
