@@ -6,6 +6,8 @@
 #include <deal.II/lac/qr.h>
 #include <deal.II/lac/vector.h>
 
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace undine

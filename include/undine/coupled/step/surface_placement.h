@@ -108,7 +108,7 @@ namespace undine
     // closer one: pressures jump as surfaces cross planes of the grid, and a light body follows
     // them.
     static constexpr double       small_misplacement   = 0.01;
-    static constexpr double       largest_misplacement = 0.3;
+    static constexpr double       largest_misplacement = 0.2;
     static constexpr unsigned int strict_rounds        = 3;
     static constexpr unsigned int hopeless_rounds      = 6; ///< if none is as close as the second
     static constexpr unsigned int most_rounds          = 12;
