@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """One run of a study: started, measured, and kept so that it need not be made again."""
 import ctypes
+import functools
 import hashlib
 import json
 import os
@@ -76,9 +77,11 @@ def command(program, study, case, folder):
         {"Output/Interval": "0", "Output/Parts": "statistics", **settings})
 
 
-def end_with_parent():
-    """Ask the system to end this process when the one that has started it ends, however that happens."""
+def end_with_parent(parent):
+    """Ask the system to end this process when the one that has started it (its number) ends, however that happens."""
     ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+    if os.getppid() != parent:  # it has ended before it was asked
+        os._exit(1)
 
 
 def wait(process, limit):
@@ -104,7 +107,7 @@ def execute(words, limit, printed):
     """Run a program until its end or for `limit` seconds; what it prints goes to a file."""
     begin = time.monotonic()
     process = subprocess.Popen(words, env=environment(), stdout=printed, stderr=printed, stdin=subprocess.DEVNULL,
-                               start_new_session=True, preexec_fn=end_with_parent)
+                               start_new_session=True, preexec_fn=functools.partial(end_with_parent, os.getpid()))
     seconds, stopped = wait(process, limit)
     printed.seek(0)
     failure = "" if process.returncode == 0 else message_of(printed.read())

@@ -79,6 +79,16 @@ def finished(out):
     return found
 
 
+def ended(out):
+    """Folders whose run has come to its end, whether or not the study knows of it."""
+    found = set()
+    for path in glob.glob(os.path.join(out, "cases", "*", "run", "summary.json")):
+        with open(path) as file:
+            if json.load(file)["ended"]:
+                found.add(path)
+    return found
+
+
 def processes_about(text):
     """Command lines of running processes in which the text occurs."""
     found = []
@@ -106,10 +116,14 @@ def check_kill(program, studies, folder):
             break
     process.send_signal(signal.SIGKILL)
     process.wait()
-    time.sleep(0.2)
-    left = processes_about(out)
+    before, ended_before = finished(out), ended(out)
+    for _ in range(100):  # a process that is killed may take its time on a loaded machine, but it must not go on
+        left = processes_about(out)
+        if not left:
+            break
+        time.sleep(0.1)
     require(not left, f"after a kill there are still processes {left}")
-    before = finished(out)
+    require(ended(out) == ended_before, "a run went on to its end after a kill")
     require(2 <= len(before) < 8, f"{len(before)} runs had ended before the kill")
     done = run(program, study, out)
     require(done.returncode == 0, f"resumption: {done.stderr}")
