@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace undine
@@ -16,17 +15,17 @@ namespace undine
   template <int dim>
   ImmersedViscousTerm<dim>::ImmersedViscousTerm(const FluidModel<dim>                     &model,
                                                 const unsigned int                         axis,
-                                                std::shared_ptr<const FluidTopology<dim>>  open_,
+                                                std::shared_ptr<const FluidTopology<dim>>  open,
                                                 std::shared_ptr<const NoSlipSurfaces<dim>> walls_,
                                                 const double viscosity)
     : model(model)
     , axis(axis)
-    , open(std::move(open_))
+    , unknowns(model, axis, std::move(open))
     , no_slip_surfaces(std::move(walls_))
-    , terms(model, axis, *open, *no_slip_surfaces, viscosity)
+    , terms(model, axis, *topology(), *no_slip_surfaces, viscosity)
     , viscosity(viscosity)
+    , convection(unknowns)
   {
-    number_unknowns();
     std::vector<std::pair<Number, double>> free;
     for_each_viscous_term([&](const ViscousTerm<dim> &term) {
       collect(free, term);
@@ -46,70 +45,6 @@ namespace undine
   }
 
 
-  /// action(FacePlace) in the order of for_each_value().
-  template <int dim>
-  template <class Action>
-  void
-  ImmersedViscousTerm<dim>::for_each_owned(const Action &action) const
-  {
-    const auto &divided = open->faces[axis];
-    for_each(model.grid().faces(axis)->owned(), [&](const GridIndex<dim> &face) {
-      if (divided.kind(face) == SubLattice<dim>::Kind::whole)
-        action(FacePlace<dim>{face, -1});
-    });
-    for (std::size_t k = 0; k < divided.all().size(); ++k)
-      if (divided.owns(k))
-        action(FacePlace<dim>{divided.all()[k].index, static_cast<int>(k)});
-  }
-
-
-  /// Faces and pieces of rank 0 first.
-  template <int dim>
-  void
-  ImmersedViscousTerm<dim>::number_unknowns()
-  {
-    namespace mpi           = dealii::Utilities::MPI;
-    const auto communicator = model.grid().communicator();
-    numbers                 = Field<dim>(model.grid().faces(axis), open);
-    Number count            = 0;
-    for_each_value(numbers, [&](double &, const auto &, const auto &) { ++count; });
-    mine =
-      mpi::create_ascending_partitioning(communicator, count)[mpi::this_mpi_process(communicator)];
-    Number next = count > 0 ? mine.nth_index_in_set(0) : 0;
-    for_each_value(numbers, [&](double &number, const auto &, const auto &) { number = next++; });
-    numbers.exchange(1);
-  }
-
-
-  template <int dim>
-  typename ImmersedViscousTerm<dim>::Number
-  ImmersedViscousTerm<dim>::number(const FacePlace<dim> &place) const
-  {
-    return static_cast<Number>(value_at(numbers, place));
-  }
-
-
-  /// rho V_f [kg]
-  template <int dim>
-  double
-  ImmersedViscousTerm<dim>::mass(const FacePlace<dim> &place) const
-  {
-    return model.density() * (place.part < 0 ? model.grid().dual_volume(axis, place.face)
-                                             : open->pieces[axis][place.part].volume);
-  }
-
-
-  template <int dim>
-  bool
-  ImmersedViscousTerm<dim>::is_prescribed(const FacePlace<dim> &place) const
-  {
-    if (!model.grid().at_boundary(axis, place.face))
-      return false;
-    const Side side{axis, place.face[axis] == 0 ? 0u : 1u};
-    return model.boundaries().at(side, place.face).prescribes_normal_velocity();
-  }
-
-
   /// The unknowns of a term and their coefficients.
   template <int dim>
   void
@@ -118,29 +53,8 @@ namespace undine
   {
     free.clear();
     for (const auto &[place, coefficient] : term.faces)
-      if (!is_prescribed(place))
-        free.emplace_back(number(place), coefficient);
-  }
-
-
-  /// The rows that terms and fluxes of this rank may have entries in: its own, and next to it.
-  template <int dim>
-  dealii::IndexSet
-  ImmersedViscousTerm<dim>::relevant_rows() const
-  {
-    std::vector<Number> rows(mine.begin(), mine.end());
-    const auto         &divided = open->faces[axis];
-    for_each(numbers.stored(), [&](const GridIndex<dim> &face) {
-      if (divided.kind(face) == SubLattice<dim>::Kind::whole)
-        rows.push_back(number({face, -1}));
-    });
-    for (const double number : numbers.parts())
-      rows.push_back(static_cast<Number>(number));
-    std::sort(rows.begin(), rows.end());
-    dealii::IndexSet result(mine.size());
-    result.add_indices(rows.begin(), std::unique(rows.begin(), rows.end()));
-    result.compress();
-    return result;
+      if (!unknowns.is_prescribed(place))
+        free.emplace_back(unknowns.number(place), coefficient);
   }
 
 
@@ -150,7 +64,8 @@ namespace undine
   {
     std::vector<std::pair<Number, double>> free;
     std::vector<Number>                    columns;
-    const auto                             relevant = relevant_rows();
+    const auto                             relevant = unknowns.relevant();
+    const auto                            &mine     = unknowns.owned();
     dealii::DynamicSparsityPattern         pattern(mine.size(), mine.size(), relevant);
     for (const auto row : mine)
       pattern.add(row, row);
@@ -163,13 +78,7 @@ namespace undine
         pattern.add_entries(row, columns.begin(), columns.end());
     });
     if (fluxes)
-      fluxes->for_each_between(
-        axis, [&](const FacePlace<dim> &from, const FacePlace<dim> &to, const double) {
-          if (is_prescribed(from) || is_prescribed(to))
-            return;
-          pattern.add(number(from), number(to));
-          pattern.add(number(to), number(from));
-        });
+      convection.start_pattern(pattern, *fluxes);
     // A rank without fluid must not announce rows: their numbers would be taken for a huge range.
     dealii::TrilinosWrappers::SparsityPattern result(
       mine, model.grid().communicator(), mine.is_empty() ? 0 : 4 * dim + 1);
@@ -192,8 +101,8 @@ namespace undine
     std::vector<std::pair<Number, double>> free;
     std::vector<Number>                    columns;
     std::vector<double>                    values;
-    for_each_owned([&](const FacePlace<dim> &place) {
-      friction.add(number(place), number(place), mass(place));
+    unknowns.for_each_owned([&](const FacePlace<dim> &place) {
+      friction.add(unknowns.number(place), unknowns.number(place), unknowns.mass(place));
     });
     for_each_viscous_term([&](const ViscousTerm<dim> &term) {
       collect(free, term);
@@ -210,117 +119,6 @@ namespace undine
     });
     friction.compress(dealii::VectorOperation::add);
     assembled_dt = dt;
-  }
-
-
-  /// rho phi (v_to - v_from) / 2 in the equations of both places, phi being what flows from one to
-  /// the other, and what prescribed velocities contribute to the load. `leaving` gets what leaves
-  /// the dual volumes in a step [kg].
-  template <int dim>
-  void
-  ImmersedViscousTerm<dim>::add_fluxes_between(const DualFluxes<dim> &fluxes,
-                                               const Field<dim>      &field,
-                                               Vector                &leaving)
-  {
-    if (convective_entries.empty())
-      convective_entries.find(fluxes, axis, solver.matrix, [&](const FacePlace<dim> &place) {
-        if (is_prescribed(place) || !mine.is_element(number(place)))
-          return ConvectiveEntries<dim>::none;
-        return static_cast<int>(mine.index_within_set(number(place)));
-      });
-    const auto   rows = rows_of(solver.matrix);
-    double      *mass = leaving.begin();
-    std::size_t  k    = 0;
-    const double step = assembled_dt * model.density();
-    // A matrix must not get values by address while it collects those of other ranks.
-    std::vector<std::tuple<FacePlace<dim>, FacePlace<dim>, double>> others;
-    fluxes.for_each_between(
-      axis, [&](const FacePlace<dim> &from, const FacePlace<dim> &to, const double flux) {
-        const auto &pair = convective_entries[k++];
-        if (pair.from == ConvectiveEntries<dim>::none)
-          {
-            others.emplace_back(from, to, flux);
-            return;
-          }
-        const double half = step * flux / 2;
-        rows[pair.from][pair.places[0]] -= half;
-        rows[pair.from][pair.places[1]] += half;
-        rows[pair.to][pair.places[2]] -= half;
-        rows[pair.to][pair.places[3]] += half;
-        mass[pair.from] += 2 * half;
-        mass[pair.to] -= 2 * half;
-      });
-    for (const auto &[from, to, flux] : others)
-      {
-        leaving(number(from)) += step * flux;
-        leaving(number(to)) -= step * flux;
-        for (const auto &row : {from, to})
-          if (!is_prescribed(row))
-            {
-              add_entry(row, from, -step * flux / 2, field);
-              add_entry(row, to, step * flux / 2, field);
-            }
-      }
-    leaving.compress(dealii::VectorOperation::add);
-  }
-
-
-  /// To the matrix, or to the load if the velocity of the column is prescribed.
-  template <int dim>
-  void
-  ImmersedViscousTerm<dim>::add_entry(const FacePlace<dim> &row,
-                                      const FacePlace<dim> &column,
-                                      const double          mass,
-                                      const Field<dim>     &field)
-  {
-    if (is_prescribed(column))
-      right_side(number(row)) -= mass * value_at(field, column);
-    else
-      solver.matrix.add(number(row), number(column), mass);
-  }
-
-
-  /// To the matrix and the load, from fluxes with `field` = v*.
-  template <int dim>
-  void
-  ImmersedViscousTerm<dim>::add_convection(const DualFluxes<dim> &fluxes, const Field<dim> &field)
-  {
-    auto  &matrix = solver.matrix;
-    Vector leaving(mine, model.grid().communicator());
-    add_fluxes_between(fluxes, field, leaving);
-    fluxes.for_each_entering(
-      axis, [&](const FacePlace<dim> &place, const double flux, const double velocity) {
-        if (is_prescribed(place))
-          return;
-        const double mass = assembled_dt * model.density() * flux;
-        matrix.add(number(place), number(place), mass);
-        right_side(number(place)) += mass * velocity;
-      });
-    matrix.compress(dealii::VectorOperation::add);
-    right_side.compress(dealii::VectorOperation::add);
-    if (fluxes.start())
-      add_shrinkage(fluxes, leaving);
-  }
-
-
-  /// What leaves the dual volumes in a step where surfaces move [kg], besides what crosses sides
-  /// in `leaving`. V^0 is not negative, but for what the flow does not fit.
-  template <int dim>
-  void
-  ImmersedViscousTerm<dim>::add_shrinkage(const DualFluxes<dim> &fluxes, Vector &leaving)
-  {
-    fluxes.for_each_leaving(axis, [&](const FacePlace<dim> &place, const double flux) {
-      leaving(number(place)) += assembled_dt * model.density() * flux;
-    });
-    leaving.compress(dealii::VectorOperation::add);
-    std::size_t k = 0;
-    for_each_owned([&](const FacePlace<dim> &place) {
-      const double shrinkage =
-        is_prescribed(place) ? 0. : std::max(leaving.begin()[k], -mass(place));
-      solver.matrix.add(number(place), number(place), shrinkage);
-      right_side.begin()[k++] += shrinkage * value_at((*fluxes.start())[axis], place);
-    });
-    solver.matrix.compress(dealii::VectorOperation::add);
   }
 
 
@@ -347,7 +145,6 @@ namespace undine
       {
         is_replaced = false;
         make_pattern(fluxes);
-        convective_entries.clear();
         assemble_friction(dt);
         if (!fluxes)
           {
@@ -380,7 +177,7 @@ namespace undine
   {
     double sum = 0;
     for (const auto &[place, coefficient] : term.faces)
-      if (is_prescribed(place))
+      if (unknowns.is_prescribed(place))
         sum += coefficient * value_at(field, place);
     sum += by_nodes(term, nodes);
     if (const auto &wall = term.wall; wall.boundary)
@@ -393,12 +190,12 @@ namespace undine
   void
   ImmersedViscousTerm<dim>::fill(const Field<dim> &field)
   {
-    first = Vector(mine, model.grid().communicator());
+    first = unknowns.vector();
     right_side.reinit(first);
     std::size_t k = 0;
-    for_each_owned([&](const FacePlace<dim> &place) {
+    unknowns.for_each_owned([&](const FacePlace<dim> &place) {
       first.begin()[k]        = value_at(field, place);
-      right_side.begin()[k++] = mass(place) * value_at(field, place);
+      right_side.begin()[k++] = unknowns.mass(place) * value_at(field, place);
     });
     by_given.assign(nodes.size(), 0.);
     std::vector<std::pair<Number, double>> free;
@@ -442,25 +239,8 @@ namespace undine
     fill(field);
     if (!fluxes)
       return;
-    add_convection(*fluxes, field);
+    convection.add(solver.matrix, right_side, dt, *fluxes, field);
     solver.set_up(diffusion_number(), DiffusionSolver::Matrices::with_convection);
-  }
-
-
-  template <int dim>
-  void
-  ImmersedViscousTerm<dim>::set_values(Field<dim> &field, const Vector &values) const
-  {
-    std::size_t k = 0;
-    for_each_owned([&](const FacePlace<dim> &place) {
-      const double value = values.begin()[k++];
-      if (place.part < 0)
-        field(place.face) = value;
-      else
-        field.parts()[place.part] = value;
-    });
-    set_means(field, model.grid());
-    field.exchange(1);
   }
 
 
@@ -468,14 +248,14 @@ namespace undine
   typename ImmersedViscousTerm<dim>::Motion
   ImmersedViscousTerm<dim>::friction_by(const Vector &change, const Motion &of_nodes) const
   {
-    Field<dim> field(model.grid().faces(axis), open);
-    set_values(field, change);
+    Field<dim> field(model.grid().faces(axis), topology());
+    unknowns.copy(field, change);
     Motion on_nodes(of_nodes.size(), 0.);
     for (const auto &term : given_terms)
       {
         double sum = by_nodes(term, of_nodes);
         for (const auto &[place, coefficient] : term.faces)
-          if (!is_prescribed(place))
+          if (!unknowns.is_prescribed(place))
             sum += coefficient * value_at(field, place);
         for (const auto &[node, coefficient] : term.nodes)
           on_nodes[node] -= term.weight * coefficient * sum;
@@ -512,18 +292,18 @@ namespace undine
   typename ImmersedViscousTerm<dim>::Motion
   ImmersedViscousTerm<dim>::damping() const
   {
-    Field<dim> diagonal(model.grid().faces(axis), open);
+    Field<dim> diagonal(model.grid().faces(axis), topology());
     Vector     values(first);
-    for (const auto row : mine)
+    for (const auto row : unknowns.owned())
       values(row) = solver.matrix.diag_element(row);
     values.compress(dealii::VectorOperation::insert);
-    set_values(diagonal, values);
+    unknowns.copy(diagonal, values);
     Motion result(nodes.size(), 0.);
     for (const auto &term : given_terms)
       {
         double left = 1, all = 0;
         for (const auto &[place, coefficient] : term.faces)
-          if (!is_prescribed(place))
+          if (!unknowns.is_prescribed(place))
             left -=
               assembled_dt * term.weight * coefficient * coefficient / value_at(diagonal, place);
         for (const auto &[node, coefficient] : term.nodes)
@@ -547,13 +327,13 @@ namespace undine
       {
         double sum = given_part(term, field);
         for (const auto &[place, coefficient] : term.faces)
-          if (!is_prescribed(place))
+          if (!unknowns.is_prescribed(place))
             sum += coefficient * value_at(field, place);
         const double force = -term.weight * sum;
         for (const auto &[node, coefficient] : term.nodes)
           last_forces.on_nodes[node] += force * coefficient;
         for (const auto &[place, coefficient] : term.faces)
-          if (is_prescribed(place))
+          if (unknowns.is_prescribed(place))
             {
               const Side side{axis, place.face[axis] == 0 ? 0u : 1u};
               last_forces.on_boundaries[model.boundaries().number(side, place.face)] +=
@@ -583,7 +363,7 @@ namespace undine
   {
     for (std::size_t node = 0; node < change_of_nodes.size(); ++node)
       nodes[node] += change_of_nodes[node];
-    set_values(field, solution);
+    unknowns.copy(field, solution);
     measure_forces(field);
   }
 
@@ -593,7 +373,7 @@ namespace undine
   ImmersedViscousTerm<dim>::memory_consumption() const
   {
     return solver.memory_consumption() + friction.memory_consumption() +
-           numbers.memory_consumption() + convective_entries.memory_consumption() +
+           unknowns.memory_consumption() + convection.memory_consumption() +
            given_terms.capacity() * sizeof(ViscousTerm<dim>);
   }
 

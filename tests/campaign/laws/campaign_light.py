@@ -12,7 +12,9 @@ from law_report import Finding, Plan, Point, largest
 GAIN = 0.01  # of the largest work put in, that the energy may have above the work so far
 REDONE = 0.01  # of the steps
 MOTION = 0.05  # of the largest displacement, from that in finer steps
+LOSS = 0.05  # of the largest work put in, that the energy lost in a period may differ by from that in finer steps
 FINER = 16
+RESOLVED = 0.3  # omega h, up to which runs are compared with those in finer steps
 
 FLUID = 1000.0  # kg/m^3
 SURFACE = 1.0  # the fluid's height [m]
@@ -33,20 +35,21 @@ class Shape:
     """A body at rest, by settings of its section; and its outline."""
     settings: dict
     outline: law_outline.Outline
+    length: float  # its largest extent [m]
     dimension: int = 2
 
 
 def box():
     lower, upper, cells = (0.3, 0.1), (0.7, 0.3), (8, 4)
     return Shape({"Shape": "box", "Lower corner": law_scenes.point(lower), "Upper corner": law_scenes.point(upper),
-                  "Cells": "8, 4"}, law_outline.of_box("block", lower, upper, cells))
+                  "Cells": "8, 4"}, law_outline.of_box("block", lower, upper, cells), 0.4)
 
 
 def disc():
     centre, radius, refinements = (0.5, 0.22), 0.12, 2
     return Shape({"Shape": "ball", "Lower corner": None, "Upper corner": None, "Cells": None, "Centre": "0.5, 0.22",
                   "Radius": radius, "Refinements": refinements},
-                 law_outline.of_ball("block", centre, radius, refinements))
+                 law_outline.of_ball("block", centre, radius, refinements), 2 * radius)
 
 
 def on_neck(expression, width):
@@ -56,7 +59,7 @@ def on_neck(expression, width):
     outline = law_outline.of_box("block", lower, upper, (4, rows), lambda x, y: (0.5 + (x - 0.5) * width(y), y))
     return Shape({"Shape": "box", "Lower corner": law_scenes.point(lower), "Upper corner": law_scenes.point(upper),
                   "Cells": f"4, {rows}", "Map": f"0.5+(x-0.5)*{expression}; y",
-                  "Boundaries/foot": {"Kind": "clamp", "Where": "-y"}}, outline)
+                  "Boundaries/foot": {"Kind": "clamp", "Where": "-y"}}, outline, upper[1])
 
 
 def box_on_neck():
@@ -70,12 +73,12 @@ def disc_on_neck():
 
 def box_in_space():
     return Shape({"Shape": "box", "Lower corner": "0.3, 0.1, 0.3", "Upper corner": "0.7, 0.3, 0.7",
-                  "Cells": "3, 2, 3"}, None, 3)
+                  "Cells": "3, 2, 3"}, None, 0.4, 3)
 
 
 def ball():
     return Shape({"Shape": "ball", "Lower corner": None, "Upper corner": None, "Cells": None,
-                  "Centre": "0.5, 0.22, 0.5", "Radius": 0.12, "Refinements": 0}, None, 3)
+                  "Centre": "0.5, 0.22, 0.5", "Radius": 0.12, "Refinements": 0}, None, 0.24, 3)
 
 
 SHAPES = {"block": box, "disc": disc, "block on a neck": box_on_neck, "disc on a neck": disc_on_neck,
@@ -86,13 +89,35 @@ QUICK = (("block", 1e-3, 1e5, 60), ("block", 1e-3, 1e7, 30), ("block", 1e-2, 1e4
          ("disc on a neck", 1e-2, 1e5, 60), ("block 3D", 1e-3, 1e5, 30), ("ball 3D", 1e-2, 1e6, 60))
 
 
-def around(modulus):
-    return law_energy.Surroundings(FLUID, min(EARTH, LOAD * modulus / (FLUID * SURFACE)), SURFACE)
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """A shape, the ratio of its density to the fluid's, Young's modulus [Pa] and the number of steps in a second."""
+    shape_name: str
+    ratio: float
+    modulus: float
+    per_second: int
+
+    def __str__(self):
+        return f"{self.shape_name}, density ratio {self.ratio:g}, {self.modulus:.0e} Pa, 1/{self.per_second} s"
+
+    def shape(self):
+        return SHAPES[self.shape_name]()
+
+    def around(self):
+        return law_energy.Surroundings(FLUID, min(EARTH, LOAD * self.modulus / (FLUID * SURFACE)), SURFACE)
+
+    def frequency(self):
+        """About that of the body's first longitudinal mode, in fluid that moves with it, omega [1/s]."""
+        return math.pi / self.shape().length * math.sqrt(self.modulus / (FLUID * (1 + self.ratio)))
+
+    def energies_and_works(self, run):
+        body = law_energy.LoadedBody("block", self.ratio * FLUID, outline=self.shape().outline)
+        return law_energy.energies(run), law_energy.works(run, [body], self.around())
 
 
-def scene_of(shape, ratio, modulus, per_second, end, cells):
+def scene_of(case, end, cells):
     """Without convection, damping and whatever the file measures."""
-    fluid = around(modulus)
+    shape, fluid = case.shape(), case.around()
     body = {f"Bodies/block/{key}": value for key, value in shape.settings.items()}
     space = {} if shape.dimension == 2 else {
         "Dimension": 3, "Domain/Lower corner": "0, 0, 0", "Domain/Upper corner": "1, 1, 1",
@@ -102,8 +127,8 @@ def scene_of(shape, ratio, modulus, per_second, end, cells):
         law_scenes.read(os.path.join(law_scenes.SCENES, "light_block_rises.prm")), body,
         {"Effects/convection": None, "Fluid/Boundaries/top": None, "Output/Budget": "false"}, fluid.settings("top"),
         space, shape.outline.settings() if shape.outline else {},
-        {"Domain/Cells": ", ".join([str(cells)] * shape.dimension), "Bodies/block/Density": ratio * FLUID,
-         "Bodies/block/Young's modulus": modulus, "Time/Step": f"1/{per_second}",
+        {"Domain/Cells": ", ".join([str(cells)] * shape.dimension), "Bodies/block/Density": case.ratio * FLUID,
+         "Bodies/block/Young's modulus": case.modulus, "Time/Step": f"1/{case.per_second}",
          "Time/End": end * math.sqrt(EARTH / fluid.gravity)})
 
 
@@ -111,11 +136,15 @@ def heights(run):
     return run.column("centre of mass block y")
 
 
-def measure(program, name, shape, scene, ratio, modulus, finer):
+def lost(energies, works):
+    """Of the energy that was put in, at the end, as a share of the largest work."""
+    return (energies[0] + works[-1] - energies[-1]) / largest(works)
+
+
+def measure(program, case, scene, finer):
     run = program.run(scene)
-    body = law_energy.LoadedBody("block", ratio * FLUID, outline=shape.outline)
-    energies, works = law_energy.energies(run), law_energy.works(run, [body], around(modulus))
-    finding = Finding(name, {}, [], [run.scene])
+    energies, works = case.energies_and_works(run)
+    finding = Finding(str(case), {}, [], [run.scene])
     finding.need_end(run)
     if not energies:
         return finding
@@ -127,33 +156,40 @@ def measure(program, name, shape, scene, ratio, modulus, finer):
     finding.need(gain <= GAIN * most, "more energy than was put in")
     finding.need(run.redone() <= REDONE, "steps redone")
     if finer and not run.complaint:
-        compare(finding, run, program.run(law_scenes.with_settings(
-            scene, {"Time/Step": f"({law_scenes.value_of(scene, 'Time/Step')})/{finer}"})), finer)
+        compare(finding, run, program, case, scene, finer)
     return finding
 
 
-def compare(finding, run, fine, finer):
-    """Where the body is at the end, with where it is in finer steps."""
+def compare(finding, run, program, case, scene, finer):
+    """Where the body is at the end, and the energy lost in a period, with those in finer steps, where the step resolves
+    the body's first mode."""
+    omega = case.frequency()
+    finding.figures["omega h"] = omega / case.per_second
+    if finding.figures["omega h"] > RESOLVED:
+        return
+    fine = program.run(law_scenes.with_settings(scene, {"Time/Step": f"1/{finer * case.per_second}"}))
     if fine.complaint:
-        finding.need(False, f"the run with h/{finer} stops")
+        finding.need(False, f"the run with h/{finer}: {fine.complaint}")
         return
     way = largest(abs(height - heights(fine)[0]) for height in heights(fine))
     difference = abs(heights(run)[-1] - heights(fine)[-1]) / way if way > 0 else 0.0
-    finding.figures[f"motion off h/{finer}"] = difference
+    periods = max(1.0, omega * run.times()[-1] / (2 * math.pi))
+    losses = [lost(*case.energies_and_works(one)) / periods for one in (run, fine)]
+    finding.figures.update({f"motion off h/{finer}": difference, "lost in a period": losses[0],
+                            f"lost with h/{finer}": losses[1]})
     finding.need(difference <= MOTION, f"motion is not that with h/{finer}")
+    finding.need(abs(losses[0] - losses[1]) <= LOSS, f"the energy lost is not that with h/{finer}")
 
 
-def point(shape_name, ratio, modulus, per_second, end, cells, finer):
-    shape = SHAPES[shape_name]()
-    scene = scene_of(shape, ratio, modulus, per_second, end, cells)
-    name = f"{shape_name}, density ratio {ratio:g}, {modulus:.0e} Pa, 1/{per_second} s"
-    return Point(name, lambda program: measure(program, name, shape, scene, ratio, modulus, finer))
+def point(case, end, cells, finer):
+    scene = scene_of(case, end, cells)
+    return Point(str(case), lambda program: measure(program, case, scene, finer))
 
 
 def plan(options):
     finer = FINER if options.against_fine else None
     if options.quick:
-        return Plan([point(*chosen, END / 4, 8 if "3D" in chosen[0] else 24, finer) for chosen in QUICK])
+        return Plan([point(Case(*chosen), END / 4, 8 if "3D" in chosen[0] else 24, finer) for chosen in QUICK])
     plane = [(shape, ratio, modulus) for shape in SHAPES if "3D" not in shape for ratio in RATIOS for modulus in MODULI]
-    return Plan([point(*chosen, per_second, END, 32, finer) for chosen in plane for per_second in STEPS]
-                + [point(*chosen, per_second, END_IN_SPACE, 12, finer) for chosen in IN_SPACE for per_second in STEPS])
+    return Plan([point(Case(*chosen, per_second), END, 32, finer) for chosen in plane for per_second in STEPS]
+                + [point(Case(*chosen, per_second), END_IN_SPACE, 12, finer) for chosen in IN_SPACE for per_second in STEPS])

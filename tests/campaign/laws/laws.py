@@ -47,7 +47,7 @@ def read_arguments():
                         f"(default: 7200, with --quick {QUICK_LIMIT})")
     parser.add_argument("--unwatched", action="store_true", help="without the energy monitor, which redoes steps")
     parser.add_argument("--against-fine", action="store_true",
-                        help="light: compare motions with those in steps of a sixteenth")
+                        help="light: compare motions and losses with those in steps of a sixteenth, where the step resolves them")
     parser.add_argument("--scenes", type=int, metavar="N", help="random and hard: how many, of hard ones in each dimension "
                         "(default: 200, with --quick 10; 1000 and 100, with --quick 8 and 2)")
     parser.add_argument("--first", type=int, default=0, metavar="N", help="hard: the number of the first one")

@@ -2,7 +2,7 @@
 #ifndef undine_fluid_viscosity_immersed_viscous_term_h
 #define undine_fluid_viscosity_immersed_viscous_term_h
 
-#include <undine/fluid/viscosity/convective_entries.h>
+#include <undine/fluid/viscosity/convective_term.h>
 #include <undine/fluid/viscosity/diffusion_solver.h>
 #include <undine/fluid/viscosity/viscous_terms.h>
 
@@ -42,7 +42,7 @@ namespace undine
     const std::shared_ptr<const FluidTopology<dim>> &
     topology() const
     {
-      return open;
+      return unknowns.topology();
     }
 
     using Vector = DiffusionSolver::Vector;
@@ -131,37 +131,16 @@ namespace undine
     memory_consumption() const;
 
   private:
-    using Number = dealii::types::global_dof_index;
+    using Number = typename FaceUnknowns<dim>::Number;
 
     void
-    number_unknowns();
-    Number
-    number(const FacePlace<dim> &place) const;
-    void
     set_up_friction(const double dt, const DualFluxes<dim> *fluxes);
-    dealii::IndexSet
-    relevant_rows() const;
     void
     make_pattern(const DualFluxes<dim> *fluxes);
     void
     assemble_friction(const double dt);
-    void
-    add_fluxes_between(const DualFluxes<dim> &fluxes, const Field<dim> &field, Vector &leaving);
-    void
-    add_entry(const FacePlace<dim> &row,
-              const FacePlace<dim> &column,
-              const double          mass,
-              const Field<dim>     &field);
-    void
-    add_convection(const DualFluxes<dim> &fluxes, const Field<dim> &field);
-    void
-    add_shrinkage(const DualFluxes<dim> &fluxes, Vector &leaving);
     double
     diffusion_number() const;
-    double
-    mass(const FacePlace<dim> &place) const;
-    bool
-    is_prescribed(const FacePlace<dim> &place) const;
     void
     collect(std::vector<std::pair<Number, double>> &free, const ViscousTerm<dim> &term) const;
     static double
@@ -171,30 +150,23 @@ namespace undine
     void
     fill(const Field<dim> &field);
     void
-    set_values(Field<dim> &field, const Vector &values) const;
-    void
     measure_forces(const Field<dim> &field);
 
-    template <class Action>
-    void
-    for_each_owned(const Action &action) const;
     template <class Action>
     void
     for_each_viscous_term(const Action &action) const;
 
     const FluidModel<dim>                           &model;
     const unsigned int                               axis;
-    const std::shared_ptr<const FluidTopology<dim>>  open;
+    const FaceUnknowns<dim>                          unknowns;
     const std::shared_ptr<const NoSlipSurfaces<dim>> no_slip_surfaces;
     const ViscousTerms<dim>                          terms;
-    const double                                     viscosity; ///< mu [Pa s]
-    Field<dim>                                       numbers;   ///< exact up to 2^53
-    dealii::IndexSet                                 mine;
+    const double                                     viscosity;        ///< mu [Pa s]
     double                                           assembled_dt = 0; ///< [s]
     double                                           time         = 0; ///< [s]
     bool                                             is_replaced  = false;
     DiffusionSolver                                  solver;
-    ConvectiveEntries<dim>                           convective_entries;
+    ConvectiveTerm<dim>                              convection;
     dealii::TrilinosWrappers::SparseMatrix           friction; ///< of mass and friction
     std::vector<ViscousTerm<dim>> given_terms; ///< in which something is not an unknown face
     Motion                        nodes;       ///< their velocities [m/s]
