@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Which density of the fluid splitting can bear before the bar of prm/piston.prm, by linear theory: the spectral radius of
-(V13) in doc/hard_cases.md. prm/studies/stability_piston.prm finds the same by runs.
+(V14) in doc/hard_cases.md. prm/studies/stability_piston.prm finds the same by runs.
 
 usage: benchmarks/splitting_limits.py [--elements 8] [--theta 0.6]
 """

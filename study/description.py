@@ -119,6 +119,7 @@ class Study:
     variations: list
     quantities: list = field(default_factory=list)
     boundary: float = 1.2  # factor between neighbours of a range at which runs begin to be stable
+    linear_theory: bool = False  # find where it foretells that
 
     def ranges(self):
         """Positions of the variations along which it matters whether runs are stable."""
@@ -198,7 +199,8 @@ def from_json(text, file):
                   float(top["Repeat below"]), float(top["Limit"]), top["Cost"], top["Combine"], numbers(top["Levels"]),
                   flat(top.get("Settings", {})),
                   [variation(*item) for item in top["Vary"].items()],
-                  [quantity(*item, folder) for item in top.get("Quantities", {}).items()], float(top["Boundary within"]))
+                  [quantity(*item, folder) for item in top.get("Quantities", {}).items()], float(top["Boundary within"]),
+                  truth(top["Linear theory"]))
     for each in study.quantities:
         study.settings.update(each.settings())
     check_own_keys(study)

@@ -142,11 +142,13 @@ def summary_of(path):
     except (OSError, ValueError):
         return {}
     cost, certificate = summary["cost"], summary.get("certificate", {})
+    splitting = summary.get("stability of splitting", {})
     return {"verdict": certificate.get("verdict", ""), "verdict in words": certificate.get("text", ""),
             "steps redone": certificate.get("steps redone", 0),
             "core seconds": cost["core seconds"], "wall seconds": cost["wall seconds"],
             "memory": cost["peak memory [bytes]"], "steps": summary["steps"],
             "Newton iterations": summary["Newton iterations"], "linear iterations": summary["linear iterations"],
+            "foretold growth": splitting.get("growth of the run"),
             "unknowns": sum(summary["unknowns"].values()), "reached": summary["time [s]"]}
 
 

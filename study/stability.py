@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from study import description
 from study.campaign import Campaign, only_one
 from study.cases import Case
+from study.linear_theory import LinearTheory
 
 VERDICTS = ("stable", "undecided", "growing", "failed")
 
@@ -41,26 +42,33 @@ class StabilityMap:
         self.program, self.study, self.folder, self.jobs, self.within = program, study, folder, jobs, within
         self.axis = study.ranges()[-1]
         self.results, self.n_first = {}, 0
+        self.foretold = []  # boundaries by linear theory, [(line, number)]
 
     def carry_out(self):
         sizes = [range(len(variation.names)) for variation in self.study.variations]
-        cases = [Case(index) for index in itertools.product(*sizes)]
+        cases = first = [Case(index) for index in itertools.product(*sizes)]
         self.n_first = len(cases)
         while cases:
             campaign = Campaign(self.program, self.study, [*self.results, *cases], self.folder, self.jobs, self.within)
             self.results = campaign.carry_out()
             cases = self.middles()
+        if self.study.linear_theory:
+            self.foretold = LinearTheory(self).carry_out(first).boundaries()
 
     def number(self, case):
         """Along the last range."""
         return self.study.variations[self.axis].lengths[case.index[self.axis]]
+
+    def line(self, case):
+        """Positions of a case in all variations but the last range."""
+        return case.index[:self.axis] + case.index[self.axis + 1:]
 
     def lines(self):
         """{positions in all other variations: cases by rising numbers along the last range}, of runs that have a verdict."""
         found = {}
         for case in sorted(self.results, key=self.number):
             if verdict(self.results[case]):
-                found.setdefault(case.index[:self.axis] + case.index[self.axis + 1:], []).append(case)
+                found.setdefault(self.line(case), []).append(case)
         return found
 
     def changes(self):

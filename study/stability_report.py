@@ -7,7 +7,7 @@ import os
 import matplotlib
 
 matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
+from matplotlib import pyplot, ticker  # noqa: E402
 
 from study import page, tables  # noqa: E402
 from study.stability import VERDICTS, verdict  # noqa: E402
@@ -48,17 +48,27 @@ def draw(found, path):
                        linestyle="none")
         edges = [(number, each.value()) for number, line in columns for each in boundaries if each.line == line]
         place.plot(*zip(*edges) if edges else ([], []), "_", color="black", markersize=18, label="boundary", linestyle="none")
+        if found.study.linear_theory:
+            foretold = sorted((number, value) for number, line in columns for other, value in found.foretold if other == line)
+            place.plot(*zip(*foretold) if foretold else ([], []), "--", color="C0", linewidth=1, marker=".", markersize=3,
+                       label="boundary by linear theory")
         place.set_title(", ".join(study.variations[k].names[position] for k, position in fixed) or study.title, fontsize=10)
         place.set_xscale("log")
         place.set_yscale("log")
         place.grid(alpha=0.3, which="both", linewidth=0.4)
         ranges = [k for k in study.ranges() if k != found.axis]
-        place.set_xlabel(label(study.variations[ranges[-1]]) if ranges else "", fontsize=8)
+        if ranges:
+            across = study.variations[ranges[-1]]
+            place.set_xticks(across.lengths, across.names, fontsize=8)
+            place.xaxis.set_minor_locator(ticker.NullLocator())
+            place.set_xlabel(label(across), fontsize=8)
+        else:
+            place.set_xticks([])
     axes[0][0].set_ylabel(label(study.variations[found.axis]), fontsize=8)
     handles = axes[0][0].get_legend_handles_labels()
     figure.suptitle(study.title, fontsize=11)
     figure.tight_layout(rect=(0, 0.07, 1, 1))
-    figure.legend(*handles, loc="lower center", ncol=5, fontsize=9)
+    figure.legend(*handles, loc="lower center", ncol=6, fontsize=9)
     figure.savefig(path, dpi=100)
     pyplot.close(figure)
 
@@ -71,7 +81,10 @@ def rows_of_boundaries(found):
         counts = ", ".join(f"{words.count(word)} {word}" for word in VERDICTS if word in words)
         edges = "; ".join(f"stable at {each.stable:.4g}, {each.verdict} at {each.unstable:.4g}" for each in boundaries
                           if each.line == line)
-        yield [*found.names_of(line), counts, edges or ("everywhere" if words[0] == "stable" else "nowhere")]
+        row = [*found.names_of(line), counts, edges or ("everywhere" if words[0] == "stable" else "nowhere")]
+        if found.study.linear_theory:
+            row.append("; ".join(f"{value:.4g}" for other, value in found.foretold if other == line) or "none")
+        yield row
 
 
 def text(found, pictures=False):
@@ -88,7 +101,9 @@ def text(found, pictures=False):
         lines += ["", "In all runs: " + ", ".join(f"`{key} = {value}`" for key, value in study.settings.items()) + "."]
     if pictures:
         lines += ["", "![verdicts of all runs](stability.png)"]
-    lines += ["", "## Boundaries", "", *tables.table([*others, "runs", f"where {last} is stable"], rows_of_boundaries(found))]
+    theory = ["boundary by linear theory"] if study.linear_theory else []
+    lines += ["", "## Boundaries", "",
+              *tables.table([*others, "runs", f"where {last} is stable", *theory], rows_of_boundaries(found))]
     lines += ["## Runs that are not stable", ""]
     rows = [[*[variation.names[position] for variation, position in zip(study.variations, case.index)],
              verdict(result), reason(result)]

@@ -296,10 +296,11 @@ namespace undine
     }
 
 
-    /// Make state, folder and outputs ready for the first step. The folder is touched last: a run
-    /// that cannot start, or be taken up again, leaves what is in it as it was.
+    /// Make state, folder and outputs ready for the first step, and report on the start. The folder
+    /// is touched last: a run that cannot start, or be taken up again, leaves what is in it as it
+    /// was.
     template <int dim>
-    void
+    Report
     set_up(State<dim>    &state,
            Scene<dim>    &scene,
            const Options &options,
@@ -324,7 +325,10 @@ namespace undine
       log.open(folder.path(),
                from && from->directory == folder.path() ? std::ios::app : std::ios::trunc);
       log.print_notes(first);
+      if (first.splitting)
+        log.print("{}", first.splitting->text());
       start_outputs(state, first, scene, context);
+      return first;
     }
 
 
@@ -372,14 +376,15 @@ namespace undine
       print_header(log, scene, options, communicator);
       print_remarks(options, log);
       size.print(log, scene.directory);
-      State<dim> state;
-      set_up(state, scene, options, request, folder, log, timing, communicator);
+      State<dim>   state;
+      const Report first =
+        set_up(state, scene, options, request, folder, log, timing, communicator);
       print_unknowns(log, scene);
       const EffectsReport<dim> effects(scene, timing);
       Adviser<dim>             adviser(scene.models, state);
       effects.print_start(log);
       write_whole_file(folder, "effects.json", effects.json({}), communicator);
-      RunSummary<dim>     summary(scene, options, state.clock);
+      RunSummary<dim>     summary(scene, options, state.clock, first);
       ReportPage          page(folder, scene.has_report, log, communicator);
       const Findings<dim> findings{effects, adviser, summary, timing};
       try

@@ -31,11 +31,15 @@ namespace undine
 
 
   template <int dim>
-  RunSummary<dim>::RunSummary(const Scene<dim> &scene, const Options &options, const Clock &start)
+  RunSummary<dim>::RunSummary(const Scene<dim> &scene,
+                              const Options    &options,
+                              const Clock      &start,
+                              const Report     &first)
     : scene(scene)
     , options(options)
     , start(start)
     , core_seconds_of_start(core_seconds())
+    , splitting(first.splitting)
     , certificate(scope_of(scene.models))
   {
   }
@@ -184,6 +188,23 @@ namespace undine
   }
 
 
+  /// Empty if the scene does not ask for it.
+  template <int dim>
+  std::string
+  RunSummary<dim>::stability_of_splitting() const
+  {
+    if (!splitting)
+      return "";
+    return fmt::format("  \"stability of splitting\": {{\"added mass ratio\": {}, \"growth by "
+                       "velocity\": {}, \"growth by displacement\": {}, \"growth of the run\": "
+                       "{}}},\n",
+                       json_number(splitting->added_mass_ratio),
+                       json_number(splitting->growth_by_velocity),
+                       json_number(splitting->growth_by_displacement),
+                       splitting->growth_of_run ? json_number(*splitting->growth_of_run) : "null");
+  }
+
+
   template <int dim>
   std::string
   RunSummary<dim>::json(const Clock &clock, const End &end) const
@@ -200,7 +221,7 @@ namespace undine
       "  \"time [s]\": {:.10g},\n  \"end [s]\": {:.10g},\n  \"steps\": {},\n  \"step cuts\": {},\n"
       "  \"Newton iterations\": {},\n  \"linear iterations\": {},\n  \"unknowns\": {},\n"
       "  \"cost\": {},\n  \"tolerances\": {},\n  \"time is estimated\": {},\n  \"errors\": "
-      "{},\n  \"certificate\": {}\n}}\n",
+      "{},\n{}  \"certificate\": {}\n}}\n",
       quoted("undine " UNDINE_VERSION),
       quoted(scene.title),
       quoted(options.file().name()),
@@ -220,6 +241,7 @@ namespace undine
       tolerances(),
       time_is_estimated.value_or(false),
       known,
+      stability_of_splitting(),
       certificate.json(clock.time, end.has_failed ? end.reason : ""));
   }
 

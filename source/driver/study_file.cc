@@ -454,6 +454,7 @@ namespace undine
   {
     std::string         title    = "Study", scene;
     double              boundary = 1.2;
+    bool                foretold = false;
     std::vector<double> levels{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
     options.add("Title", title, "", Allowed::anything(), "What the study shows.");
     options.require("Scene",
@@ -468,6 +469,13 @@ namespace undine
                 Allowed::between(1.001, 100),
                 "Of ranges: between two values of the last range with different verdicts others "
                 "are tried until they differ by this factor at most.");
+    options.add("Linear theory",
+                foretold,
+                "",
+                Allowed::anything(),
+                "Of ranges: also find where linear theory foretells that time splitting begins to "
+                "be unstable, for the integrators of 'Output / Stability of splitting', by runs of "
+                "one short step.");
     options.add("Levels",
                 levels,
                 "1",

@@ -195,8 +195,8 @@ def check_budgets(program, _, folder):
 
 
 def check_map(program, studies, folder):
-    """A map of stability: splitting fails where the fluid is heavy, from a density on that bisection finds; solved together
-    all holds."""
+    """A map of stability: splitting fails where the fluid is heavy, from a density on that bisection finds, and which linear
+    theory foretells; solved together all holds."""
     out = os.path.join(folder, "stability")
     done = run(program, os.path.join(studies, "stability.prm"), out)
     require(done.returncode == 0, f"stability: {done.stdout}{done.stderr}")
@@ -211,6 +211,13 @@ def check_map(program, studies, folder):
         stable = [density for density, verdict in in_turns if verdict == "stable"]
         bad = [density for density, verdict in in_turns if verdict != "stable"]
         require(stable and bad and max(stable) < min(bad) <= 2 * max(stable), f"stability: {in_turns}")
+    with open(os.path.join(out, "stability.md")) as file:
+        boundaries = file.read().partition("## Runs")[0]
+    table = [[cell.strip() for cell in line.split("|")[1:-1]] for line in boundaries.splitlines() if line.startswith("| ")]
+    for step, expected in (("1/100", 4.58), ("1/200", 3.88)):  # benchmarks/splitting_limits.py
+        foretold, = (row[-1] for row in table if row[:2] == ["splitting u", step])
+        require(abs(float(foretold) / expected - 1) < 0.03, f"stability: linear theory foretells {foretold} at {step}")
+        require(["simultaneous", step] in (row[:2] for row in table if row[-1] == "none"), "stability: a boundary of no splitting")
     done = run(program, os.path.join(studies, "stability.prm"), os.path.join(folder, "nothing"), "--results-only")
     require(done.returncode == 1 and "has a verdict" in done.stderr, f"a map of nothing: {done.stdout}{done.stderr}")
 

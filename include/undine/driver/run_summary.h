@@ -25,9 +25,12 @@ namespace undine
   class RunSummary
   {
   public:
-    /// The run stands before its first step, set up or taken up again at `start`. The references
-    /// must outlive it. Collective.
-    RunSummary(const Scene<dim> &scene, const Options &options, const Clock &start);
+    /// The run stands before its first step, set up or taken up again at `start`; `first` is the
+    /// report on that. The references must outlive it. Collective.
+    RunSummary(const Scene<dim> &scene,
+               const Options    &options,
+               const Clock      &start,
+               const Report     &first);
 
     /// A step has been made, to `time` [s].
     void
@@ -81,11 +84,16 @@ namespace undine
     unknowns() const;
     std::string
     tolerances() const;
+    std::string
+    stability_of_splitting() const;
 
-    const Scene<dim>   &scene;
-    const Options       options;
-    const Clock         start;
-    const double        core_seconds_of_start; ///< of this rank
+    const Scene<dim> &scene;
+    const Options     options;
+    const Clock       start;
+    const double      core_seconds_of_start; ///< of this rank
+
+    const std::optional<SplittingStability> splitting;
+
     unsigned int        n_steps = 0, newton_iterations = 0, linear_iterations = 0, cuts = 0;
     std::optional<bool> time_is_estimated; ///< none before the first step
     Errors              errors;

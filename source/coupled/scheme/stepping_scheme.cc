@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/adaptivity/sleeping_bodies.h>
 #include <undine/coupled/scheme/stepping_scheme.h>
+#include <undine/coupled/stability/linear_stability.h>
 #include <undine/coupled/step/fluid_alone.h>
 #include <undine/coupled/step/one_way.h>
 #include <undine/coupled/step/solid_alone.h>
@@ -59,6 +60,14 @@ namespace undine
       "start of the run, 'pressure impulse NAME x' and 'viscous impulse NAME x' [N s], as "
       "the integrator adds them up. The rate of an impulse is a mean force, with fewer "
       "spikes than the force at the end of a step where surfaces cross cells.");
+    output.add(
+      "Stability of splitting",
+      foretells_splitting,
+      "",
+      Allowed::anything(),
+      "At the start of the run, whatever its scheme: would time splitting be stable with this "
+      "step? By the eigenvalues of a linearised step, in the log and in summary.json. For the "
+      "integrators theta and newmark.");
   }
 
 
@@ -97,6 +106,12 @@ namespace undine
         state.impulses       = {Impulse<dim>(n), Impulse<dim>(models.has_friction() ? n : 0)};
       }
     physics->initialize(state, choose_dt(state), report);
+    if (foretells_splitting)
+      {
+        const auto timed                = timing.section("stability of splitting");
+        report.splitting                = splitting_stability(models, state, asked_step);
+        report.splitting->growth_of_run = own_growth(*report.splitting);
+      }
     state.budget_rates = budget->rates_at_start();
     append(report.columns, budget->columns());
     energy_monitor.start(models, state, report.columns);

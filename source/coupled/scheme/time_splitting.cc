@@ -176,6 +176,13 @@ namespace undine
       return EnergyMonitor::Response::warn;
     }
 
+    std::optional<double>
+    own_growth(const SplittingStability &foretold) const override
+    {
+      return driven_by == "velocity" ? foretold.growth_by_velocity
+                                     : foretold.growth_by_displacement;
+    }
+
     std::unique_ptr<Physics<dim>>
     couple(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing) const override
     {

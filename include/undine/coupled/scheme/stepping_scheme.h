@@ -64,6 +64,13 @@ namespace undine
       return EnergyMonitor::Response::redo;
     }
 
+    /// What is foretold of the scheme itself; none if it does not split.
+    virtual std::optional<double>
+    own_growth(const SplittingStability & /*foretold*/) const
+    {
+      return {};
+    }
+
   private:
     /// From `saved`, with another length of the step.
     static void
@@ -88,12 +95,13 @@ namespace undine
     make_physics(const Models<dim> &models, TimingTree &timing) const;
 
     std::unique_ptr<TimeIntegrator> integrator;
-    double                          asked_step     = 0.01; // [s]
-    double                          tolerance      = 0;    // [1]
-    double                          displacement   = 0;    // [m]
-    unsigned int                    maximum_cuts   = 6;
-    bool                            keeps_budget   = false;
-    bool                            keeps_impulses = false;
+    double                          asked_step          = 0.01; // [s]
+    double                          tolerance           = 0;    // [1]
+    double                          displacement        = 0;    // [m]
+    unsigned int                    maximum_cuts        = 6;
+    bool                            keeps_budget        = false;
+    bool                            keeps_impulses      = false;
+    bool                            foretells_splitting = false;
     EnergyMonitor                   energy_monitor;
     std::unique_ptr<Budget<dim>>    budget;
     std::unique_ptr<Physics<dim>>   physics;

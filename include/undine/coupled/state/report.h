@@ -4,6 +4,7 @@
 
 #include <undine/base/core/column.h>
 #include <undine/coupled/state/energy_account.h>
+#include <undine/coupled/state/splitting_stability.h>
 
 #include <optional>
 #include <string>
@@ -62,6 +63,9 @@ namespace undine
         return number > 0 && !std::exchange(are_over, true);
       }
     } creations;
+
+    /// At the start of a run, if the scene asks for it.
+    std::optional<SplittingStability> splitting;
 
     Columns columns; ///< energies, forces, fluxes, ... of the new state
   };
