@@ -75,6 +75,7 @@ SEES = {
     "coupled/step": PHYSICS | {"coupled/model", "coupled/state", "coupled/linear", "coupled/immersed",
                                "coupled/budget"},
     "coupled/adaptivity": PHYSICS | {"coupled/model", "coupled/state", "coupled/budget", "coupled/step"},
+    "coupled/stability": PHYSICS | {"coupled/model", "coupled/state", "coupled/immersed"},
     "coupled/scheme": PHYSICS | {"particle_model", "coupled"},
 
     "output/files": BASE,
