@@ -98,11 +98,11 @@ namespace undine
     std::complex<double>
     largest_eigenvalue(const Map &map, const Vector &first)
     {
+      const unsigned int    few = std::min<unsigned int>(n_arnoldi_vectors, first.size() - 1);
       dealii::SolverControl control(most_restarts, tolerance, false, false);
-      Parpack               solver(
-        control,
-        first.get_mpi_communicator(),
-        Parpack::AdditionalData(n_arnoldi_vectors, Parpack::largest_magnitude, false, 1));
+      Parpack               solver(control,
+                     first.get_mpi_communicator(),
+                     Parpack::AdditionalData(few, Parpack::largest_magnitude, false, 1));
       solver.reinit(first.locally_owned_elements());
       solver.set_initial_vector(first);
       std::vector<std::complex<double>> values(2);
