@@ -296,6 +296,16 @@ namespace undine
     }
 
 
+    /// What there is to say before the first step.
+    void
+    print_first(const Report &first, Log &log)
+    {
+      log.print_notes(first);
+      if (first.splitting)
+        log.print("{}", first.splitting->text());
+    }
+
+
     /// Make state, folder and outputs ready for the first step, and report on the start. The folder
     /// is touched last: a run that cannot start, or be taken up again, leaves what is in it as it
     /// was.
@@ -324,9 +334,7 @@ namespace undine
       prepare_directory(folder, options, from, communicator);
       log.open(folder.path(),
                from && from->directory == folder.path() ? std::ios::app : std::ios::trunc);
-      log.print_notes(first);
-      if (first.splitting)
-        log.print("{}", first.splitting->text());
+      print_first(first, log);
       start_outputs(state, first, scene, context);
       return first;
     }
@@ -351,7 +359,7 @@ namespace undine
           auto       scene = read_scene<dim>(options, communicator);
           State<dim> state;
           TimingTree timing;
-          log.print_notes(start(state, scene, timing));
+          print_first(start(state, scene, timing), log);
         }
       size.print(log, request.output.empty() ? "." : request.output);
       log.print("{}: {}", options.file().name(), checks);

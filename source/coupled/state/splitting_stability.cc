@@ -21,6 +21,8 @@ namespace undine
     if (!std::isfinite(added_mass_ratio))
       return "time splitting has no solution: bodies close off a part of the fluid";
     const auto fate = [](const double growth) {
+      if (std::isnan(growth))
+        return std::string("may grow or not (Arnoldi's method did not converge)");
       return growth > next_to_one ? fmt::format("grow by a factor of {:.4g} a step", growth)
                                   : std::string("do not grow");
     };

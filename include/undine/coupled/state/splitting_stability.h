@@ -16,7 +16,8 @@ namespace undine
     double added_mass_ratio = 0;
 
     /// The factor by which small motions grow in a step, at most 1 if nothing does; if the fluid is
-    /// driven by the bodies' velocity, or by their displacement [1]. @{
+    /// driven by the bodies' velocity, or by their displacement [1]. Not a number if it was not
+    /// found. @{
     double growth_by_velocity     = 0;
     double growth_by_displacement = 0;
     /// @}
