@@ -2,6 +2,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/base/core/interruption.h>
 #include <undine/base/options/utf8.h>
+#include <undine/base/parallel/blas_threads.h>
 #include <undine/base/parallel/single_process.h>
 #include <undine/driver/command_line.h>
 #include <undine/driver/out_of_memory.h>
@@ -58,6 +59,7 @@ main(int argc, char **argv)
   // The arguments are ours; one thread a rank, so that ranks times threads is what the user says.
   int                                      no_arguments = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
+  undine::use_one_thread_for_blas();
   undine::end_run_when_out_of_memory();
   try
     {
