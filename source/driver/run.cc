@@ -69,11 +69,16 @@ namespace undine
           const double dt     = scene.scheme->choose_dt(state);
           const Report report = scene.scheme->step(state, dt);
           state.clock.advance(report.dt); // what was accepted; retries happen inside step
+          if (report.steady)
+            state.clock.end_time = state.clock.time;
           watch.step(state, report);
           write_outputs(state, report, scene, timing);
           watch.outputs(state);
           progress.report(state.clock, report);
           costs.observe(state.clock);
+          if (report.steady)
+            log.print("steady: of late fluid and bodies have changed by {:.2g} of what they are",
+                      *report.steady);
         }
     }
 

@@ -89,6 +89,10 @@ namespace undine
       raise("time",
             "estimate, of all steps together, relative to how far the bodies have moved",
             *report.error_in_time);
+    if (report.steady)
+      raise("steady",
+            "what fluid and bodies have changed by in the last 'Steady for', of what they are",
+            *report.steady);
     if (scene.models.solid)
       raise("Newton",
             "forces that Newton's method leaves unbalanced, of all that it sums",

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace undine
 {
@@ -95,22 +96,48 @@ namespace undine
   }
 
 
+  /// `value(axis, face)` on faces that no body cuts in `velocity`, where it is wanted.
   template <int dim>
+  template <class Value>
   double
-  SampleNorms<dim>::of_fluid(const Velocity<dim> &velocity) const
+  SampleNorms<dim>::root_mean_square(const Velocity<dim> &velocity, const Value &value) const
   {
     const auto &grid    = models.fluid->grid();
     double      squares = 0, volume = 0;
     for (unsigned int axis = 0; axis < dim; ++axis)
       for_each(velocity[axis].owned(), [&](const GridIndex<dim> &face) {
-        if (!is_whole(velocity[axis], face))
+        const std::optional<double> here =
+          is_whole(velocity[axis], face) ? value(axis, face) : std::nullopt;
+        if (!here)
           return;
-        squares += grid.dual_volume(axis, face) * velocity[axis](face) * velocity[axis](face);
+        squares += grid.dual_volume(axis, face) * *here * *here;
         volume += grid.dual_volume(axis, face) / dim;
       });
     squares = sum(squares, grid.communicator());
     volume  = sum(volume, grid.communicator());
     return volume > 0 ? std::sqrt(squares / volume) : 0;
+  }
+
+
+  template <int dim>
+  double
+  SampleNorms<dim>::of_fluid(const Velocity<dim> &velocity) const
+  {
+    return root_mean_square(velocity, [&](const unsigned int axis, const GridIndex<dim> &face) {
+      return std::optional<double>(velocity[axis](face));
+    });
+  }
+
+
+  template <int dim>
+  double
+  SampleNorms<dim>::of_change(const Velocity<dim> &before, const Velocity<dim> &after) const
+  {
+    return root_mean_square(after, [&](const unsigned int axis, const GridIndex<dim> &face) {
+      return is_whole(before[axis], face)
+               ? std::optional<double>(after[axis](face) - before[axis](face))
+               : std::nullopt;
+    });
   }
 
 

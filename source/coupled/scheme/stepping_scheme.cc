@@ -36,6 +36,25 @@ namespace undine
              Allowed::not_negative(),
              "What the Tolerance is relative to as long as the bodies have moved less (root mean "
              "square). 0: a thousandth of their extent.");
+    time.add(
+      "Steady within",
+      steady_within,
+      "1",
+      Allowed::below(0, 1),
+      "The run ends before End once neither the fluid's velocity nor the bodies' displacement "
+      "has changed by more than this part (root mean squares) for the time Steady for. 0: "
+      "it goes on to End.");
+    time.add("Steady for",
+             steady_for,
+             "s",
+             Allowed::not_negative(),
+             "With Steady within: as long as what has to settle takes for that, such as a time "
+             "constant or a period. A run that is resumed begins to count anew.");
+    if (steady_within > 0 && steady_for == 0)
+      time.mistake(
+        time.error("Steady for",
+                   "'Steady within' needs it",
+                   "Give the time in which what has to settle comes closer to its end."));
     time.add("Maximum cuts",
              maximum_cuts,
              "",
@@ -100,6 +119,8 @@ namespace undine
         models,
         *integrator,
         typename StepError<dim>::Settings{tolerance, displacement, asked_step, shortest_step()});
+    if (steady_within > 0)
+      steadiness = std::make_unique<Steadiness<dim>>(models, steady_within, steady_for);
     if (keeps_impulses && models.fluid && models.surface)
       {
         const unsigned int n = models.surface->surface().body_names().size();
@@ -170,6 +191,8 @@ namespace undine
           energy_monitor.judge(state, report, can_be_cut(report));
           judge_error(state, saved, report);
           check_passages(saved, state, report.dt);
+          if (steadiness)
+            report.steady = steadiness->observe(state, state.clock.time + report.dt);
           state.clock.longest_step = report.halvings > 0 ? report.dt : 2 * state.clock.longest_step;
           report.warn("step cuts", cause);
           return report;

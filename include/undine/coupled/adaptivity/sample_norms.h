@@ -29,6 +29,11 @@ namespace undine
     double
     of_fluid(const Velocity<dim> &velocity) const;
 
+    /// The root mean square of the difference of two velocities, over the volume of the faces that
+    /// no body cuts in either [m/s].
+    double
+    of_change(const Velocity<dim> &before, const Velocity<dim> &after) const;
+
     /// The root mean square of d^k u / dt^k, from k + 1 samples [m/s^(k+1)].
     double
     bodies_derivative(const std::vector<const Sample *> &samples) const;
@@ -56,6 +61,10 @@ namespace undine
     count_uncut(Velocity<dim> &uncut, const Velocity<dim> &velocity) const;
 
   private:
+    template <class Value>
+    double
+    root_mean_square(const Velocity<dim> &velocity, const Value &value) const;
+
     const Models<dim>               &models;
     typename SolidModel<dim>::Matrix mass;
     double                           total_mass = 0; ///< [kg]

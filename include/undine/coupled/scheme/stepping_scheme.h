@@ -4,6 +4,7 @@
 
 #include <undine/base/core/errors.h>
 #include <undine/contact/passage_check.h>
+#include <undine/coupled/adaptivity/steadiness.h>
 #include <undine/coupled/adaptivity/step_error.h>
 #include <undine/coupled/budget/budget.h>
 #include <undine/coupled/budget/energy_monitor.h>
@@ -98,6 +99,8 @@ namespace undine
     double                          asked_step          = 0.01; // [s]
     double                          tolerance           = 0;    // [1]
     double                          displacement        = 0;    // [m]
+    double                          steady_within       = 0;    // [1]
+    double                          steady_for          = 0;    // [s]
     unsigned int                    maximum_cuts        = 6;
     bool                            keeps_budget        = false;
     bool                            keeps_impulses      = false;
@@ -106,6 +109,7 @@ namespace undine
     std::unique_ptr<Budget<dim>>    budget;
     std::unique_ptr<Physics<dim>>   physics;
 
+    std::unique_ptr<Steadiness<dim>>         steadiness;    // nullptr: the run goes on to its end
     std::unique_ptr<const StepError<dim>>    step_error;    // nullptr: constant steps
     std::unique_ptr<const PassageCheck<dim>> passage_check; // nullptr: there is nothing to check
     std::string                              scene_name;

@@ -42,6 +42,10 @@ namespace undine
     /// The error in time of all steps so far [1], if steps are chosen by it.
     std::optional<double> error_in_time;
 
+    /// By how much fluid and bodies have changed of late, Steadiness [1]; only where they are
+    /// steady, so that the run is over.
+    std::optional<double> steady;
+
     /// The energy of the new state, if EnergyMonitor asks for it.
     std::optional<EnergyAccount> account;
     double share_created = 0; ///< of the energy and of what goes in and out [1]

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef undine_coupled_adaptivity_steadiness_h
+#define undine_coupled_adaptivity_steadiness_h
+
+#include <undine/coupled/adaptivity/sample_norms.h>
+
+#include <optional>
+
+namespace undine
+{
+  /// Finds out when fluid and bodies have become steady: when for some time neither the fluid's
+  /// velocity nor the bodies' displacement has differed by more than a given part from what it was
+  /// at the begin of that time,
+  ///
+  ///     |v(t) - v(s)| / |v(t)|  and  |d(t) - d(s)| / |d(t)|                                  (T11)
+  ///
+  /// in root mean squares (SampleNorms). As soon as it does, the time begins anew.
+  template <int dim>
+  class Steadiness
+  {
+  public:
+    /// `within`: the part [1]; `lasting`: the time [s]. `models` must outlive it. Collective.
+    Steadiness(const Models<dim> &models, double within, double lasting);
+
+    /// Look at the state at `time` [s], at the start and after every step. Returns the larger part
+    /// of (T11) if it is steady [1]; not as long as nothing has moved. Collective.
+    std::optional<double>
+    observe(const State<dim> &state, double time);
+
+  private:
+    double
+    change(const State<dim> &state) const;
+
+    const Models<dim>     &models;
+    const SampleNorms<dim> norms;
+    const double           within;  ///< [1]
+    const double           lasting; ///< [s]
+
+    struct Reference
+    {
+      double                           time; ///< s
+      Velocity<dim>                    fluid;
+      typename SolidModel<dim>::Vector bodies; ///< d(s) [m]
+    };
+    std::optional<Reference> reference; ///< none: nothing has been seen
+  };
+} // namespace undine
+
+#endif
