@@ -91,6 +91,7 @@ def check_what_is_refused(program, scenes):
     ask = ["--set", "Output/Stability of splitting=true", "--set", "Time/End=1e-6"]
     for scene, settings, code, said in (("cavity", [], 2, "needs bodies in a fluid"),
                                         ("piston", [], 2, "Try 'Time / Integrator = theta'"),
+                                        ("piston", ["--set", "Time/Integrator=static"], 2, "have inertia"),
                                         ("closed_chamber", ["--set", "Time/Integrator=theta"], 0, "close off a part")):
         with tempfile.TemporaryDirectory() as folder:
             found, printed, errors = scene_tools.ended(

@@ -214,9 +214,11 @@ namespace undine
       if (!models.solid || !models.fluid || !models.surface)
         throw InputError("'Output / Stability of splitting' needs bodies in a fluid.");
       const auto &integrator = *models.solid->numerics().integrator;
-      if (integrator.stages(dt, RatesAtBegin::known).size() > 1 || integrator.uses_acceleration())
+      if (integrator.stages(dt, RatesAtBegin::known).size() > 1 || integrator.uses_acceleration() ||
+          integrator.coefficients(dt).mass == 0)
         throw InputError("'Output / Stability of splitting' is for integrators of one stage that "
-                         "keep no accelerations. Try 'Time / Integrator = theta' or 'newmark'.");
+                         "have inertia in it and keep no accelerations. Try 'Time / Integrator = "
+                         "theta' or 'newmark'.");
     }
   } // namespace
 
