@@ -14,7 +14,7 @@ namespace undine
 {
   namespace
   {
-    constexpr double reduction = 1e-8; // of the residual of the pressure
+    constexpr double of_residual = 1e-8; // at which the pressure is good enough
   }
 
 
@@ -42,7 +42,7 @@ namespace undine
   {
     Vector flux(L.locally_owned_range_indices(), L.get_mpi_communicator()), pressure(flux);
     B.vmult(flux, u);
-    dealii::SolverControl control(maximum_iterations, reduction * flux.l2_norm());
+    dealii::SolverControl control(maximum_iterations, of_residual * flux.l2_norm());
     try
       {
         dealii::SolverCG<Vector>(control).solve(L, pressure, flux, *multigrid);
