@@ -17,6 +17,18 @@ namespace undine
   SteppingScheme<dim>::add_options(const Options &options)
   {
     const auto time = options.section("Time");
+    add_step_options(time);
+    add_steady_options(time);
+    energy_monitor.add_options(options, response_to_created_energy());
+    integrator = choose_time_integrator(options);
+    add_output_options(options.section("Output"));
+  }
+
+
+  template <int dim>
+  void
+  SteppingScheme<dim>::add_step_options(const Options &time)
+  {
     time.require("Step",
                  asked_step,
                  "s",
@@ -36,6 +48,19 @@ namespace undine
              Allowed::not_negative(),
              "What the Tolerance is relative to as long as the bodies have moved less (root mean "
              "square). 0: a thousandth of their extent.");
+    time.add("Maximum cuts",
+             maximum_cuts,
+             "",
+             Allowed::between(0, 20),
+             "A step that fails is redone with half its length; the run stops where that would be "
+             "less than Step halved so often.");
+  }
+
+
+  template <int dim>
+  void
+  SteppingScheme<dim>::add_steady_options(const Options &time)
+  {
     time.add(
       "Steady within",
       steady_within,
@@ -55,15 +80,13 @@ namespace undine
         time.error("Steady for",
                    "'Steady within' needs it",
                    "Give the time in which what has to settle comes closer to its end."));
-    time.add("Maximum cuts",
-             maximum_cuts,
-             "",
-             Allowed::between(0, 20),
-             "A step that fails is redone with half its length; the run stops where that would be "
-             "less than Step halved so often.");
-    energy_monitor.add_options(options, response_to_created_energy());
-    integrator        = choose_time_integrator(options);
-    const auto output = options.section("Output");
+  }
+
+
+  template <int dim>
+  void
+  SteppingScheme<dim>::add_output_options(const Options &output)
+  {
     output.add(
       "Budget",
       keeps_budget,

@@ -22,8 +22,9 @@ namespace undine
     /// `within`: the part [1]; `lasting`: the time [s]. `models` must outlive it. Collective.
     Steadiness(const Models<dim> &models, double within, double lasting);
 
-    /// Look at the state at `time` [s], at the start and after every step. Returns the larger part
-    /// of (T11) if it is steady [1]; not as long as nothing has moved. Collective.
+    /// Look at the state after a step, at `time` [s]; the first one seen is compared with nothing.
+    /// Returns the larger part of (T11) if it is steady [1], which it is not as long as nothing has
+    /// moved. Collective.
     std::optional<double>
     observe(const State<dim> &state, double time);
 
@@ -38,8 +39,8 @@ namespace undine
 
     struct Reference
     {
-      double                           time; ///< s
-      Velocity<dim>                    fluid;
+      double                           time;   ///< s [s]
+      Velocity<dim>                    fluid;  ///< v(s) [m/s]
       typename SolidModel<dim>::Vector bodies; ///< d(s) [m]
     };
     std::optional<Reference> reference; ///< none: nothing has been seen

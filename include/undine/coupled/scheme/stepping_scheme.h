@@ -73,6 +73,15 @@ namespace undine
     }
 
   private:
+    /// The keys of sections `Time` and `Output`. @{
+    void
+    add_step_options(const Options &time);
+    void
+    add_steady_options(const Options &time);
+    void
+    add_output_options(const Options &output);
+    /// @}
+
     /// From `saved`, with another length of the step.
     static void
     start_again(State<dim> &state, const State<dim> &saved, Report &report);
