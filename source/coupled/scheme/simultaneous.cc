@@ -66,6 +66,7 @@ namespace undine
     {
       if (stage.is_first)
         report.stages_again = 0;
+      following.clear();
       if (!stage.keeps_rates() && !models.has_friction())
         {
           solve_once(state, stage, report);
@@ -107,6 +108,8 @@ namespace undine
               begin.fluid.pressure    = state.fluid.pressure;
               begin.solid.fluid_loads = state.solid.fluid_loads;
             }
+          else
+            following = reached;
           go_back();
         }
     }
@@ -164,6 +167,7 @@ namespace undine
                                  solver,
                                  motion_solver,
                                  impulse_solver,
+                                 following,
                                  timing},
                                 *fluid,
                                 state,
@@ -172,6 +176,7 @@ namespace undine
       solid_side.end(state, stage);
       fluid->by_contact        = coupled.velocity_by_contact();
       fluid->forces_by_contact = coupled.forces_by_contact();
+      reached                  = coupled.pressure_levels();
       balance(coupled, state, solid);
       fluid_side.finish(*fluid, state, report, coupled.divergence());
       budget.end_stage();
@@ -220,6 +225,8 @@ namespace undine
     BlockSolver<dim>        solver;
     TangentSolver<dim>      motion_solver;
     BlockSolver<dim>        impulse_solver;
+    std::vector<double>     following, reached; ///< levels of FollowerPressure, of this solution of
+                                                ///< a stage and for the next one [Pa]
   };
 
 

@@ -4,6 +4,7 @@
 #include <undine/base/parallel/rounding.h>
 #include <undine/coupled/step/coupled_equations.h>
 #include <undine/solid/assembly/prescribed_motion.h>
+#include <undine/solid/assembly/sparse.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@ namespace undine
   CoupledEquations<dim>::CoupledEquations(const SolidModel<dim>        &model,
                                           SolidEquations<dim>          &solid,
                                           SurfaceFlux<dim>             &surface,
+                                          const FollowerPressure<dim>  &follower,
                                           const PressureEquations<dim> &fluid,
                                           BlockSolver<dim>             &solver,
                                           TimingTree                   &timing,
@@ -21,6 +23,7 @@ namespace undine
     : model(model)
     , solid(solid)
     , surface(surface)
+    , follower(follower)
     , fluid(fluid)
     , solver(solver)
     , timing(timing)
@@ -44,7 +47,8 @@ namespace undine
   {
     const auto timed = timing.section("evaluate");
     surface.move(x.block(0));
-    auto pushing = surface.forces(fluid.field(x.block(1)));
+    auto pushing = follower.add_forces_to(surface.forces(fluid.field(x.block(1))),
+                                          solid.displacement(x.block(0)));
     clear_fixed(pushing, model);
     residual.block(0) = solid.residual(x.block(0));
     residual.block(0).add(-1., pushing);
@@ -93,8 +97,14 @@ namespace undine
   typename CoupledEquations<dim>::Unknown
   CoupledEquations<dim>::correction(const Unknown &x)
   {
-    reference          = here;
-    const auto tangent = solid.jacobian(x.block(0));
+    reference    = here;
+    auto tangent = solid.jacobian(x.block(0));
+    if (follower.is_on())
+      {
+        follower.subtract_stiffness(
+          tangent, solid.displacement_factor(), solid.displacement(x.block(0)));
+        fix_rows_and_columns(tangent, model.all_fixed());
+      }
     throw_if_interrupted(model.communicator());
     const auto        timed = timing.section("solve linear system");
     const BlockSystem system(tangent, surface.matrix(), surface.factor(), fluid.matrix());

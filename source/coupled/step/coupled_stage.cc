@@ -68,10 +68,12 @@ namespace undine
                 equations,
                 BodiesInStage<dim>(parts.models, state, fluid.stage, fluid.end - fluid.stage.end)),
               equations.guess()))
+    , follower(*parts.models.surface, parts.geometry.surface_positions(), parts.pressure_levels)
     , pressures(*parts.models.fluid, numbers, filled_rows(surface->matrix()), fluid.dt)
     , problem(*parts.models.solid,
               equations,
               *surface,
+              follower,
               pressures,
               parts.solver,
               parts.timing,
@@ -159,7 +161,8 @@ namespace undine
     const auto &velocity = x.block(0);
     surface->move(velocity);
     const auto pressure = pressures.field(x.block(1));
-    equations.add_forces(surface->forces(pressure));
+    equations.add_forces(
+      follower.add_forces_to(surface->forces(pressure), equations.displacement(velocity)));
     report.reactions          = equations.reactions(velocity);
     report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
     divergence_left           = pressures.divergence(state.fluid.velocity, surface->fluxes());
@@ -203,6 +206,19 @@ namespace undine
 
 
   template <int dim>
+  std::vector<double>
+  CoupledStage<dim>::pressure_levels() const
+  {
+    auto       forces  = surface->nodal_forces(pressures.field(x.block(1)));
+    const auto besides = surfaces.at_rest;
+    for (std::size_t node = 0; node < forces.size(); ++node)
+      forces[node] += besides[node];
+    return FollowerPressure<dim>::levels(
+      *parts.models.surface, parts.geometry.surface_positions(), forces);
+  }
+
+
+  template <int dim>
   double
   CoupledStage<dim>::divergence() const
   {
@@ -232,7 +248,13 @@ namespace undine
     result.velocities              = surface->node_velocities();
     result.power_beside_velocities = surface->power_beside_velocities(pressure);
     result.on_bodies               = result.by_surface_flux;
-    result.increment               = parts.models.surface->with_bodies(
+    if (follower.is_on())
+      {
+        const auto following = follower.forces(equations.displacement(x.block(0)));
+        for (std::size_t node = 0; node < following.size(); ++node)
+          result.on_bodies[node] += following[node];
+      }
+    result.increment = parts.models.surface->with_bodies(
       equations.increment(x.block(0)),
       typename SurfaceExchange<dim>::Vectors(result.by_fluid.size()));
     return result;

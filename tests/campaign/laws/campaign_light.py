@@ -72,13 +72,31 @@ def disc_on_neck():
 
 
 def box_in_space():
-    return Shape({"Shape": "box", "Lower corner": "0.3, 0.1, 0.3", "Upper corner": "0.7, 0.3, 0.7",
-                  "Cells": "3, 2, 3"}, None, 0.4, 3)
+    lower, upper, cells = (0.3, 0.1, 0.3), (0.7, 0.3, 0.7), (3, 2, 3)
+    return Shape({"Shape": "box", "Lower corner": law_scenes.point(lower), "Upper corner": law_scenes.point(upper),
+                  "Cells": "3, 2, 3"}, law_outline.of_box_in_space("block", lower, upper, cells), 0.4, 3)
 
 
 def ball():
-    return Shape({"Shape": "ball", "Lower corner": None, "Upper corner": None, "Cells": None,
-                  "Centre": "0.5, 0.22, 0.5", "Radius": 0.12, "Refinements": 0}, None, 0.24, 3)
+    """A box of which every side is blown up to a part of a sphere."""
+    centre, radius, cells = (0.5, 0.22, 0.5), 0.12, (3, 3, 3)
+    lower, upper = ([x + sign * radius for x in centre] for sign in (-1, 1))
+
+    def blown_up(*place):
+        return tuple(x + (y - x) * math.sqrt(1 - (b * b + c * c) / 2 + b * b * c * c / 3)
+                     for x, y, (b, c) in zip(centre, place, others(place)))
+
+    def others(place):
+        parts = [(y - x) / radius for x, y in zip(centre, place)]
+        return [(parts[(axis + 1) % 3], parts[(axis + 2) % 3]) for axis in range(3)]
+
+    def expression(axis):
+        b, c = (f"(({'xyz'[k]}-{centre[k]})/{radius})^2" for k in ((axis + 1) % 3, (axis + 2) % 3))
+        return f"{centre[axis]}+({'xyz'[axis]}-{centre[axis]})*sqrt(1-({b}+{c})/2+{b}*{c}/3)"
+
+    return Shape({"Shape": "box", "Lower corner": law_scenes.point(lower), "Upper corner": law_scenes.point(upper),
+                  "Cells": "3, 3, 3", "Map": "; ".join(expression(axis) for axis in range(3))},
+                 law_outline.of_box_in_space("block", lower, upper, cells, blown_up), 2 * radius, 3)
 
 
 SHAPES = {"block": box, "disc": disc, "block on a neck": box_on_neck, "disc on a neck": disc_on_neck,
@@ -111,7 +129,7 @@ class Case:
         return math.pi / self.shape().length * math.sqrt(self.modulus / (FLUID * (1 + self.ratio)))
 
     def energies_and_works(self, run):
-        body = law_energy.LoadedBody("block", self.ratio * FLUID, outline=self.shape().outline)
+        body = law_energy.LoadedBody("block", self.ratio * FLUID, self.shape().outline)
         return law_energy.energies(run), law_energy.works(run, [body], self.around())
 
 
@@ -122,11 +140,11 @@ def scene_of(case, end, cells):
     space = {} if shape.dimension == 2 else {
         "Dimension": 3, "Domain/Lower corner": "0, 0, 0", "Domain/Upper corner": "1, 1, 1",
         "Effects/gravity/Acceleration": f"0, {-fluid.gravity!r}, 0",
-        "Solid numerics/Element degree": 1}  # their volume is that of the outline which the fluid meets
+        "Solid numerics/Element degree": 1}
     return law_scenes.with_settings(
         law_scenes.read(os.path.join(law_scenes.SCENES, "light_block_rises.prm")), body,
         {"Effects/convection": None, "Fluid/Boundaries/top": None, "Output/Budget": "false"}, fluid.settings("top"),
-        space, shape.outline.settings() if shape.outline else {},
+        space, shape.outline.settings(),
         {"Domain/Cells": ", ".join([str(cells)] * shape.dimension), "Bodies/block/Density": case.ratio * FLUID,
          "Bodies/block/Young's modulus": case.modulus, "Time/Step": f"1/{case.per_second}",
          "Time/End": end * math.sqrt(EARTH / fluid.gravity)})

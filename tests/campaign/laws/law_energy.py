@@ -16,20 +16,18 @@ def energies(run):
 
 @dataclasses.dataclass(frozen=True)
 class LoadedBody:
-    """A body, what it weighs, and how the area that it takes is known."""
+    """A body, what it weighs, and what the fluid meets of it."""
     name: str
     density: float  # at rest [kg/m^dim]
+    outline: law_outline.Outline
     load: tuple = (0.0, 0.0)  # dead force per volume at rest, constant [N/m^dim]
-    outline: law_outline.Outline = None  # without one the centre of mass stands for that of the volume
 
     def volumes_and_moments(self, run):
         """Of every row: volume [m^dim] and its integral of y."""
-        volumes = run.column(f"volume {self.name}")
-        if self.outline is None:
-            return list(zip(volumes, [volume * y for volume, y in zip(volumes, self.centres(run, "y"))]))
-        result = [law_outline.area_and_moment(polygon) for polygon in self.outline.polygons(run)]
-        if result and abs(result[0][0] - volumes[0]) > 1e-6 * volumes[0]:
-            raise ValueError(f"the outline of body {self.name} takes {result[0][0]} m^2 instead of {volumes[0]} m^2")
+        result = [self.outline.volume_and_moment(places) for places in self.outline.places(run)]
+        for (volume, _), expected in zip(result, run.column(f"volume {self.name}")[:1]):
+            if abs(volume - expected) > 1e-6 * expected:
+                raise ValueError(f"the outline of body {self.name} takes {volume} m^dim instead of {expected}")
         return result
 
     def centres(self, run, axis):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Outlines of plane bodies, followed by a probe at every node: what area a body takes, and where."""
+"""Surfaces of bodies as the fluid meets them, flat facets between nodes that probes follow: what volume a body takes, and
+where."""
 import dataclasses
+import itertools
 import math
 
 import law_scenes
@@ -8,9 +10,11 @@ import law_scenes
 
 @dataclasses.dataclass(frozen=True)
 class Outline:
-    """Of a body: its nodes at rest, counter-clockwise, corners of cells and middles of their edges in turn."""
+    """Of a body: its nodes at rest, and facets of dim nodes each, counted in these: segments with the body on their left,
+    triangles that run counter-clockwise seen from outside."""
     body: str
-    nodes: tuple  # of pairs [m]
+    nodes: tuple  # of places [m]
+    facets: tuple
 
     def probe(self, number):
         return f"{self.body}_{number}"
@@ -23,12 +27,37 @@ class Outline:
                 "Kind": "body point", "Body": self.body, "Point": law_scenes.point(node)}
         return result
 
-    def polygons(self, run):
+    def places(self, run):
         """Of every row of `statistics`: where the nodes are."""
-        motions = [[run.column(f"{self.probe(number)} displacement {axis}") for axis in "xy"]
-                   for number in range(len(self.nodes))]
-        return [[(x + xs[row], y + ys[row]) for (x, y), (xs, ys) in zip(self.nodes, motions)]
+        motions = [[run.column(f"{self.probe(number)} displacement {axis}") for axis in "xyz"[:len(node)]]
+                   for number, node in enumerate(self.nodes)]
+        return [[tuple(x + of_axis[row] for x, of_axis in zip(node, motion)) for node, motion in zip(self.nodes, motions)]
                 for row in range(len(run.times()))]
+
+    def volume_and_moment(self, places):
+        """Volume [m^dim] and its integral of y, with the nodes at `places`: by the simplices between facets and the
+        origin."""
+        volume = moment = 0.0
+        for facet in self.facets:
+            corners = [places[node] for node in facet]
+            simplex = determinant(corners) / math.factorial(len(corners))
+            volume += simplex
+            moment += simplex * sum(corner[1] for corner in corners) / (len(corners) + 1)
+        return volume, moment
+
+
+def determinant(rows):
+    if len(rows) == 2:
+        (a, b), (c, d) = rows
+        return a * d - b * c
+    (a, b, c), (d, e, f), (g, h, i) = rows
+    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+
+
+def closed_line(nodes):
+    """The facets of a line through `nodes`, counter-clockwise, in the plane."""
+    numbers = range(len(nodes))
+    return tuple(zip(numbers, [*numbers[1:], 0]))
 
 
 def with_middles(corners):
@@ -39,27 +68,49 @@ def with_middles(corners):
     return tuple(result)
 
 
+def planes(lower, upper, cells):
+    """The coordinates of a box's nodes along each axis."""
+    return [[low + (high - low) * k / n for k in range(n + 1)] for low, high, n in zip(lower, upper, cells)]
+
+
 def of_box(body, lower, upper, cells, position=lambda x, y: (x, y)):
-    """Of a box whose corners of cells rest at `position`, a function of where the box has them."""
-    xs, ys = ([low + (high - low) * k / n for k in range(n + 1)] for low, high, n in zip(lower, upper, cells))
+    """Of a box in the plane whose corners of cells rest at `position`, a function of where the box has them."""
+    xs, ys = planes(lower, upper, cells)
     rim = [(x, ys[0]) for x in xs[:-1]] + [(xs[-1], y) for y in ys[:-1]]
     rim += [(x, ys[-1]) for x in xs[:0:-1]] + [(xs[0], y) for y in ys[:0:-1]]
-    return Outline(body, with_middles([position(x, y) for x, y in rim]))
+    nodes = with_middles([position(x, y) for x, y in rim])
+    return Outline(body, nodes, closed_line(nodes))
 
 
 def of_ball(body, centre, radius, refinements):
     """Of a ball in the plane, whose rim is four curved edges that are split; their middles lie on the circle, too."""
-    nodes = 8 * 2 ** refinements
-    angles = [math.pi / 4 + 2 * math.pi * k / nodes for k in range(nodes)]
-    return Outline(body, tuple((centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle))
-                               for angle in angles))
+    number = 8 * 2 ** refinements
+    angles = [math.pi / 4 + 2 * math.pi * k / number for k in range(number)]
+    nodes = tuple((centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)) for angle in angles)
+    return Outline(body, nodes, closed_line(nodes))
 
 
-def area_and_moment(polygon):
-    """Area [m^2] and its integral of y [m^3], of the polygon that the fluid meets."""
-    area = moment = 0.0
-    for (x, y), (next_x, next_y) in zip(polygon, polygon[1:] + polygon[:1]):
-        cross = x * next_y - next_x * y
-        area += cross / 2
-        moment += cross * (y + next_y) / 6
-    return area, moment
+def in_space(body, centre, squares):
+    """Of the squares on the surface of linear elements around `centre`, four places each: the diagonal leads from the
+    first to the last one."""
+    numbers, facets = {}, []
+    for square in squares:
+        a, b, c, d = (numbers.setdefault(place, len(numbers)) for place in square)
+        outwards = determinant([[x - y for x, y in zip(place, centre)] for place in (square[0], square[1], square[3])]) > 0
+        facets += [(a, b, d), (a, d, c)] if outwards else [(b, a, d), (d, a, c)]
+    return Outline(body, tuple(numbers), tuple(facets))
+
+
+def of_box_in_space(body, lower, upper, cells, position=lambda *place: place):
+    """Of a box of linear elements whose corners rest at `position`, a function of where the box has them."""
+    lines, squares = planes(lower, upper, cells), []
+    for axis in range(3):
+        one, other = (a for a in range(3) if a != axis)
+        for end, i, j in itertools.product((0, -1), range(cells[one]), range(cells[other])):
+            square = []
+            for step_other, step_one in itertools.product((0, 1), repeat=2):
+                place = [0.0] * 3
+                place[axis], place[one], place[other] = lines[axis][end], lines[one][i + step_one], lines[other][j + step_other]
+                square.append(tuple(position(*place)))
+            squares.append(square)
+    return in_space(body, position(*((a + b) / 2 for a, b in zip(lower, upper))), squares)

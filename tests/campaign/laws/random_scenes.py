@@ -146,8 +146,8 @@ class Drawing:
         force /= 2 if loads == "gravity and load" else 1
         around = law_energy.Surroundings(ranges.FLUID_DENSITY, self.gravity(force) if "gravity" in loads else 0.0, 1.0)
         pushed = force if "load" in loads else 0.0
-        loaded = [law_energy.LoadedBody(body.name, self.density, tuple(pushed * part for part in body.push),
-                                        body.outline()) for body in bodies]
+        loaded = [law_energy.LoadedBody(body.name, self.density, body.outline(),
+                                        tuple(pushed * part for part in body.push)) for body in bodies]
         return RandomScene(self.number, self.scene(bodies, loaded, around), loaded, around, {
             "density ratio": self.density / ranges.FLUID_DENSITY, "modulus [Pa]": self.modulus,
             **({} if self.kind == "free block" else {"thickness [cells]": self.thickness}),

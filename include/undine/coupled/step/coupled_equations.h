@@ -2,6 +2,7 @@
 #ifndef undine_coupled_step_coupled_equations_h
 #define undine_coupled_step_coupled_equations_h
 
+#include <undine/coupled/immersed/follower_pressure.h>
 #include <undine/coupled/immersed/surface_flux.h>
 #include <undine/coupled/linear/block_solver.h>
 #include <undine/fluid/pressure/pressure_equations.h>
@@ -12,7 +13,7 @@ namespace undine
   /// The equations of a step (C1) for the bodies' velocities u = u^{n+1} and the fluid's pressures
   /// p, in the form that solve_newton() asks for:
   ///
-  ///     R(u) - B^T p = 0             [N]         R: SolidEquations
+  ///     R(u) - B^T p - f(u) = 0      [N]         R: SolidEquations, f: FollowerPressure
   ///     D v* + B u + h L p = 0       [m^dim/s]   B: SurfaceFlux
   ///
   /// A norm is the root of the sum of the squares of both, each relative to the size of its terms:
@@ -31,6 +32,7 @@ namespace undine
     CoupledEquations(const SolidModel<dim>        &model,
                      SolidEquations<dim>          &solid,
                      SurfaceFlux<dim>             &surface,
+                     const FollowerPressure<dim>  &follower,
                      const PressureEquations<dim> &fluid,
                      BlockSolver<dim>             &solver,
                      TimingTree                   &timing,
@@ -71,6 +73,7 @@ namespace undine
     const SolidModel<dim>        &model;
     SolidEquations<dim>          &solid;
     SurfaceFlux<dim>             &surface;
+    const FollowerPressure<dim>  &follower;
     const PressureEquations<dim> &fluid;
     BlockSolver<dim>             &solver;
     TimingTree                   &timing;

@@ -31,8 +31,9 @@ namespace undine
       const SolidEnvironment<dim>            &environment;
       const FluidGeometry<dim>               &geometry;
       BlockSolver<dim>                       &solver;
-      TangentSolver<dim>                     &motion_solver;  ///< for bodies alone
-      BlockSolver<dim>                       &impulse_solver; ///< for what contact does
+      TangentSolver<dim>                     &motion_solver;   ///< for bodies alone
+      BlockSolver<dim>                       &impulse_solver;  ///< for what contact does
+      const std::vector<double>              &pressure_levels; ///< of FollowerPressure
       TimingTree                             &timing;
     };
 
@@ -71,6 +72,11 @@ namespace undine
       return predicted;
     }
 
+    /// What levels of the pressure may follow the bodies if the stage is solved again, after
+    /// solve() (FollowerPressure). Collective.
+    std::vector<double>
+    pressure_levels() const;
+
     /// max |D v + B u| per face of a cell and speed after solve() [1].
     double
     divergence() const;
@@ -104,6 +110,7 @@ namespace undine
     SolidEquations<dim>                     equations;
     const PressureNumbers<dim>              numbers;
     const std::unique_ptr<SurfaceFlux<dim>> surface;
+    const FollowerPressure<dim>             follower;
     PressureEquations<dim>                  pressures;
     CoupledEquations<dim>                   problem;
     BlockSystem::BlockVector                x;         ///< u^{n+1}, p

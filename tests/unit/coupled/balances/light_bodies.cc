@@ -60,7 +60,8 @@ namespace
   {
     double       gain         = 0; ///< energy beyond the work that was done, over the largest work
     unsigned int steps        = 0;
-    unsigned int steps_redone = 0;
+    unsigned int steps_redone = 0; ///< for what they created
+    unsigned int cuts         = 0; ///< of steps, for whatever reason
   };
 
 
@@ -86,6 +87,7 @@ namespace
         run.step(); // cut where bodies shake by more than the grid can follow
         ++result.steps;
         result.steps_redone += run.report.creations.number;
+        result.cuts += run.report.cuts;
         const double work =
           water * gravity * (first_depth - depth()) -
           block.density * volume * gravity * (run.column("centre of mass block y") - first_height);
@@ -147,4 +149,17 @@ TEST_CASE("What a light body loses and gains in turns while it vibrates makes no
       CHECK(of_disc.steps_redone <= .01 * of_disc.steps);
       CHECK(of_disc.gain <= .01);
     }
+}
+
+
+TEST_CASE("Light soft bodies are placed in long steps, whatever the level of the pressure",
+          "[coupled]")
+{
+  for (const double density : {1., 100.})
+    for (const std::string step : {"1/15", "1/30"})
+      {
+        const auto of_block = rise<2>({density, step, "32, 32"}, .4);
+        CHECK(of_block.cuts == 0);
+        CHECK(of_block.gain <= .01);
+      }
 }

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/disjoint_sets.h>
+#include <undine/coupled/immersed/follower_pressure.h>
+
+namespace undine
+{
+  namespace
+  {
+    /// Each facet gives an equal share of its area vector, out of the solid, to each of its nodes.
+    template <int dim>
+    std::vector<dealii::Tensor<1, dim>>
+    area_vectors_of_nodes(const Surface<dim>                    &surface,
+                          const std::vector<dealii::Point<dim>> &positions)
+    {
+      std::vector<dealii::Tensor<1, dim>> result(positions.size());
+      for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
+        {
+          const auto share = area_vector(surface, facet, positions) / dim;
+          for (const unsigned int node : surface.facets()[facet])
+            result[node] += share;
+        }
+      return result;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<double>
+  FollowerPressure<dim>::levels(const ImmersedSurface<dim> &surface,
+                                const Positions            &positions,
+                                const Vectors              &forces)
+  {
+    DisjointSets parts(surface.n_body_nodes());
+    const auto  &facets = surface.bodies()->surface();
+    for (const auto &facet : facets.facets())
+      for (const unsigned int node : facet)
+        parts.join(node, facet[0]);
+
+    const Positions     of_bodies(positions.begin(), positions.begin() + surface.n_body_nodes());
+    const auto          areas = area_vectors_of_nodes(facets, of_bodies);
+    std::vector<double> result(areas.size()), force(areas.size()), area(areas.size());
+    for (unsigned int node = 0; node < areas.size(); ++node)
+      if (forces[node].norm() > 0)
+        {
+          force[parts.smallest(node)] -= forces[node] * areas[node];
+          area[parts.smallest(node)] += areas[node].norm_square();
+        }
+    for (unsigned int node = 0; node < areas.size(); ++node)
+      if (const auto part = parts.smallest(node); area[part] > 0)
+        result[node] = force[part] / area[part];
+    return result;
+  }
+
+
+  template <int dim>
+  FollowerPressure<dim>::FollowerPressure(const ImmersedSurface<dim> &surface,
+                                          const Positions            &cut_at,
+                                          const std::vector<double>  &levels)
+    : surface(surface)
+    , pressures(levels)
+  {
+    if (is_on())
+      where_cut =
+        area_vectors_of_nodes(surface.bodies()->surface(),
+                              Positions(cut_at.begin(), cut_at.begin() + surface.n_body_nodes()));
+  }
+
+
+  template <int dim>
+  typename FollowerPressure<dim>::Vectors
+  FollowerPressure<dim>::forces(const Vector &displacement) const
+  {
+    Vectors result(surface.surface().n_nodes());
+    if (!is_on())
+      return result;
+    const auto now =
+      area_vectors_of_nodes(surface.bodies()->surface(), surface.bodies()->positions(displacement));
+    for (unsigned int node = 0; node < pressures.size(); ++node)
+      if (surface.moves(node))
+        result[node] = -pressures[node] * (now[node] - where_cut[node]);
+    return result;
+  }
+
+
+  template <int dim>
+  typename FollowerPressure<dim>::Vector
+  FollowerPressure<dim>::add_forces_to(Vector bodies, const Vector &displacement) const
+  {
+    if (is_on())
+      surface.add_to_bodies(bodies, forces(displacement));
+    return bodies;
+  }
+
+
+  /// An area vector is an affine function of the place of each single node, so that differences
+  /// are derivatives.
+  template <int dim>
+  void
+  FollowerPressure<dim>::subtract_stiffness(Matrix       &tangent,
+                                            const double  factor,
+                                            const Vector &displacement) const
+  {
+    if (!is_on())
+      return;
+    const auto &bodies    = *surface.bodies();
+    const auto &facets    = bodies.surface();
+    auto        positions = bodies.positions(displacement);
+    for (unsigned int facet = 0; facet < facets.facets().size(); ++facet)
+      for (const unsigned int moved : facets.facets()[facet])
+        for (unsigned int axis = 0; axis < dim && surface.moves(moved); ++axis)
+          {
+            const auto   place  = positions[moved];
+            const auto   before = area_vector(facets, facet, positions);
+            const double length = std::pow(before.norm(), 1. / (dim - 1));
+            positions[moved][axis] += length;
+            const auto change = (area_vector(facets, facet, positions) - before) / length;
+            positions[moved]  = place;
+            for (const unsigned int node : facets.facets()[facet])
+              for (unsigned int i = 0; i < dim && surface.moves(node); ++i)
+                if (const auto row = bodies.dofs_of_node(node)[i];
+                    tangent.in_local_range(row) && change[i] != 0)
+                  tangent.add(row,
+                              bodies.dofs_of_node(moved)[axis],
+                              factor * pressures[node] / dim * change[i]);
+          }
+    tangent.compress(dealii::VectorOperation::add);
+  }
+
+
+  template class FollowerPressure<2>;
+  template class FollowerPressure<3>;
+} // namespace undine
