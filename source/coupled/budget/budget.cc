@@ -454,8 +454,8 @@ namespace undine
       1.,
       {solid.contact - solid.contact_handed_on, dt * solid.contact_force - solid.contact_impulse});
     // Of the integrator's what goes on with the rates: the work of internal forces, and of damping
-    // on a path that is not its own.
-    const double goes_on = -solid.elastic_work - solid.damping_on_path;
+    // and inertia on a path that is not their own.
+    const double goes_on = -solid.elastic_work - solid.damping_on_path - solid.inertia_on_path;
     acting[BudgetTerm::integrator].energy += goes_on;
 
     auto &amounts = books.amounts;

@@ -25,44 +25,29 @@ namespace undine
 
 
   template <int dim>
-  std::vector<double>
-  FollowerPressure<dim>::levels(const ImmersedSurface<dim> &surface,
-                                const Positions            &positions,
-                                const Vectors              &forces)
-  {
-    DisjointSets parts(surface.n_body_nodes());
-    const auto  &facets = surface.bodies()->surface();
-    for (const auto &facet : facets.facets())
-      for (const unsigned int node : facet)
-        parts.join(node, facet[0]);
-
-    const Positions     of_bodies(positions.begin(), positions.begin() + surface.n_body_nodes());
-    const auto          areas = area_vectors_of_nodes(facets, of_bodies);
-    std::vector<double> result(areas.size()), force(areas.size()), area(areas.size());
-    for (unsigned int node = 0; node < areas.size(); ++node)
-      if (forces[node].norm() > 0)
-        {
-          force[parts.smallest(node)] -= forces[node] * areas[node];
-          area[parts.smallest(node)] += areas[node].norm_square();
-        }
-    for (unsigned int node = 0; node < areas.size(); ++node)
-      if (const auto part = parts.smallest(node); area[part] > 0)
-        result[node] = force[part] / area[part];
-    return result;
-  }
-
-
-  template <int dim>
   FollowerPressure<dim>::FollowerPressure(const ImmersedSurface<dim> &surface,
                                           const Positions            &cut_at,
-                                          const std::vector<double>  &levels)
+                                          const Vectors              &loads)
     : surface(surface)
-    , pressures(levels)
-  {
-    if (is_on())
-      where_cut =
+    , where_cut(
         area_vectors_of_nodes(surface.bodies()->surface(),
-                              Positions(cut_at.begin(), cut_at.begin() + surface.n_body_nodes()));
+                              Positions(cut_at.begin(), cut_at.begin() + surface.n_body_nodes())))
+    , pressures(surface.n_body_nodes())
+  {
+    DisjointSets parts(pressures.size());
+    for (const auto &facet : surface.bodies()->surface().facets())
+      for (const unsigned int node : facet)
+        parts.join(node, facet[0]);
+    std::vector<double> force(pressures.size()), area(pressures.size());
+    for (unsigned int node = 0; node < pressures.size(); ++node)
+      if (loads[node].norm() > 0)
+        {
+          force[parts.smallest(node)] -= loads[node] * where_cut[node];
+          area[parts.smallest(node)] += where_cut[node].norm_square();
+        }
+    for (unsigned int node = 0; node < pressures.size(); ++node)
+      if (const auto part = parts.smallest(node); area[part] > 0)
+        pressures[node] = force[part] / area[part];
   }
 
 
@@ -79,16 +64,6 @@ namespace undine
       if (surface.moves(node))
         result[node] = -pressures[node] * (now[node] - where_cut[node]);
     return result;
-  }
-
-
-  template <int dim>
-  typename FollowerPressure<dim>::Vector
-  FollowerPressure<dim>::add_forces_to(Vector bodies, const Vector &displacement) const
-  {
-    if (is_on())
-      surface.add_to_bodies(bodies, forces(displacement));
-    return bodies;
   }
 
 

@@ -190,10 +190,10 @@ namespace undine
 
   template <int dim>
   typename SurfaceFlux<dim>::Vector
-  SurfaceFlux<dim>::forces(const Field<dim> &pressure) const
+  SurfaceFlux<dim>::on_bodies(const typename FluidGeometry<dim>::Velocities &forces) const
   {
     auto result = models.solid->vector();
-    models.surface->add_to_bodies(result, nodal_forces(pressure));
+    models.surface->add_to_bodies(result, forces);
     return result;
   }
 

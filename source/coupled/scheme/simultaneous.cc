@@ -27,9 +27,10 @@ namespace undine
   /// cut elsewhere (SurfacePlacement): else the fluid would have left, or entered, what it has not,
   /// and light bodies that shake from stage to stage would gain energy by that.
   ///
-  /// The friction of 1 knows the pressures of the stage before. Where bodies leave a stage so much
-  /// faster or slower than these made friction expect that it would differ, the stage is solved
-  /// again with the pressures found.
+  /// Friction and the level of pressure that follows bodies (FollowerPressure) know the pressures
+  /// of the stage before, and those of its first solution where the stage is solved again. Where
+  /// bodies leave a stage so much faster or slower than these made friction expect that it would
+  /// differ, the stage is solved again with the pressures found.
   template <int dim>
   class SimultaneousPhysics : public Physics<dim>
   {
@@ -66,7 +67,6 @@ namespace undine
     {
       if (stage.is_first)
         report.stages_again = 0;
-      following.clear();
       if (!stage.keeps_rates() && !models.has_friction())
         {
           solve_once(state, stage, report);
@@ -76,8 +76,9 @@ namespace undine
       const Report          report_before = report;
       const Budget<dim>     budget_before = budget;
       SurfacePlacement<dim> placement(models);
-      bool                  is_corrected = false; ///< friction
-      const auto            go_back      = [&] {
+      bool                  knows_pressure = false; ///< that of a solution of this stage
+      bool                  is_corrected   = false; ///< friction
+      const auto            go_back        = [&] {
         state = begin;
         budget.go_back_to(budget_before);
         go_back_to(report_before, report);
@@ -101,15 +102,18 @@ namespace undine
                             fluid_side.friction_defect() <= settings.friction_tolerance))
             return;
           fluid_side.expect(is_placed ? cut_at : placement.next(cut_at, places));
+          // Later solutions make the same of a place: only then is there one to be found.
+          if (is_placed || !knows_pressure)
+            {
+              knows_pressure          = true;
+              begin.fluid.pressure    = state.fluid.pressure;
+              begin.solid.fluid_loads = state.solid.fluid_loads;
+            }
           if (is_placed)
             {
               is_corrected = true;
               placement.forget_places();
-              begin.fluid.pressure    = state.fluid.pressure;
-              begin.solid.fluid_loads = state.solid.fluid_loads;
             }
-          else
-            following = reached;
           go_back();
         }
     }
@@ -167,7 +171,6 @@ namespace undine
                                  solver,
                                  motion_solver,
                                  impulse_solver,
-                                 following,
                                  timing},
                                 *fluid,
                                 state,
@@ -176,7 +179,6 @@ namespace undine
       solid_side.end(state, stage);
       fluid->by_contact        = coupled.velocity_by_contact();
       fluid->forces_by_contact = coupled.forces_by_contact();
-      reached                  = coupled.pressure_levels();
       balance(coupled, state, solid);
       fluid_side.finish(*fluid, state, report, coupled.divergence());
       budget.end_stage();
@@ -225,8 +227,6 @@ namespace undine
     BlockSolver<dim>        solver;
     TangentSolver<dim>      motion_solver;
     BlockSolver<dim>        impulse_solver;
-    std::vector<double>     following, reached; ///< levels of FollowerPressure, of this solution of
-                                                ///< a stage and for the next one [Pa]
   };
 
 

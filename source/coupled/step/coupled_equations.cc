@@ -47,8 +47,7 @@ namespace undine
   {
     const auto timed = timing.section("evaluate");
     surface.move(x.block(0));
-    auto pushing = follower.add_forces_to(surface.forces(fluid.field(x.block(1))),
-                                          solid.displacement(x.block(0)));
+    auto pushing = forces(x);
     clear_fixed(pushing, model);
     residual.block(0) = solid.residual(x.block(0));
     residual.block(0).add(-1., pushing);
@@ -70,6 +69,28 @@ namespace undine
     last_norm = std::hypot(relative(residual.block(0).l2_norm(), here.force),
                            relative(residual.block(1).l2_norm(), here.flux));
     return last_norm;
+  }
+
+
+  template <int dim>
+  typename CoupledEquations<dim>::Vectors
+  CoupledEquations<dim>::nodal_forces(const Unknown &x) const
+  {
+    auto result = surface.nodal_forces(fluid.field(x.block(1)));
+    if (!follower.is_on())
+      return result;
+    const auto more = follower.forces(solid.displacement(x.block(0)));
+    for (std::size_t node = 0; node < result.size(); ++node)
+      result[node] += more[node];
+    return result;
+  }
+
+
+  template <int dim>
+  typename CoupledEquations<dim>::Vector
+  CoupledEquations<dim>::forces(const Unknown &x) const
+  {
+    return surface.on_bodies(nodal_forces(x));
   }
 
 

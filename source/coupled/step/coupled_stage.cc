@@ -68,7 +68,7 @@ namespace undine
                 equations,
                 BodiesInStage<dim>(parts.models, state, fluid.stage, fluid.end - fluid.stage.end)),
               equations.guess()))
-    , follower(*parts.models.surface, parts.geometry.surface_positions(), parts.pressure_levels)
+    , follower(make_follower())
     , pressures(*parts.models.fluid, numbers, filled_rows(surface->matrix()), fluid.dt)
     , problem(*parts.models.solid,
               equations,
@@ -85,6 +85,21 @@ namespace undine
                     end_time,
                     parts.geometry.swept_volume_flux(surface->node_velocities(), fluid.dt));
     predicted = state.fluid.velocity;
+  }
+
+
+  /// By the pressure that is known before. In steps of one stage bodies end elsewhere than where
+  /// the grid was cut on purpose.
+  template <int dim>
+  FollowerPressure<dim>
+  CoupledStage<dim>::make_follower() const
+  {
+    if (!fluid.stage.keeps_rates())
+      return FollowerPressure<dim>(*parts.models.surface);
+    auto forces = surface->nodal_forces(state.fluid.pressure);
+    for (std::size_t node = 0; node < forces.size(); ++node)
+      forces[node] += surfaces.at_rest[node];
+    return {*parts.models.surface, parts.geometry.surface_positions(), forces};
   }
 
 
@@ -161,8 +176,8 @@ namespace undine
     const auto &velocity = x.block(0);
     surface->move(velocity);
     const auto pressure = pressures.field(x.block(1));
-    equations.add_forces(
-      follower.add_forces_to(surface->forces(pressure), equations.displacement(velocity)));
+    on_nodes            = problem.nodal_forces(x);
+    equations.add_forces(surface->on_bodies(on_nodes));
     report.reactions          = equations.reactions(velocity);
     report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
     divergence_left           = pressures.divergence(state.fluid.velocity, surface->fluxes());
@@ -206,19 +221,6 @@ namespace undine
 
 
   template <int dim>
-  std::vector<double>
-  CoupledStage<dim>::pressure_levels() const
-  {
-    auto       forces  = surface->nodal_forces(pressures.field(x.block(1)));
-    const auto besides = surfaces.at_rest;
-    for (std::size_t node = 0; node < forces.size(); ++node)
-      forces[node] += besides[node];
-    return FollowerPressure<dim>::levels(
-      *parts.models.surface, parts.geometry.surface_positions(), forces);
-  }
-
-
-  template <int dim>
   double
   CoupledStage<dim>::divergence() const
   {
@@ -247,14 +249,8 @@ namespace undine
     result.by_surface_flux         = surface->nodal_forces(pressure);
     result.velocities              = surface->node_velocities();
     result.power_beside_velocities = surface->power_beside_velocities(pressure);
-    result.on_bodies               = result.by_surface_flux;
-    if (follower.is_on())
-      {
-        const auto following = follower.forces(equations.displacement(x.block(0)));
-        for (std::size_t node = 0; node < following.size(); ++node)
-          result.on_bodies[node] += following[node];
-      }
-    result.increment = parts.models.surface->with_bodies(
+    result.on_bodies               = on_nodes;
+    result.increment               = parts.models.surface->with_bodies(
       equations.increment(x.block(0)),
       typename SurfaceExchange<dim>::Vectors(result.by_fluid.size()));
     return result;

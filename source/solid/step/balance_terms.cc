@@ -59,8 +59,12 @@ namespace undine
     further.add(-dt, mean);
     more.add(-1 / dt, gain);
     result.inertia_loss = force * further + dt * (more * mean);
-    result.momentum     = resultant(model, gain);
-    result.inertia_gap  = dt * resultant(model, more);
+    // Supports move as prescribed, further than their velocity at the end of a stage says.
+    further = displacement_increment;
+    further.add(-dt, velocity);
+    result.inertia_on_path = force * further;
+    result.momentum        = resultant(model, gain);
+    result.inertia_gap     = dt * resultant(model, more);
   }
 
 

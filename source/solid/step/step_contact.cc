@@ -97,6 +97,9 @@ namespace undine
       return guess;
     displacement_increment.add(-1., still);
     still.add(part, displacement_increment);
+    for (const auto &fixed : model.fixed()) // where the guess is no guess
+      still(fixed.dof) = guess(fixed.dof);
+    still.compress(dealii::VectorOperation::insert);
     return still;
   }
 

@@ -25,33 +25,37 @@ namespace undine
     using Matrix    = typename SolidModel<dim>::Matrix;
     using Vector    = typename SolidModel<dim>::Vector;
 
-    /// A mean pressure for every node of bodies [Pa], the same in all nodes of a closed part of the
-    /// surface: that which is nearest to the normal parts of `forces` [N] on its wet nodes at
-    /// `positions` [m].
-    static std::vector<double>
-    levels(const ImmersedSurface<dim> &surface, const Positions &positions, const Vectors &forces);
+    /// No forces at all.
+    explicit FollowerPressure(const ImmersedSurface<dim> &surface)
+      : surface(surface)
+    {
+    }
 
-    /// The grid was cut where all nodes were at `cut_at` [m]. `levels` [Pa]: of nodes; empty: no
-    /// forces at all. The surface must outlive it.
+    /// The grid was cut where all nodes were at `cut_at` [m]. Each closed part of the surface has
+    /// the pressure that is nearest to the normal parts of `loads` [N] on its wet nodes. The
+    /// surface must outlive it.
     FollowerPressure(const ImmersedSurface<dim> &surface,
                      const Positions            &cut_at,
-                     const std::vector<double>  &levels);
+                     const Vectors              &loads);
 
-    /// Are there any?
+    /// Can there be forces?
     bool
     is_on() const
     {
       return !pressures.empty();
     }
 
+    /// Of nodes of bodies, the same in all of a closed part of the surface [Pa].
+    const std::vector<double> &
+    levels() const
+    {
+      return pressures;
+    }
+
     /// In all nodes [N], if bodies end at `displacement` [m]; zero in those of obstacles.
     /// Collective.
     Vectors
     forces(const Vector &displacement) const;
-
-    /// The same over the bodies' degrees of freedom. Collective.
-    Vector
-    add_forces_to(Vector bodies, const Vector &displacement) const;
 
     /// Subtract `factor` times the derivative of the forces with respect to the displacement, whose
     /// entries must be in the pattern of `tangent`. Collective.
@@ -60,8 +64,8 @@ namespace undine
 
   private:
     const ImmersedSurface<dim> &surface;
-    const std::vector<double>   pressures; ///< of nodes of bodies [Pa]
     Vectors                     where_cut; ///< area vectors of nodes there [m^(dim-1)]
+    std::vector<double>         pressures; ///< of nodes of bodies [Pa]
   };
 } // namespace undine
 

@@ -63,9 +63,10 @@ namespace undine
     typename FluidGeometry<dim>::Velocities
     nodal_forces(const Field<dim> &pressure) const;
 
-    /// J p = B^T p over the bodies' degrees of freedom, fixed ones included [N]. Collective.
+    /// Forces in all nodes, as those of their degrees of freedom on the bodies, fixed ones included
+    /// [N]: of nodal_forces() J p. Collective.
     Vector
-    forces(const Field<dim> &pressure) const;
+    on_bodies(const typename FluidGeometry<dim>::Velocities &forces) const;
 
   protected:
     using Velocities = typename FluidGeometry<dim>::Velocities;

@@ -26,6 +26,7 @@ namespace undine
   public:
     using Unknown = BlockSystem::BlockVector;
     using Vector  = BlockSystem::Vector;
+    using Vectors = typename FollowerPressure<dim>::Vectors;
 
     /// The references must outlive it. `rounding_of_places` [m^dim/s]: what rounding of the bodies'
     /// places makes of B u.
@@ -46,6 +47,14 @@ namespace undine
     /// Collective. Throws SolveError.
     double
     evaluate(const Unknown &x);
+
+    /// B^T p + f(u) of `x`, in all nodes of surfaces and over the bodies' degrees of freedom [N].
+    /// Collective. @{
+    Vectors
+    nodal_forces(const Unknown &x) const;
+    Vector
+    forces(const Unknown &x) const;
+    /// @}
 
     /// The change of `x`, evaluated last, by the linearised equations (C2), shortened where contact
     /// would close a gap. Collective. Throws SolveError and Interruption.

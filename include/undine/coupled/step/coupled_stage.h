@@ -31,9 +31,8 @@ namespace undine
       const SolidEnvironment<dim>            &environment;
       const FluidGeometry<dim>               &geometry;
       BlockSolver<dim>                       &solver;
-      TangentSolver<dim>                     &motion_solver;   ///< for bodies alone
-      BlockSolver<dim>                       &impulse_solver;  ///< for what contact does
-      const std::vector<double>              &pressure_levels; ///< of FollowerPressure
+      TangentSolver<dim>                     &motion_solver;  ///< for bodies alone
+      BlockSolver<dim>                       &impulse_solver; ///< for what contact does
       TimingTree                             &timing;
     };
 
@@ -72,11 +71,6 @@ namespace undine
       return predicted;
     }
 
-    /// What levels of the pressure may follow the bodies if the stage is solved again, after
-    /// solve() (FollowerPressure). Collective.
-    std::vector<double>
-    pressure_levels() const;
-
     /// max |D v + B u| per face of a cell and speed after solve() [1].
     double
     divergence() const;
@@ -99,6 +93,8 @@ namespace undine
     respond_to_contact();
     Vector
     loads_besides_pressure();
+    FollowerPressure<dim>
+    make_follower() const;
 
     const Parts                             parts;
     const FluidStage<dim>                  &fluid;
@@ -117,6 +113,7 @@ namespace undine
     Velocity<dim>                           predicted; ///< v*
     std::optional<Velocity<dim>>            fluid_by_contact;
     typename SurfaceExchange<dim>::Vectors  pressure_forces_by_contact;
+    typename SurfaceExchange<dim>::Vectors  on_nodes; ///< forces of pressures on the bodies [N]
     Vector                                  bodies_by_contact;
     double                                  divergence_left = 0;
   };

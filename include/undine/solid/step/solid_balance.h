@@ -40,6 +40,7 @@ namespace undine
 
     double elastic_work      = 0; ///< sum_e w_e K(d_e).dd [J]
     double damping_on_path   = 0; ///< in inertia_loss: forces of damping times dd / W - damping [J]
+    double inertia_on_path   = 0; ///< in inertia_loss: M (m u + ...).(dd - h u) [J]
     double contact_handed_on = 0; ///< u.M u_c, u_c being no rate that later stages use [J]
     double energy_rounding   = 0; ///< what rounding leaves of energies [J]
     double force_rounding    = 0; ///< and of forces [N]

@@ -101,6 +101,59 @@ TEST_CASE("a ball at rest on a wall stays and weighs what it weighs", "[contact]
 }
 
 
+/// A lid that moves as prescribed pushes a ball on the floor. In contact it keeps its velocity, and
+/// nothing is missing in the sum of energies.
+template <int dim>
+static void
+check_lid(const std::string &down, const double velocity_at_end)
+{
+  INFO(dim << "D, " << down);
+  CoupledRun<dim> run(
+    steps_of(.01) + elements<dim>() + budget + floor_at_zero<dim>() +
+    section("Bodies",
+            ball<dim>("ball",
+                      plane_or_space<dim>("0, .12", "0, .12, 0"),
+                      plane_or_space<dim>("0; 0", "0; 0; 0")) +
+              body("lid",
+                   plane_or_space<dim>("set Cells = 2, 1\nset Lower corner = -.2, .23\n"
+                                       "set Upper corner = .2, .33\n",
+                                       "set Cells = 2, 1, 2\nset Lower corner = -.2, .23, -.2\n"
+                                       "set Upper corner = .2, .33, .2\n") +
+                     "set Density = 1000\nset Young's modulus = 1e5\nset Poisson's ratio = .3",
+                   section("top",
+                           "set Sides = top\nset Kind = prescribed motion\nset Displacement = 0; " +
+                             down + plane_or_space<dim>("", "; 0")))));
+  double contacts = 0;
+  for (unsigned int n = 0; n < 16; ++n)
+    {
+      run.step();
+      INFO("step " << n + 1);
+      contacts = std::max(contacts, run.column("nodes in contact"));
+      CHECK(run.column("energy closure") <= 1e-9);
+      CHECK(run.column("momentum closure") <= 1e-9);
+      const auto &model = *run.models.solid;
+      for (const auto &fixed : model.fixed())
+        if (run.state.solid.velocity.in_local_range(fixed.dof) &&
+            model.prescribed_displacement(fixed, .1) != 0)
+          CHECK(run.state.solid.velocity(fixed.dof) ==
+                Approx(model.prescribed_displacement(fixed, run.state.clock.time + 1e-4) / 2e-4 -
+                       model.prescribed_displacement(fixed, run.state.clock.time - 1e-4) / 2e-4)
+                  .epsilon(1e-3)
+                  .margin(1e-4 * velocity_at_end));
+    }
+  CHECK(contacts > 0);
+}
+
+
+TEST_CASE("a support that moves keeps its velocity in contact, and its work is accounted for",
+          "[contact][mpi]")
+{
+  check_lid<2>("-.2*t", .2);
+  check_lid<2>("-.02*sin(20*t)", .4);
+  check_lid<3>("-.02*sin(20*t)", .4);
+}
+
+
 TEST_CASE("contact goes with every integrator of one stage", "[contact]")
 {
   for (const std::string integrator : {"theta", "newmark", "generalised_alpha"})

@@ -56,6 +56,12 @@ namespace
       return result;
     }
 
+    FollowerPressure<dim>
+    following() const
+    {
+      return {surface, at_rest, loads(at_rest)};
+    }
+
     /// `move(place)` in all nodes of the boundary.
     template <class Move>
     Vector
@@ -93,8 +99,7 @@ namespace
   check_levels()
   {
     const BallAndBox<dim> bodies;
-    const auto            levels =
-      FollowerPressure<dim>::levels(bodies.surface, bodies.at_rest, bodies.loads(bodies.at_rest));
+    const auto            levels = bodies.following().levels();
     REQUIRE(levels.size() == bodies.pressures.size());
     for (unsigned int node = 0; node < levels.size(); ++node)
       CHECK(levels[node] == Approx(bodies.pressures[node]));
@@ -117,8 +122,8 @@ namespace
   void
   check_turn()
   {
-    const BallAndBox<dim>       bodies;
-    const FollowerPressure<dim> following(bodies.surface, bodies.at_rest, bodies.pressures);
+    const BallAndBox<dim> bodies;
+    const auto            following = bodies.following();
     for (const auto &force : following.forces(bodies.run.models.solid->vector()))
       CHECK(force.norm() == 0);
     const auto where_cut = bodies.loads(bodies.at_rest);
@@ -136,11 +141,11 @@ namespace
   void
   check_resultant()
   {
-    const BallAndBox<dim>       bodies;
-    const FollowerPressure<dim> following(bodies.surface, bodies.at_rest, bodies.pressures);
-    const auto                  forces = following.forces(bodies.scattered(.3));
-    dealii::Tensor<1, dim>      on_ball, on_box;
-    double                      sizes = 0;
+    const BallAndBox<dim>  bodies;
+    const auto             following = bodies.following();
+    const auto             forces    = following.forces(bodies.scattered(.3));
+    dealii::Tensor<1, dim> on_ball, on_box;
+    double                 sizes = 0;
     for (unsigned int node = 0; node < forces.size(); ++node)
       {
         (bodies.is_of_ball(bodies.at_rest[node]) ? on_ball : on_box) += forces[node];
@@ -156,9 +161,9 @@ namespace
   void
   check_stiffness()
   {
-    const BallAndBox<dim>       bodies;
-    const FollowerPressure<dim> following(bodies.surface, bodies.at_rest, bodies.pressures);
-    const auto                 &model = *bodies.run.models.solid;
+    const BallAndBox<dim> bodies;
+    const auto            following = bodies.following();
+    const auto           &model     = *bodies.run.models.solid;
     const auto here = bodies.scattered(.3), a = bodies.scattered(1.1), b = bodies.scattered(2.7);
     auto       stiffness = model.matrix();
     following.subtract_stiffness(stiffness, 2, here);
@@ -166,7 +171,9 @@ namespace
     const auto along_a = [&](const double part) {
       auto at = here;
       at.add(part, a);
-      return following.add_forces_to(model.vector(), at);
+      auto result = model.vector();
+      bodies.surface.add_to_bodies(result, following.forces(at));
+      return result;
     };
     auto change = along_a(.5); // forces are quadratic functions: this difference is the derivative
     change.add(-1., along_a(-.5));
