@@ -76,6 +76,9 @@ namespace undine
     if (!contact)
       return guess;
     const auto timed = timing.section("contact");
+    if (contact->collision_free_fraction({last_displacement(), last_time()},
+                                         {motion.displacement(guess), time + dt}) == 1)
+      return guess;
     // The velocity that leads to the last position, except at supports, which are where they are
     // prescribed to be.
     Vector still = motion.guess_at_rest();

@@ -56,7 +56,8 @@ namespace undine
 
     /// The u nearest to `guess`, on the segment that begins at the velocity which leads to the last
     /// position of the bodies (ContactStart), up to which no gap closes (Contact). `guess` itself
-    /// without contact. Throws SolveError if supports or obstacles alone close a gap. Collective.
+    /// without contact, and where bodies can get there on a straight way. Throws SolveError if
+    /// supports or obstacles alone close a gap. Collective.
     Vector
     kept_apart(const Vector &guess) const
     {
