@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace undine
@@ -38,6 +39,7 @@ namespace undine
     , surfaces(planes(walls), solid, obstacles)
     , in_each_other(surfaces.surface().body_names().size())
   {
+    find_facets_in_walls();
     for (auto &others : in_each_other)
       others.resize(in_each_other.size());
     for (bool any = scope.obstacles; any;)
@@ -55,6 +57,59 @@ namespace undine
         const unsigned int a = overlap->surface, b = surfaces.surface_of_node(overlap->node);
         in_each_other[a][b] = in_each_other[b][a] = true;
       }
+  }
+
+
+  template <int dim>
+  void
+  PassageCheck<dim>::find_facets_in_walls()
+  {
+    const auto &bodies = surfaces.bodies().surface();
+    openings.resize(walls.size(), std::vector<Opening>(bodies.body_names().size()));
+    for (unsigned int w = 0; w < walls.size(); ++w)
+      for (unsigned int facet = 0; facet < bodies.facets().size(); ++facet)
+        {
+          const auto &nodes = bodies.facets()[facet];
+          const auto [least, largest] =
+            std::minmax_element(nodes.begin(), nodes.end(), [&](const auto a, const auto b) {
+              return surfaces.rest_gap(a, w) < surfaces.rest_gap(b, w);
+            });
+          if (surfaces.rest_gap(*least, w) >= 0 || surfaces.rest_gap(*largest, w) < 0)
+            continue;
+          auto &opening = openings[w][bodies.body(facet)];
+          opening.nodes.insert(opening.nodes.end(), nodes.begin(), nodes.end());
+          for (const unsigned int node : nodes)
+            opening.length =
+              std::max(opening.length, surfaces.rest()[node].distance(surfaces.rest()[nodes[0]]));
+        }
+  }
+
+
+  /// Is the node, along the wall, further from where its body reaches through that than a facet is
+  /// long? Bodies may slide through a wall in which they stand.
+  template <int dim>
+  bool
+  PassageCheck<dim>::is_beside(const unsigned int wall,
+                               const unsigned int node,
+                               const Positions   &places) const
+  {
+    const auto &opening = openings[wall][surfaces.surface_of_node(node)];
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        if (axis == walls[wall].side.axis)
+          continue;
+        double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+        for (const unsigned int other : opening.nodes)
+          for (const double at : {surfaces.rest()[other][axis], places[other][axis]})
+            {
+              lower = std::min(lower, at);
+              upper = std::max(upper, at);
+            }
+        if (places[node][axis] < lower - opening.length ||
+            places[node][axis] > upper + opening.length)
+          return true;
+      }
+    return false;
   }
 
 
@@ -87,8 +142,10 @@ namespace undine
       for (unsigned int node = 0; node < surfaces.bodies().n_nodes(); ++node)
         {
           const unsigned int body = surfaces.surface_of_node(node);
-          if (surfaces.reaches_through(body, w) || !surfaces.meets_wall(node, w) ||
-              !passes(walls[w], from[node], to[node]))
+          if (!passes(walls[w], from[node], to[node]))
+            continue;
+          if (surfaces.reaches_through(body, w) ? !is_beside(w, node, to)
+                                                : !surfaces.meets_wall(node, w))
             continue;
           const std::string hint =
             !scope.contact

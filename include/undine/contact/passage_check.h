@@ -12,7 +12,7 @@ namespace undine
 {
   /// Whether bodies keep to where they can be, where contact does not see to that: they do not pass
   /// walls of the fluid's domain nor enter obstacles. What a support holds there, or what reaches
-  /// there at rest, may.
+  /// there at rest, may; the latter through walls only where it does.
   template <int dim>
   class PassageCheck
   {
@@ -44,6 +44,10 @@ namespace undine
     side_complaint(const Positions &from, const Positions &to) const;
     std::string
     obstacle_complaint(const Positions &places) const;
+    void
+    find_facets_in_walls();
+    bool
+    is_beside(const unsigned int wall, const unsigned int node, const Positions &places) const;
     bool
     passes(const DomainWall<dim>    &wall,
            const dealii::Point<dim> &from,
@@ -54,6 +58,14 @@ namespace undine
     const std::vector<DomainWall<dim>> walls;
     const ContactSurfaces<dim>         surfaces;
     std::vector<std::vector<bool>>     in_each_other; ///< at rest: [surface][surface]
+
+    /// Where a body reaches through a wall at rest.
+    struct Opening
+    {
+      std::vector<unsigned int> nodes;      ///< of the facets that cross the wall
+      double                    length = 0; ///< of their longest edge [m]
+    };
+    std::vector<std::vector<Opening>> openings; ///< [wall][body]
   };
 } // namespace undine
 

@@ -22,13 +22,13 @@ class LoadedBody:
     outline: law_outline.Outline
     load: tuple = (0.0, 0.0)  # dead force per volume at rest, constant [N/m^dim]
 
-    def volumes_and_moments(self, run):
-        """Of every row: volume [m^dim] and its integral of y."""
-        result = [self.outline.volume_and_moment(places) for places in self.outline.places(run)]
-        for (volume, _), expected in zip(result, run.column(f"volume {self.name}")[:1]):
-            if abs(volume - expected) > 1e-6 * expected:
-                raise ValueError(f"the outline of body {self.name} takes {volume} m^dim instead of {expected}")
-        return result
+    def depths(self, run, surface):
+        """Of every row: the integral of surface - y over what the body takes below that height [m^(dim+1)]."""
+        places = self.outline.places(run)
+        for at, expected in zip(places[:1], run.column(f"volume {self.name}")):
+            if abs(self.outline.volume(at) - expected) > 1e-6 * expected:
+                raise ValueError(f"the outline of body {self.name} takes {self.outline.volume(at)} m^dim instead of {expected}")
+        return [self.outline.depth(at, surface) for at in places]
 
     def centres(self, run, axis):
         return run.column(f"centre of mass {self.name} {axis}")
@@ -58,13 +58,12 @@ def works(run, bodies, around):
     together what it takes to bring the body's volume from the surface to its depth."""
     result = [0.0] * len(run.times())
     for body in bodies:
-        shapes, xs, ys = body.volumes_and_moments(run), body.centres(run, "x"), body.centres(run, "y")
-        if not shapes:
+        depths, xs, ys = body.depths(run, around.surface), body.centres(run, "x"), body.centres(run, "y")
+        if not depths:
             continue
         rest_volume = run.column(f"volume {body.name}")[0]
-        depths = [around.density * around.gravity * (around.surface * volume - moment) for volume, moment in shapes]
         mass = body.density * rest_volume
-        for row in range(len(result)):
-            result[row] += depths[0] - depths[row] - mass * around.gravity * (ys[row] - ys[0])
+        for row, depth in enumerate(depths):
+            result[row] += around.gravity * (around.density * (depths[0] - depth) - mass * (ys[row] - ys[0]))
             result[row] += rest_volume * (body.load[0] * (xs[row] - xs[0]) + body.load[1] * (ys[row] - ys[0]))
     return result

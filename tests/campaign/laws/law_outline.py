@@ -34,16 +34,43 @@ class Outline:
         return [[tuple(x + of_axis[row] for x, of_axis in zip(node, motion)) for node, motion in zip(self.nodes, motions)]
                 for row in range(len(run.times()))]
 
-    def volume_and_moment(self, places):
-        """Volume [m^dim] and its integral of y, with the nodes at `places`: by the simplices between facets and the
-        origin."""
-        volume = moment = 0.0
+    def volume(self, places):
+        """Volume [m^dim] with the nodes at `places`, by the simplices between facets and the origin."""
+        dim = len(places[0])
+        return sum(determinant([places[node] for node in facet]) for facet in self.facets) / math.factorial(dim)
+
+    def depth(self, places, surface):
+        """The integral of surface - y over what is below the height `surface` [m^(dim+1)]: by the divergence theorem that of
+        -(surface - y)^2 / 2 over the facets, times the normal's y."""
+        result = 0.0
         for facet in self.facets:
-            corners = [places[node] for node in facet]
-            simplex = determinant(corners) / math.factorial(len(corners))
-            volume += simplex
-            moment += simplex * sum(corner[1] for corner in corners) / (len(corners) + 1)
-        return volume, moment
+            for corners in below([places[node] for node in facet], surface):
+                heights, n = [surface - corner[1] for corner in corners], len(corners)
+                squares = sum(a * b for k, a in enumerate(heights) for b in heights[:k + 1])
+                result -= area_along_y(corners) * squares / (n * (n + 1))
+        return result
+
+
+def area_along_y(corners):
+    """The y of a facet's area times its normal."""
+    if len(corners) == 2:
+        return corners[0][0] - corners[1][0]
+    (ax, _, az), (bx, _, bz), (cx, _, cz) = corners
+    return ((bz - az) * (cx - ax) - (bx - ax) * (cz - az)) / 2
+
+
+def below(corners, surface):
+    """The parts of a facet below the height `surface`, as facets."""
+    cut = []
+    for one, other in zip(corners, corners[1:] + corners[:1]):
+        if one[1] < surface:
+            cut.append(one)
+        if (one[1] < surface) != (other[1] < surface):
+            share = (surface - one[1]) / (other[1] - one[1])
+            cut.append(tuple(a + share * (b - a) for a, b in zip(one, other)))
+    if len(corners) == 2:  # the way back has met the same place
+        return [cut[:2]] if cut else []
+    return [[cut[0], *pair] for pair in zip(cut[1:], cut[2:])]
 
 
 def determinant(rows):

@@ -132,3 +132,43 @@ TEST_CASE("a body that passes a wall or enters an obstacle without contact is an
   CHECK_THAT(message(flying_block<2>("-2; 0", 0, section("contact", ""), "", open + "y-.75")),
              Contains("passes the wall at side 'left'") && Contains("'Effects/contact/Walls'"));
 }
+
+
+/// A soft strip that stands in the floor, bent over by `angle`, is thrown down, or slides down
+/// through the floor.
+static std::string
+strip_in_floor(const double angle, const std::string &velocity)
+{
+  const double radius = .6 / angle;
+  const auto   arc    = [&](const std::string &what) {
+    return fmt::format(fmt::runtime("if(y>0, " + what + ", 0)"), fmt::arg("R", radius));
+  };
+  return steps_of(.01) + section("Domain", "set Cells = 16, 16") +
+         section("Fluid",
+                 "set Density = 1\n" +
+                   section("Boundaries",
+                           section("openings", "set Sides = right, top\nset Kind = outflow"))) +
+         section("Bodies",
+                 body("strip",
+                      "set Lower corner = .3, -.1\nset Upper corner = .35, .6\nset Cells = 1, 14\n"
+                      "set Density = 1000\nset Young's modulus = 1e3\nset Poisson's ratio = .3\n"
+                      "set Initial displacement = " +
+                        arc("({R}-x+.325)*(1-cos(y/{R}))") + "; " +
+                        arc("({R}-x+.325)*sin(y/{R})-y") + "\nset Initial velocity = " + velocity));
+}
+
+
+TEST_CASE("a body that stands in a wall passes it there and nowhere else", "[contact]")
+{
+  using Catch::Contains;
+  const auto message = [](const std::string &scene) {
+    CoupledRun<2> run(scene);
+    return message_of([&] {
+      for (unsigned int n = 0; n < 10; ++n)
+        run.step();
+    });
+  };
+  CHECK_THAT(message(strip_in_floor(2.6, "0; if(y>.4, -3, 0)")),
+             Contains("body 'strip' passes the wall at side 'bottom'"));
+  CHECK(message(strip_in_floor(1e-3, "0; -2")) == "no error");
+}
