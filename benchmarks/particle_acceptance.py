@@ -224,4 +224,5 @@ def main():
         sys.exit("does not hold: " + "; ".join(broken))
 
 
-main()
+if __name__ == "__main__":
+    main()
