@@ -102,7 +102,8 @@ namespace undine
                             fluid_side.friction_defect() <= settings.friction_tolerance))
             return;
           fluid_side.expect(is_placed ? cut_at : placement.next(cut_at, places));
-          // Later solutions make the same of a place: only then is there one to be found.
+          // All later solutions start from the same pressures: with others each time, where bodies
+          // come to would depend on more than where the grid is cut, and no place be found.
           if (is_placed || !knows_pressure)
             {
               knows_pressure          = true;
