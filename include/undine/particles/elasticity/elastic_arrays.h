@@ -34,8 +34,6 @@ namespace undine::particles
       , points(executor, n)
       , rotations(executor, std::vector<Matrix<dim, Real>>(n, Matrix<dim, Real>::diagonal(1)))
       , carried(executor, lattice.materials.size())
-      , surfaces(executor, n)
-      , surface_moments(executor, n)
       , deformations(executor, n)
       , tractions(executor, n)
       , points_next(executor, n)
@@ -70,9 +68,7 @@ namespace undine::particles
               deformations.data(),
               rotations.data(),
               tractions.data(),
-              carried.data(),
-              surfaces.data(),
-              surface_moments.data()};
+              carried.data()};
     }
 
     ImplicitVectors<dim, Real>
@@ -105,8 +101,6 @@ namespace undine::particles
     Buffer<Executor, ElasticPoint<dim, Real>> points;
     Matrices                                  rotations;
     Buffer<Executor, Real>                    carried;
-    Vectors                                   surfaces;
-    Matrices                                  surface_moments;
     /// @}
 
     /// Of a sub-step. @{

@@ -110,10 +110,8 @@ namespace undine::particles
     {
       ElasticMaterial<Real> material;
       Real                  inverse_mean; ///< 1 / a_i
-      Real                  carried;      ///< as in ElasticBodies, all that follow
+      Real                  carried;      ///< as in ElasticBodies [Pa]
       Matrix<dim, Real>     inverse_moment;
-      Vector<dim, Real>     surface;
-      Matrix<dim, Real>     surface_moment;
     };
 
     /// Of one particle at present.
@@ -127,12 +125,8 @@ namespace undine::particles
     particle(const int i) const
     {
       const int body = bodies.bodies[i];
-      return {bodies.materials[body],
-              inverse_mean(i),
-              bodies.carried[body],
-              bodies.inverse_moments[i],
-              bodies.surfaces[i],
-              bodies.surface_moments[i]};
+      return {
+        bodies.materials[body], inverse_mean(i), bodies.carried[body], bodies.inverse_moments[i]};
     }
 
     /// Bonds are given as for_each(f), which calls f(bond) for this lane's share.
@@ -153,13 +147,9 @@ namespace undine::particles
       const Real  stiffness  = 2 * properties.hourglass * properties.mu * particle.inverse_mean;
       const auto  F          = lanes.sum(moment) * particle.inverse_moment;
       const auto  R          = rotation_of(F, last_rotation);
-      auto        T          = stress(properties,
-                      F,
-                      R,
-                      lanes.sum(rate) * particle.inverse_moment,
-                      particle.carried,
-                      particle.surface_moment * R) *
-               particle.inverse_moment;
+      auto        T =
+        stress(properties, F, R, lanes.sum(rate) * particle.inverse_moment, particle.carried) *
+        particle.inverse_moment;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
           T[a][b] -= stiffness * F[a][b];
@@ -187,7 +177,7 @@ namespace undine::particles
                                  rate * (bond.v * bond.x) / positive(norm_square(bond.x)))) *
                  bond.x;
       });
-      return (1 / properties.density) * lanes.sum(force) - particle.carried * particle.surface;
+      return (1 / properties.density) * lanes.sum(force);
     }
 
     /// F, R and T at the present places.
@@ -289,6 +279,14 @@ namespace undine::particles
              properties.density;
     }
 
+    /// U'(det F) of a particle [Pa], after deform().
+    UNDINE_HOST_DEVICE
+    Real
+    volume_tension(const int i) const
+    {
+      return volume_law(material(i)).tension(determinant(bodies.deformations[i]));
+    }
+
     /// Density of elastic energy at a particle [J/m^dim], after deform() of all.
     UNDINE_HOST_DEVICE
     Real
@@ -375,28 +373,25 @@ namespace undine::particles
     }
 
     /// Of first Piola and Kirchhoff, P = 2 mu (F - R) + U'(det F) cof(F) [Pa] (P9), with bulk
-    /// viscosity and what the carried pressure adds because it acts on the surface and not at
-    /// centres of particles (P10).
+    /// viscosity and with the pressure that the body carries (P10).
     UNDINE_HOST_DEVICE
     Matrix<dim, Real>
     stress(const ElasticMaterial<Real> &properties,
            const Matrix<dim, Real>     &F,
            const Matrix<dim, Real>     &R,
            const Matrix<dim, Real>     &F_rate,
-           const Real                   carried,
-           const Matrix<dim, Real>     &surface) const
+           const Real                   carried) const
     {
       const Real bulk_viscosity =
         is_damped ? properties.bulk_damping * sound_impedance(properties) * spacing : Real(0);
       const auto C    = cofactors(F); // dJ/dF
-      const Real pull = volume_law(properties).tension(determinant(F)) +
+      const Real pull = volume_law(properties).tension(determinant(F)) + carried +
                         bulk_viscosity * double_contraction(C, F_rate) /
                           maximum(Real(1), double_contraction(C, C) / dim);
       Matrix<dim, Real> result;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
-          result[a][b] =
-            2 * properties.mu * (F[a][b] - R[a][b]) + pull * C[a][b] + carried * surface[a][b];
+          result[a][b] = 2 * properties.mu * (F[a][b] - R[a][b]) + pull * C[a][b];
       return result;
     }
   };

@@ -59,11 +59,6 @@ namespace undine::particles
     Traction<dim, Real>     *tractions;
 
     const Real *carried; ///< of the bodies: mean pressure around them that elasticity carries [Pa]
-
-    /// Of the particle's surface that does not touch its own body: its faces over rho V [m^2/kg in
-    /// space], and their first moments about the centre over V [1].
-    const Vector<dim, Real> *surfaces;
-    const Matrix<dim, Real> *surface_moments;
   };
 } // namespace undine::particles
 

@@ -170,7 +170,8 @@ namespace undine::particles
     /// Elasticity takes over the mean pressure of each body little by little: at once, bodies would
     /// swing with their own sound. What it carries beyond twice the pressure is given back
     /// `release` times as fast: after an impact it would squeeze on, and nothing would do that
-    /// work.
+    /// work. Nor is it more than what bears it already, U'(J), and the shear modulus: beyond that
+    /// the surface of a body that has not been compressed so far folds.
     template <class Team>
     UNDINE_HOST_DEVICE
     void
@@ -178,18 +179,22 @@ namespace undine::particles
     {
       if (purpose != ElasticRun::final || !(carry_share > 0))
         return;
-      for_each_body_sum<2>(
+      for_each_body_sum<3>(
         team,
         elasticity.bodies,
-        [&](const int i, Sums<2> &add) {
+        [&](const int i, Sums<3> &add) {
           add[0] += motions[contact.where[i]].pressure + pressure_at_rest(i);
-          add[1] += 1;
+          add[1] -= elasticity.volume_tension(i);
+          add[2] += 1;
         },
-        [&](const int body, const Sums<2> &sums) {
-          const Real pressure = static_cast<Real>(sums[0] / sums[1]);
+        [&](const int body, const Sums<3> &sums) {
+          const Real pressure = static_cast<Real>(sums[0] / sums[2]);
+          const Real borne    = static_cast<Real>(sums[1] / sums[2]);
           const Real gone     = maximum(Real(0), carried[body] - 2 * pressure);
           carried[body] += carry_share * (pressure - carried[body]) -
                            minimum(release * carry_share, Real(1)) * gone;
+          carried[body] =
+            minimum(carried[body], maximum(Real(0), borne) + elasticity.bodies.materials[body].mu);
         });
     }
 

@@ -295,8 +295,6 @@ namespace undine::particles
                                                   equation.gaps.data(),
                                                   equation.vectors.data(),
                                                   bodies.accelerations.data(),
-                                                  bodies.surfaces.data(),
-                                                  bodies.surface_moments.data(),
                                                   control.data()});
       if (constants.is_full)
         executor.for_each(n,

@@ -19,8 +19,6 @@ namespace undine::particles
   {
     f(bodies.rotations);
     f(bodies.carried);
-    f(bodies.surfaces);
-    f(bodies.surface_moments);
   }
 
   /// The numbers in an array of numbers, vectors or matrices.
@@ -142,8 +140,6 @@ namespace undine::particles
       , points(executor, n_solid)
       , rotations(executor, n_solid)
       , carried(executor, n_bodies)
-      , surfaces(executor, n_solid)
-      , surface_moments(executor, n_solid)
     {
     }
 
@@ -155,8 +151,6 @@ namespace undine::particles
       copy(points, bodies.points);
       copy(rotations, bodies.rotations);
       copy(carried, bodies.carried);
-      copy(surfaces, bodies.surfaces);
-      copy(surface_moments, bodies.surface_moments);
     }
 
     void
@@ -167,8 +161,6 @@ namespace undine::particles
       copy(bodies.points, points);
       copy(bodies.rotations, rotations);
       copy(bodies.carried, carried);
-      copy(bodies.surfaces, surfaces);
-      copy(bodies.surface_moments, surface_moments);
     }
 
   private:
@@ -194,8 +186,6 @@ namespace undine::particles
     Buffer<Executor, ElasticPoint<dim, Real>> points;
     Buffer<Executor, Matrix<dim, Real>>       rotations;
     Buffer<Executor, Real>                    carried;
-    Buffer<Executor, Vector<dim, Real>>       surfaces;
-    Buffer<Executor, Matrix<dim, Real>>       surface_moments;
   };
 } // namespace undine::particles
 

@@ -85,9 +85,7 @@ namespace undine::particles
     Motion<dim, Real>             *new_motions;
     const StoredVector<dim, Real> *gaps; ///< of AssemblePressure
     StoredVector<dim, Real> *shifts; ///< receives those towards even spacing, for LocalShift [m]
-    Vector<dim, Real>       *solid_accelerations;   ///< by identity [m/s^2]
-    Vector<dim, Real>       *solid_surfaces;        ///< of ElasticBodies
-    Matrix<dim, Real>       *solid_surface_moments; ///< of ElasticBodies
+    Vector<dim, Real>       *solid_accelerations; ///< by identity [m/s^2]
     StepControl             *control;
 
     UNDINE_HOST_DEVICE
@@ -102,11 +100,8 @@ namespace undine::particles
         place.x += (1 - constants.pressure_place) * static_cast<Real>(control->dt) * motion.v;
       else if (!control->done() && place.tag.kind() == Kind::solid)
         {
-          const int      identity         = identities[i];
-          const SolidSum sum              = this->sum<SolidSum>(i, place.tag, motion.pressure);
-          solid_accelerations[identity]   = sum.acceleration;
-          solid_surfaces[identity]        = sum.surface;
-          solid_surface_moments[identity] = sum.surface_moment;
+          solid_accelerations[identities[i]] =
+            sum<SolidSum>(i, place.tag, motion.pressure).acceleration;
         }
       new_places[i]  = place;
       new_motions[i] = motion;
@@ -120,8 +115,6 @@ namespace undine::particles
       Vector<dim, Real>      area;        ///< [1/m]
       Vector<dim, Real>      by_pressure; ///< acceleration [m/s^2]
       Vector<dim, Real>      force;       ///< body force at its middle [m/s^2]
-      Real                   density;     ///< of the particle [kg/m^3]
-      bool                   is_within;   ///< a body
     };
 
     /// Over the neighbours of a particle of the fluid.
@@ -163,10 +156,6 @@ namespace undine::particles
     {
       Vector<dim, Real> acceleration = Vector<dim, Real>::zero(); ///< [m/s^2]
 
-      /// What the faces within the body leave open, for ElasticBodies.
-      Vector<dim, Real> surface        = Vector<dim, Real>::zero();
-      Matrix<dim, Real> surface_moment = Matrix<dim, Real>::diagonal(1);
-
       UNDINE_HOST_DEVICE
       void
       add(const Pair<dim, Real> &, const Vector<dim, Real> &, Real)
@@ -178,10 +167,6 @@ namespace undine::particles
       add(const Face &face)
       {
         acceleration += face.by_pressure;
-        if (!face.is_within)
-          return;
-        surface -= (2 / face.density) * face.area;
-        surface_moment.add_outer_product(Real(-1), face.area, face.pair.r);
       }
     };
 
@@ -223,9 +208,7 @@ namespace undine::particles
           sum.add(Face{pair,
                        face,
                        (-value / density) * face,
-                       constants.fluid_acceleration(x + Real(0.5) * pair.r),
-                       density,
-                       tag.kind() == Kind::solid && pair.tag.code == tag.code});
+                       constants.fluid_acceleration(x + Real(0.5) * pair.r)});
         });
       return sum;
     }
