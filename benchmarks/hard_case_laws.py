@@ -184,10 +184,11 @@ def lost(name):
 
 
 def gained_energy(run):
-    """Of fluid and bodies, the most that there was above the start, over their potential energy then."""
+    """Of fluid and bodies, the most that there was above the start, over their potential energy then (in a full box that of
+    what bodies are heavier or lighter than the fluid in their place)."""
     total = sum(column(run, name) for name in ("Kinetic energy of fluid", "Kinetic energy of bodies", "Potential energy",
                                                "Elastic energy"))
-    return float((total - total[0]).max() / column(run, "Potential energy")[0])
+    return float((total - total[0]).max() / abs(column(run, "Potential energy")[0]))
 
 
 def fallen(density, added, until):
@@ -328,7 +329,7 @@ SCENES = {
     "heavy_body_dropped_particles": Hard(Law("way / free fall", fallen(1e3, 0, 0.2), 1, 0.05), "", scheme="particle"),
     "light_body_rises_particles": Hard(Law(FLOATS, off_its_depth(0.1, 0.1, 0.02, 0.8, begin=1), 0, 0.1), "", scheme="particle"),
     "light_body_full_box_particles": Hard(Law(ADDED_MASS, fallen(0.1, added_in_box(0.1, 0.6), 2 / 15), 1, 0.1), "",
-                                          scheme="particle", above=0.01, short=0.1),
+                                          scheme="particle", above=0.03, short=0.1),
     "heavy_body_full_box_particles": Hard(Law(ADDED_MASS, fallen(1e3, added_in_box(0.1, 0.6), 2 / 15), 1, 0.05), "",
                                           scheme="particle"),
     "heavy_body_full_box_particles_3d": Hard(Law(ADDED_MASS, fallen(1e3, added_in_cube(0.07, 0.28), 0.1), 1, 0.05), "",

@@ -255,10 +255,11 @@ namespace undine
 
 
     void
-    print_remarks(const Options &options, Log &log)
+    print_remarks(const Options &options, const std::vector<std::string> &notes, Log &log)
     {
-      for (const auto &remark : options.file().remarks())
-        log.print("note: {}", remark);
+      for (const auto &remarks : {options.file().remarks(), notes})
+        for (const auto &remark : remarks)
+          log.print("note: {}", remark);
     }
 
 
@@ -352,8 +353,7 @@ namespace undine
     validate(const Options &options, const Request &request, MPI_Comm communicator)
     {
       Log log(communicator);
-      check_sections<dim>(options); // mistakes first
-      print_remarks(options, log);
+      print_remarks(options, check_sections<dim>(options), log); // mistakes first
       const auto  size   = SizeCheck::of<dim>(options, communicator);
       std::string checks = "no mistakes found";
       if (size.may_be_too_large())
@@ -377,8 +377,8 @@ namespace undine
     {
       TimingTree timing;
       Log        log(communicator);
-      check_sections<dim>(options); // mistakes first
-      const auto size = SizeCheck::of<dim>(options, communicator);
+      const auto notes = check_sections<dim>(options); // mistakes first
+      const auto size  = SizeCheck::of<dim>(options, communicator);
       size.refuse_what_is_too_large();
       auto scene = read_scene<dim>(options, communicator);
 
@@ -387,7 +387,7 @@ namespace undine
       if (request.action != Request::Action::resume || scene.directory != request.directory)
         assert_replaceable(folder, request, communicator);
       print_header(log, scene, options, communicator);
-      print_remarks(options, log);
+      print_remarks(options, notes, log);
       size.print(log, scene.directory);
       State<dim>   state;
       const Report first =

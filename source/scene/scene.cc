@@ -222,7 +222,7 @@ namespace undine
 
 
   template <int dim>
-  void
+  std::vector<std::string>
   check_sections(const Options &options)
   {
     const auto scene = read_without_models<dim>(options);
@@ -238,7 +238,9 @@ namespace undine
       options.mistake(options.error("",
                                     "the scene has neither a fluid nor a body",
                                     "Try: add a subsection 'Fluid' or a subsection 'Bodies'."));
-    if (scene.scheme->method() == Scheme<dim>::Method::particles)
+    const bool has_particles = scene.scheme->method() == Scheme<dim>::Method::particles;
+    auto       notes         = skip_numbers_of_other_methods(options, has_particles);
+    if (has_particles)
       {
         refuse_keys_of_other_schemes(options);
         attempt(ParticleModel<dim>::declare,
@@ -246,10 +248,6 @@ namespace undine
       }
     else
       {
-        if (given("Particles"))
-          refuse("Particles",
-                 "is a section of the scheme 'particle' only",
-                 "Remove it, or set 'Scheme = particle'.");
         if (given("Bodies"))
           attempt(SolidModel<dim>::declare, {"Bodies", "Solid numerics"});
         if (given("Fluid"))
@@ -266,6 +264,7 @@ namespace undine
       }
     options.assert_all_used(all_sections<dim>());
     options.throw_mistakes();
+    return notes;
   }
 
 
@@ -316,9 +315,9 @@ namespace undine
   }
 
 
-  template void
+  template std::vector<std::string>
   check_sections<2>(const Options &);
-  template void
+  template std::vector<std::string>
   check_sections<3>(const Options &);
   template Scene<2>
   read_scene(const Options &, MPI_Comm);

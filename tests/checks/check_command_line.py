@@ -73,6 +73,19 @@ def check_new_scenes(program):
             expect(f"'new {arguments}' must be refused", result.returncode == 1 and word in result.stderr, result)
 
 
+def check_numbers_of_other_methods(program, scene):
+    """Are not read, with a note that says so; what only another method can do is refused."""
+    particles = os.path.join(scene_tools.ROOT, "prm", "hydrostatic_particles.prm")
+    for file, setting, word in ((scene, "Particles/Spacing=0.1", "section 'Particles'"),
+                                (particles, "Domain/Cells=8, 8", "section 'Domain', key 'Cells'"),
+                                (particles, "Solid numerics/Element degree=2", "section 'Solid numerics'")):
+        result = call(program, file, "--validate", "--set", setting)
+        expect(f"{setting} must be noted as not read", result.returncode == 0 and "note: " in result.stdout and
+               f"{word}: is not read" in result.stdout, result)
+    result = call(program, particles, "--validate", "--set", "Output/Budget=true")
+    expect("a ledger of particles must be refused", result.returncode == 2 and "'Budget'" in result.stderr, result)
+
+
 def check_output(program, scene):
     with tempfile.TemporaryDirectory() as folder:
         results = os.path.join(folder, "new", "results")
@@ -101,6 +114,7 @@ def main():
     program, scene = sys.argv[1:3]
     check_questions(program, scene)
     check_reference_of_sections(program)
+    check_numbers_of_other_methods(program, scene)
     check_new_scenes(program)
     check_output(program, scene)
     print("the command line does what doc/running.md says")

@@ -35,10 +35,11 @@ namespace undine
   unsigned int
   read_dimension(const Options &options);
 
-  /// Read every section for its mistakes; nothing that takes time or memory is built. Throws
-  /// InputError with all of them (Options::collecting()), or the first.
+  /// Read every section for its mistakes; nothing that takes time or memory is built. Returns notes
+  /// about what is not read. Throws InputError with all mistakes (Options::collecting()), or the
+  /// first.
   template <int dim>
-  void
+  std::vector<std::string>
   check_sections(const Options &options);
 
   /// Read and check the whole parameter file and build the models. Collective. Throws InputError.

@@ -287,6 +287,15 @@ namespace undine::particles
       return volume_law(material(i)).tension(determinant(bodies.deformations[i]));
     }
 
+    /// Of a small change of the volume of what a particle belongs to [1/Pa].
+    UNDINE_HOST_DEVICE
+    Real
+    compressibility(const int i) const
+    {
+      const auto &properties = material(i);
+      return 1 / (properties.lambda + 2 * properties.mu / dim);
+    }
+
     /// Density of elastic energy at a particle [J/m^dim], after deform() of all.
     UNDINE_HOST_DEVICE
     Real

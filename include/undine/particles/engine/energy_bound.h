@@ -28,7 +28,7 @@ namespace undine::particles
   private:
     /// Of the energy in motion and deformation, and of the weight times a spacing: what a frame
     /// without sources may gain [1].
-    static constexpr double share = 0.25;
+    static constexpr double share = 0.05;
 
     double mass         = 0; ///< of all that moves [kg, in the plane per m]
     double gravity      = 0; ///< largest body force per mass [m/s^2]

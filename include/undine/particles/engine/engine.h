@@ -23,7 +23,7 @@ namespace undine::particles
   struct Balance
   {
     double              kinetic_fluid = 0, kinetic_solid = 0; ///< [J]
-    double              potential       = 0;                  ///< of gravity [J]
+    double              potential       = 0;                  ///< of MeasureBalance [J]
     double              elastic         = 0;                  ///< [J]
     int                 fluid_in_bodies = 0; ///< particles of the fluid that have entered a body
     Vector<dim, double> momentum = Vector<dim, double>::zero(); ///< of fluid and bodies [kg m/s]

@@ -33,7 +33,9 @@ namespace undine::particles
 
 
   /// Kinetic energies of fluid and bodies [J], potential energy [J] and momentum [kg m/s], all in
-  /// the plane per m of thickness.
+  /// the plane per m of thickness. In a full domain the potential energy is that of what bodies are
+  /// heavier or lighter than the fluid in their place, as their body force is (P11): of the fluid
+  /// nothing rises or sinks.
   template <int dim, class Real>
   struct MeasureBalance
   {
@@ -61,7 +63,9 @@ namespace undine::particles
             sums[3 + axis] += mass * v[axis];
           }
         sums[place.tag.kind() == Kind::fluid ? 0 : 1] += mass * square / 2;
-        sums[2] += mass * constants.force.potential(place.x);
+        const double displaced =
+          static_cast<double>(constants.displaced_density) * constants.volume;
+        sums[2] += (mass - displaced) * constants.force.potential(place.x);
       });
       if (team.is_first())
         *result = sums;
