@@ -36,37 +36,84 @@ namespace undine::particles
   }
 
 
+  namespace
+  {
+    /// Kinetic and elastic energy [J].
+    template <int dim>
+    double
+    in_motion(const Balance<dim> &balance)
+    {
+      return balance.kinetic_fluid + balance.kinetic_solid + balance.elastic;
+    }
+
+
+    template <int dim>
+    double
+    total(const Balance<dim> &balance)
+    {
+      return in_motion(balance) + balance.potential;
+    }
+
+
+    std::string
+    reason(const double gain, const std::string &since, const double had)
+    {
+      std::ostringstream text;
+      text << "the energy of fluid and bodies grew by " << gain << " J " << since << had
+           << " J in motion and deformation; sources of that much are not known. A body is softer "
+              "than what hits or presses on it, or sub-steps are too long. Try a stiffer body "
+              "(Young's modulus above rho v^2 and rho g H), a smaller 'Speed share', or smaller "
+              "particles.";
+      return text.str();
+    }
+  } // namespace
+
+
+  template <int dim>
+  bool
+  EnergyBound<dim>::has_sources() const
+  {
+    return wall_speed > 0 || flows_in;
+  }
+
+
+  template <int dim>
+  void
+  EnergyBound<dim>::accept(const Balance<dim> &before, const Balance<dim> &after)
+  {
+    if (has_sources() || after.mass < before.mass)
+      at_start.reset();
+    else if (!at_start)
+      at_start = total(before);
+  }
+
+
   template <int dim>
   std::string
   EnergyBound<dim>::reason_of_excess(const Balance<dim> &before,
                                      const Balance<dim> &after,
                                      const double        length) const
   {
-    const auto in_motion = [](const Balance<dim> &balance) {
-      return balance.kinetic_fluid + balance.kinetic_solid + balance.elastic;
+    const double had = in_motion(before), weight = mass * gravity;
+    const auto   in_frame = [&](const double gain, const double may_gain) {
+      return gain > may_gain ? reason(gain, "in a frame that began with ", had) : "";
     };
-    const double speed     = std::max(wall_speed, inflow_speed);
-    const double had       = in_motion(before);
-    double       gain      = in_motion(after) + after.potential - had - before.potential;
-    double       may_gain  = share * (had + mass * gravity * spacing);
-    const bool   is_driven = wall_speed > 0 || flows_in;
-    if (is_driven)
+    if (has_sources())
       {
-        gain     = in_motion(after) - had;
-        may_gain = 10 * had + (mass + (flows_in ? source_mass : 0)) *
-                                (speed * speed + gravity * (height + speed * length));
+        const double speed = std::max(wall_speed, inflow_speed);
+        return in_frame(in_motion(after) - had,
+                        10 * had + (mass + (flows_in ? source_mass : 0)) *
+                                     (speed * speed + gravity * (height + speed * length)));
       }
-    if (gain <= may_gain || !(gravity > 0 || had > 0 || is_driven))
+    if (!(gravity > 0 || had > 0))
       return "";
-    std::ostringstream text;
-    text
-      << "the energy of fluid and bodies grew by " << gain << " J in a frame that began with "
-      << had
-      << " J in motion and deformation; sources of that much are not known. A body is softer than "
-         "what hits or presses on it, or sub-steps are too long. Try a stiffer body "
-         "(Young's modulus above rho v^2 and rho g H), a smaller 'Speed share', or smaller "
-         "particles.";
-    return text.str();
+    const auto because = in_frame(total(after) - total(before), share * (had + weight * spacing));
+    if (!because.empty() || after.mass < before.mass || !at_start)
+      return because;
+    const double gain = total(after) - *at_start, has = in_motion(after);
+    return gain > share_of_motion * has + share_of_weight * weight * spacing
+             ? reason(gain, "since the start, in a frame that ended with ", has)
+             : "";
   }
 
 

@@ -111,6 +111,24 @@ TEST_CASE("Energy out of nothing is refused", "[particles]")
     after.kinetic_solid = 2 * before.kinetic_fluid;
     CHECK_THAT(bound.reason_of_excess(before, after, .01), Catch::Contains("144 J"));
   }
+  SECTION("nor little by little")
+  {
+    EnergyBound<2> bound(scene.setup, scene.state);
+    bound.accept(before, before);
+    after.kinetic_solid = 10;
+    CHECK(bound.reason_of_excess(before, after, .01).empty());
+    bound.accept(before, after);
+    auto later = after;
+    later.kinetic_solid += 10;
+    CHECK_THAT(bound.reason_of_excess(after, later, .01),
+               Catch::Contains("20 J since the start") && Catch::Contains("92 J in motion"));
+    later.mass = -1; // something has left the domain, whatever potential energy it had
+    CHECK(bound.reason_of_excess(after, later, .01).empty());
+    bound.accept(after, later);
+    later.kinetic_solid += 10;
+    auto now = later;
+    CHECK(bound.reason_of_excess(later, now, .01).empty());
+  }
   SECTION("walls that move do work, but not without bounds")
   {
     EnergyBound<2> bound(scene.setup, scene.state);

@@ -24,6 +24,7 @@ namespace undine::particles
   {
     double              kinetic_fluid = 0, kinetic_solid = 0; ///< [J]
     double              potential       = 0;                  ///< of MeasureBalance [J]
+    double              mass            = 0;                  ///< of all that moves [kg]
     double              elastic         = 0;                  ///< [J]
     int                 fluid_in_bodies = 0; ///< particles of the fluid that have entered a body
     Vector<dim, double> momentum = Vector<dim, double>::zero(); ///< of fluid and bodies [kg m/s]

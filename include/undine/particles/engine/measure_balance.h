@@ -32,14 +32,14 @@ namespace undine::particles
   };
 
 
-  /// Kinetic energies of fluid and bodies [J], potential energy [J] and momentum [kg m/s], all in
-  /// the plane per m of thickness. In a full domain the potential energy is that of what bodies are
-  /// heavier or lighter than the fluid in their place, as their body force is (P11): of the fluid
-  /// nothing rises or sinks.
+  /// Kinetic energies of fluid and bodies [J], potential energy [J], momentum [kg m/s] and mass
+  /// [kg], all in the plane per m of thickness. In a full domain the potential energy is that of
+  /// what bodies are heavier or lighter than the fluid in their place, as their body force is
+  /// (P11): of the fluid nothing rises or sinks.
   template <int dim, class Real>
   struct MeasureBalance
   {
-    static constexpr int count = 3 + dim;
+    static constexpr int count = 4 + dim;
 
     Constants<dim, Real> constants;
     Particles<dim, Real> particles;
@@ -66,6 +66,7 @@ namespace undine::particles
         const double displaced =
           static_cast<double>(constants.displaced_density) * constants.volume;
         sums[2] += (mass - displaced) * constants.force.potential(place.x);
+        sums[3 + dim] += mass;
       });
       if (team.is_first())
         *result = sums;
@@ -145,6 +146,7 @@ namespace undine::particles
       result.kinetic_fluid = sums[0];
       result.kinetic_solid = sums[1];
       result.potential     = sums[2];
+      result.mass          = sums[3 + dim];
       for (int axis = 0; axis < dim; ++axis)
         result.momentum[axis] = sums[3 + axis];
       Elasticity<dim, Real> elasticity{constants.grid, constants.spacing, constants.reach, bodies};

@@ -70,6 +70,7 @@ namespace undine::particles
                                         : energy_bound.reason_of_excess(before, balance(), length);
           if (reason.empty())
             {
+              energy_bound.accept(before, balance());
               paths.clear();
               return control;
             }
