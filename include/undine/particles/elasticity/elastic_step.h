@@ -180,18 +180,20 @@ namespace undine::particles
       if (purpose != ElasticRun::final || !(carry_share > 0))
         return;
       const Real level = is_in_full_domain() ? common_level(team) : Real(0);
-      for_each_body_sum<3>(
+      for_each_body_sum<4>(
         team,
         elasticity.bodies,
-        [&](const int i, Sums<3> &add) {
-          add[0] += pressure(i);
-          add[1] -= elasticity.volume_tension(i);
-          add[2] += 1;
+        [&](const int i, Sums<4> &add) {
+          add[0] += motions[contact.where[i]].pressure;
+          add[1] += pressure_at_rest(i);
+          add[2] -= elasticity.volume_tension(i);
+          add[3] += 1;
         },
-        [&](const int body, const Sums<3> &sums) {
-          const Real pressure = static_cast<Real>(sums[0] / sums[2]) - level;
-          const Real borne    = static_cast<Real>(sums[1] / sums[2]);
-          const Real gone     = maximum(Real(0), carried[body] - maximum(pressure, 2 * pressure));
+        [&](const int body, const Sums<4> &sums) {
+          const Real pressure = maximum(Real(0), static_cast<Real>(sums[0] / sums[3])) +
+                                static_cast<Real>(sums[1] / sums[3]) - level;
+          const Real borne = static_cast<Real>(sums[2] / sums[3]);
+          const Real gone  = maximum(Real(0), carried[body] - maximum(pressure, 2 * pressure));
           carried[body] += carry_share * (pressure - carried[body]) -
                            minimum(release * carry_share, Real(1)) * gone;
           carried[body] =
@@ -200,13 +202,12 @@ namespace undine::particles
     }
 
   private:
-    /// With what pressures lack in a full domain (P11) [Pa].
+    /// What pressures lack in a full domain (P11) [Pa].
     UNDINE_HOST_DEVICE
     Real
-    pressure(const int i) const
+    pressure_at_rest(const int i) const
     {
-      const Real height = top_potential - force.potential(elasticity.bodies.points[i].x);
-      return motions[contact.where[i]].pressure + displaced_density * height;
+      return displaced_density * (top_potential - force.potential(elasticity.bodies.points[i].x));
     }
 
     UNDINE_HOST_DEVICE
@@ -216,8 +217,9 @@ namespace undine::particles
       return displaced_density > 0;
     }
 
-    /// Of the pressure in a full domain, where it is known up to a constant: that at which bodies
-    /// together keep their volume, as the fluid around them leaves no room and takes none [Pa].
+    /// Of the pressure at rest in a full domain, where it is known up to a constant: that at which
+    /// bodies together keep their volume, as the fluid around them leaves no room and takes none;
+    /// what motion adds to it is zero in the mean of the fluid (P12) [Pa].
     template <class Team>
     UNDINE_HOST_DEVICE
     Real
@@ -225,7 +227,7 @@ namespace undine::particles
     {
       const auto sums = team.template sum<2>(elasticity.bodies.n, [&](const int i, Sums<2> &add) {
         const Real softness = elasticity.compressibility(i);
-        add[0] += softness * pressure(i);
+        add[0] += softness * pressure_at_rest(i);
         add[1] += softness;
       });
       return static_cast<Real>(sums[0] / sums[1]);
