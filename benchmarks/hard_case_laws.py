@@ -329,7 +329,7 @@ SCENES = {
     "heavy_body_dropped_particles": Hard(Law("way / free fall", fallen(1e3, 0, 0.2), 1, 0.05), "", scheme="particle"),
     "light_body_rises_particles": Hard(Law(FLOATS, off_its_depth(0.1, 0.1, 0.02, 0.8, begin=1), 0, 0.1), "", scheme="particle"),
     "light_body_full_box_particles": Hard(Law(ADDED_MASS, fallen(0.1, added_in_box(0.1, 0.6), 2 / 15), 1, 0.1), "",
-                                          scheme="particle", above=0.03, short=0.1),
+                                          scheme="particle", above=0.05, short=0.1),
     "heavy_body_full_box_particles": Hard(Law(ADDED_MASS, fallen(1e3, added_in_box(0.1, 0.6), 2 / 15), 1, 0.05), "",
                                           scheme="particle"),
     "heavy_body_full_box_particles_3d": Hard(Law(ADDED_MASS, fallen(1e3, added_in_cube(0.07, 0.28), 0.1), 1, 0.05), "",
