@@ -13,7 +13,6 @@ GAIN = 0.01  # of the largest work put in, that the energy may have above the wo
 REDONE = 0.01  # of the steps
 MOTION = 0.05  # of the largest displacement, from that in finer steps
 LOSS = 0.05  # of the energy lost in a period in finer steps
-NO_LOSS = 5e-3  # of the largest work: losses in a period that differ by less are those of the grid, which falls with its cells
 FINER = 16
 RESOLVED = 0.3  # omega h, up to which runs are compared with those in finer steps
 
@@ -197,7 +196,7 @@ def compare(finding, run, program, case, scene, finer):
     finding.figures.update({f"motion off h/{finer}": difference, "lost in a period": losses[0],
                             f"lost with h/{finer}": losses[1]})
     finding.need(difference <= MOTION, f"motion is not that with h/{finer}")
-    finding.need(abs(losses[0] - losses[1]) <= max(LOSS * abs(losses[1]), NO_LOSS), f"the energy lost is not that with h/{finer}")
+    finding.need(abs(losses[0] - losses[1]) <= LOSS * abs(losses[1]), f"the energy lost is not that with h/{finer}")
 
 
 def point(case, end, cells, finer):
