@@ -22,14 +22,11 @@ namespace undine
     class Cubes
     {
     public:
-      Cubes(const ParticleDomain<dim> &domain, const ParticleFluid<dim> &fluid)
+      explicit Cubes(const ParticleDomain<dim> &domain)
         : domain(domain)
       {
         for (unsigned int side = 0; side < 2 * dim; ++side)
           is_open[side] = domain.sides[side] == ParticleSide::open;
-        for (const auto &opening : fluid.openings)
-          for (const auto &side : opening.sides)
-            is_open[side.number()] = true;
       }
 
       /// f(number) for the neighbours of a cube. Returns whether it is at a side that is open.
@@ -93,7 +90,7 @@ namespace undine
                        : cube == Cube::body ? State::body
                                             : State::empty);
     });
-    const Cubes<dim>         cubes(domain, fluid);
+    const Cubes<dim>         cubes(domain);
     std::vector<std::size_t> found;
     for (std::size_t start = 0; start < states.size(); ++start)
       {

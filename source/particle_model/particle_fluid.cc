@@ -94,6 +94,14 @@ namespace undine
 
 
   template <int dim>
+  bool
+  ParticleFluid<dim>::may_have_surface() const
+  {
+    return options.given("Region") || !shapes.empty() || options.section("Void regions").given();
+  }
+
+
+  template <int dim>
   void
   ParticleFluid<dim>::fill(const ParticleDomain<dim>                             &domain,
                            const std::function<bool(const dealii::Point<dim> &)> &taken)

@@ -98,6 +98,8 @@ namespace undine
     std::optional<ParticleFluid<dim>> fluid;
     if (scene.section("Fluid").given())
       fluid.emplace(scene);
+    if (fluid && fluid->may_have_surface())
+      open_to_air(fluid->openings, box);
     auto obstacles = read_particle_obstacles(scene, box);
     moving         = std::move(obstacles.moving);
 
@@ -117,13 +119,13 @@ namespace undine
 
     place_bodies(bodies, obstacles);
     add_moving_walls(bodies);
-    auto                             walls = box.wall_particles();
-    std::vector<InflowParticle<dim>> inflow;
+    auto                            walls = box.wall_particles();
+    std::vector<LayerParticle<dim>> layers;
     if (fluid)
-      inflow = open_walls(walls, fluid->openings, box);
+      layers = open_walls(walls, fluid->openings, box);
     place_walls(walls, bodies, obstacles);
     if (fluid)
-      add_fluid(*fluid, inflow, obstacles);
+      add_fluid(*fluid, layers, obstacles);
     add_walls(walls);
   }
 
@@ -291,11 +293,11 @@ namespace undine
 
   template <int dim>
   void
-  ParticleModel<dim>::check_inflow(const ParticleFluid<dim>               &fluid,
-                                   const std::vector<InflowParticle<dim>> &inflow,
-                                   const ParticleObstacles<dim>           &obstacles) const
+  ParticleModel<dim>::check_layers(const ParticleFluid<dim>              &fluid,
+                                   const std::vector<LayerParticle<dim>> &layers,
+                                   const ParticleObstacles<dim>          &obstacles) const
   {
-    for (const auto &particle : inflow)
+    for (const auto &particle : layers)
       {
         const auto boundaries = fluid.options.section("Boundaries");
         const auto place      = "(" + write_value(particle.place) + ")";
@@ -303,7 +305,7 @@ namespace undine
           if (k < constants.reference.size())
             throw boundaries.error("",
                                    "the body '" + names[constants.body_of[k]] +
-                                     "' stands in an inflow at " + place,
+                                     "' stands in an inflow or opening at " + place,
                                    "Try: move it away by a spacing.");
         });
         auto next = particle.place; // where it flows
@@ -311,8 +313,8 @@ namespace undine
           next += (particle.layer + 1) * box.spacing * particle.velocity / particle.velocity.norm();
         if (obstacles.contain(next))
           throw boundaries.error("",
-                                 "an obstacle closes an inflow at " + place,
-                                 "Try: move it away, or another 'Region' of the inflow.");
+                                 "an obstacle closes an inflow or opening at " + place,
+                                 "Try: move it away, or another 'Region' of the opening.");
       }
   }
 
@@ -370,6 +372,12 @@ namespace undine
         "Allowed: only with 'Particles / Pressure / Pair force = balanced' and 'Coupling = "
         "simultaneous'. Try: them, or leave a layer of a spacing without fluid.");
     constants.is_full = true;
+    // What starts or stops all the fluid at once are large pressures, which any opening of faces
+    // turns into velocities.
+    constexpr double closed_faces = 1e-3;
+    if (!fluid.openings.empty() || !moving.empty())
+      constants.numerics.faces_tolerance =
+        std::min(constants.numerics.faces_tolerance, closed_faces);
     std::vector<dealii::Point<dim>> corners;
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {
@@ -398,42 +406,49 @@ namespace undine
 
   template <int dim>
   void
-  ParticleModel<dim>::add_fluid(ParticleFluid<dim>                     &fluid,
-                                const std::vector<InflowParticle<dim>> &inflow,
-                                const ParticleObstacles<dim>           &obstacles)
+  ParticleModel<dim>::add_fluid(ParticleFluid<dim>             &fluid,
+                                std::vector<LayerParticle<dim>> layers,
+                                const ParticleObstacles<dim>   &obstacles)
   {
     using particles::Kind;
     using particles::Tag;
-    check_inflow(fluid, inflow, obstacles);
     const auto taken = [&](const dealii::Point<dim> &place) {
       return occupied.any_near(place, apart * box.spacing) || obstacles.contain(place);
     };
     fluid.fill(box, taken);
     check_room(fluid, taken);
     auto places = fluid.places;
-    for (const auto &particle : inflow)
+    for (const auto &particle : layers)
       places.push_back(particle.place);
     constants.top_potential = largest_potential(places);
     find_surface(fluid, obstacles);
+    if (!constants.is_full) // else it goes on behind all openings
+      layers.erase(std::remove_if(layers.begin(),
+                                  layers.end(),
+                                  [](const auto &particle) { return !particle.is_inflow; }),
+                   layers.end());
+    check_layers(fluid, layers, obstacles);
     dealii::Tensor<1, dim> gravity;
     for (unsigned int axis = 0; axis < dim; ++axis)
       gravity[axis] = constants.gravity[axis];
     constants.depth      = fluid.depth(gravity, box.spacing);
-    constants.open_sides = open_sides(fluid.openings, box);
+    constants.open_sides = open_sides(fluid.openings, box, constants.is_full);
     n_fluid              = fluid.places.size();
     n_openings           = fluid.openings.size();
-    n_inflow             = inflow.size();
+    n_layers             = layers.size();
     for (std::size_t k = 0; k < n_fluid; ++k)
       add(fluid.places[k], fluid.velocities[k], Tag::of(Kind::fluid, 0));
     double fastest = 0;
-    for (const auto &particle : inflow)
+    for (const auto &particle : layers)
       {
+        const bool has_pressure = particle.layer == 0 || !particle.is_inflow;
         add(particle.place,
             particle.velocity,
-            Tag::of(particle.layer == 0 ? Kind::wall : Kind::dummy, particles::inflow_material));
+            Tag::of(has_pressure ? Kind::wall : Kind::dummy,
+                    particle.is_inflow ? particles::inflow_material : particles::opening_material));
         fastest = std::max(fastest, particle.velocity.norm());
       }
-    if (inflow.empty())
+    if (fastest == 0)
       return;
     // What flows in may fill the box, and is faster than what sub-steps are chosen by.
     if (gravity.norm() > 0)
@@ -477,7 +492,7 @@ namespace undine
   std::size_t
   ParticleModel<dim>::n_particles() const
   {
-    return n_fluid + constants.reference.size() + n_wall + constants.n_moving + n_inflow;
+    return n_fluid + constants.reference.size() + n_wall + constants.n_moving + n_layers;
   }
 
 
@@ -491,7 +506,7 @@ namespace undine
                        names.size(),
                        n_wall,
                        moving.empty() ? "" : fmt::format(", {} of moving ones", constants.n_moving),
-                       n_inflow == 0 ? "" : fmt::format(", {} behind inflows", n_inflow),
+                       n_layers == 0 ? "" : fmt::format(", {} behind openings", n_layers),
                        box.spacing);
   }
 

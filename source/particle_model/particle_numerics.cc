@@ -221,7 +221,8 @@ namespace undine
                 numerics.faces_tolerance,
                 "1",
                 Allowed::between(1e-12, 1e-1),
-                "The same for the faces between particles that the balanced pair force needs.");
+                "The same for the faces between particles that the balanced pair force needs; at "
+                "most 0.001 in a full domain with openings or obstacles that move.");
     unsigned int iterations = numerics.max_iterations;
     options.add("Maximum iterations",
                 iterations,

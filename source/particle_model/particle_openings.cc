@@ -88,6 +88,30 @@ namespace undine
     }
 
 
+    /// That of a side which is no inflow; nullptr if there is none. All of a side have one plane,
+    /// and so must be alike.
+    template <int dim>
+    const ParticleOpening<dim> *
+    opening_of(const std::vector<ParticleOpening<dim>> &openings, const unsigned int number)
+    {
+      const ParticleOpening<dim> *result = nullptr;
+      for (const auto &opening : openings)
+        for (const auto &side : opening.sides)
+          if (opening.kind != OpeningKind::inflow && side.number() == number)
+            {
+              if (result != nullptr &&
+                  (result->kind != opening.kind || result->pressure != opening.pressure))
+                throw opening.options.error(
+                  "Kind",
+                  "differs from that of another opening at the same side, "
+                  "or the pressure does",
+                  "Try: the same kind and pressure.");
+              result = &opening;
+            }
+      return result;
+    }
+
+
     template <int dim>
     bool
     is_beside_an_open_side(const Side &side, const ParticleDomain<dim> &domain)
@@ -136,12 +160,15 @@ namespace undine
                     "",
                     Allowed::one_of({side_names().begin(), side_names().begin() + 2 * dim}),
                     "Sides of the box: the lower and upper ends of x, y (and z).");
-    options.require("Kind",
-                    word,
-                    "",
-                    Allowed::one_of({"inflow", "outflow"}),
-                    "What the fluid does here. inflow: enters with the given velocity. outflow: "
-                    "leaves, and is not computed any more.");
+    options.require(
+      "Kind",
+      word,
+      "",
+      Allowed::one_of({"inflow", "outflow", "pressure"}),
+      "What the fluid does here. inflow: enters with the given velocity. outflow: "
+      "leaves, and is not computed any more; in a domain that is full it also comes back, "
+      "from rest. pressure: leaves and enters under a given pressure; where the fluid has "
+      "a surface the side is open, to air.");
     options.add("Region",
                 region,
                 "",
@@ -153,7 +180,14 @@ namespace undine
                 "m/s",
                 Allowed::constant_in_time(),
                 "Of an inflow, normal to the side.");
-    kind                 = word == "inflow" ? OpeningKind::inflow : OpeningKind::outflow;
+    options.add("Pressure",
+                pressure,
+                "Pa",
+                Allowed::anything(),
+                "Of `Kind = pressure`; zero where the fluid has a surface.");
+    kind                 = word == "inflow"    ? OpeningKind::inflow
+                           : word == "outflow" ? OpeningKind::outflow
+                                               : OpeningKind::pressure;
     const bool is_inflow = kind == OpeningKind::inflow;
     for (const auto &name : names)
       sides.push_back(side_by_name(name));
@@ -163,8 +197,12 @@ namespace undine
       throw options.error("Velocity", "must be given for an inflow", "Allowed: expressions [m/s].");
     if (!is_inflow && options.given("Velocity"))
       throw options.error("Velocity",
-                          "is not used by an outflow",
+                          "is not used by an opening of this kind",
                           "Remove it: fluid leaves with the velocity it has.");
+    if (kind != OpeningKind::pressure && options.given("Pressure"))
+      throw options.error("Pressure",
+                          "is not used by an opening of this kind",
+                          "Try: 'Kind = pressure', or remove it.");
   }
 
 
@@ -217,18 +255,18 @@ namespace undine
 
 
   template <int dim>
-  std::vector<InflowParticle<dim>>
+  std::vector<LayerParticle<dim>>
   open_walls(std::vector<WallParticle<dim>>          &walls,
              const std::vector<ParticleOpening<dim>> &openings,
              const ParticleDomain<dim>               &domain)
   {
     for (const auto &opening : openings)
       check_sides(opening, domain);
-    const auto                       inflows = sides_of(openings, OpeningKind::inflow);
-    std::vector<unsigned int>        counts(openings.size(), 0);
-    std::vector<double>              speeds(openings.size(), 0.);
-    std::vector<InflowParticle<dim>> result;
-    std::vector<WallParticle<dim>>   closed;
+    const auto                      inflows = sides_of(openings, OpeningKind::inflow);
+    std::vector<unsigned int>       counts(openings.size(), 0);
+    std::vector<double>             speeds(openings.size(), 0.);
+    std::vector<LayerParticle<dim>> result;
+    std::vector<WallParticle<dim>>  closed;
     for (const auto &wall : walls)
       {
         int         last = -1;
@@ -251,11 +289,13 @@ namespace undine
             continue;
           }
         ++counts[last];
-        if (openings[last].kind != OpeningKind::inflow)
+        const bool is_inflow = openings[last].kind == OpeningKind::inflow;
+        result.push_back({wall.place, wall.layer, {}, is_inflow});
+        if (!is_inflow)
           continue;
         check_edges(openings[last], foot, *at, inflows, domain);
-        result.push_back({wall.place, wall.layer, openings[last].velocity_at(foot, *at)});
-        speeds[last] = std::max(speeds[last], result.back().velocity.norm());
+        result.back().velocity = openings[last].velocity_at(foot, *at);
+        speeds[last]           = std::max(speeds[last], result.back().velocity.norm());
       }
     check_openings(openings, counts, speeds);
     walls = std::move(closed);
@@ -264,8 +304,38 @@ namespace undine
 
 
   template <int dim>
+  void
+  open_to_air(std::vector<ParticleOpening<dim>> &openings, ParticleDomain<dim> &domain)
+  {
+    std::vector<ParticleOpening<dim>> result;
+    for (auto &opening : openings)
+      {
+        if (opening.kind != OpeningKind::pressure)
+          {
+            result.push_back(std::move(opening));
+            continue;
+          }
+        if (opening.pressure != 0)
+          throw opening.options.error("Pressure",
+                                      "is not zero, and the fluid has a surface",
+                                      "Allowed: 0 beside a 'Region', 'Shapes' or 'Void regions' of "
+                                      "the fluid; pressures are those beyond the air's.");
+        check_sides(opening, domain);
+        if (opening.options.given("Region"))
+          throw opening.options.error(
+            "Region", "opens a part of a side to air", "Try: whole sides, and obstacles on them.");
+        for (const auto &side : opening.sides)
+          domain.sides[side.number()] = ParticleSide::open;
+      }
+    openings = std::move(result);
+  }
+
+
+  template <int dim>
   std::vector<particles::OpenSide>
-  open_sides(const std::vector<ParticleOpening<dim>> &openings, const ParticleDomain<dim> &domain)
+  open_sides(const std::vector<ParticleOpening<dim>> &openings,
+             const ParticleDomain<dim>               &domain,
+             const bool                               is_full)
   {
     std::vector<particles::OpenSide> result;
     const auto add = [&](const Side &side, const double plane) -> particles::OpenSide & {
@@ -276,8 +346,8 @@ namespace undine
       result.push_back(open);
       return result.back();
     };
-    const auto inflows  = sides_of(openings, OpeningKind::inflow);
-    const auto outflows = sides_of(openings, OpeningKind::outflow);
+    const auto   inflows = sides_of(openings, OpeningKind::inflow);
+    const double depth   = domain.layers * domain.spacing;
     for (unsigned int number = 0; number < 2 * dim; ++number)
       {
         const Side   side{number / 2, number % 2};
@@ -286,14 +356,23 @@ namespace undine
           {
             auto &inflow     = add(side, plane);
             inflow.is_inflow = true;
-            inflow.depth     = domain.layers * domain.spacing;
+            inflow.depth     = depth;
           }
-        if (outflows.count(number) != 0)
+        const auto *opening = opening_of(openings, number);
+        if (opening != nullptr && is_full)
+          {
+            auto &open            = add(side, plane);
+            open.is_opening       = true;
+            open.depth            = depth;
+            open.pressure         = opening->pressure;
+            open.enters_from_rest = opening->kind == OpeningKind::outflow;
+          }
+        else if (opening != nullptr)
           add(side, plane);
         else if (domain.sides[number] == ParticleSide::open)
           add(side, plane + side.sign() * domain.room);
         else if (is_beside_an_open_side(side, domain)) // drops fly over the wall
-          add(side, plane + side.sign() * domain.spacing * domain.layers);
+          add(side, plane + side.sign() * depth);
       }
     return result;
   }
@@ -302,11 +381,12 @@ namespace undine
 #define UNDINE_INSTANTIATE(dim)                                                                    \
   template struct ParticleOpening<dim>;                                                            \
   template std::vector<ParticleOpening<dim>> read_particle_openings(const Options &);              \
-  template std::vector<InflowParticle<dim>>  open_walls(std::vector<WallParticle<dim>> &,          \
+  template std::vector<LayerParticle<dim>>   open_walls(std::vector<WallParticle<dim>> &,          \
                                                         const std::vector<ParticleOpening<dim>> &, \
                                                         const ParticleDomain<dim> &);              \
-  template std::vector<particles::OpenSide>  open_sides(const std::vector<ParticleOpening<dim>> &, \
-                                                        const ParticleDomain<dim> &);
+  template std::vector<particles::OpenSide>  open_sides(                                           \
+     const std::vector<ParticleOpening<dim>> &, const ParticleDomain<dim> &, bool);                \
+  template void open_to_air(std::vector<ParticleOpening<dim>> &, ParticleDomain<dim> &);
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

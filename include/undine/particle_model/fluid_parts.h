@@ -11,7 +11,8 @@ namespace undine
 {
   /// The parts of a domain that walls and obstacles separate, by its cubes; bodies do not separate
   /// them, for pressure goes through bodies. One is full if fluid or bodies are in all of its cubes
-  /// and it has no open side, inflow or outflow: pressures are known up to a constant there.
+  /// and it has no open side: there is no free surface. Without openings pressures are known up to
+  /// a constant there.
   template <int dim>
   struct FluidParts
   {

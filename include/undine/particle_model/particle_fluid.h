@@ -24,6 +24,10 @@ namespace undine
     fill(const ParticleDomain<dim>                             &domain,
          const std::function<bool(const dealii::Point<dim> &)> &taken);
 
+    /// Does the scene leave places without fluid? Else it fills the domain.
+    bool
+    may_have_surface() const;
+
     /// What is known of the fluid at the start before its particles are made.
     struct Sample
     {

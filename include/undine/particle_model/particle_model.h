@@ -145,13 +145,13 @@ namespace undine
     double
     largest_potential(const std::vector<dealii::Point<dim>> &places) const;
     void
-    check_inflow(const ParticleFluid<dim>               &fluid,
-                 const std::vector<InflowParticle<dim>> &inflow,
-                 const ParticleObstacles<dim>           &obstacles) const;
+    check_layers(const ParticleFluid<dim>              &fluid,
+                 const std::vector<LayerParticle<dim>> &layers,
+                 const ParticleObstacles<dim>          &obstacles) const;
     void
-    add_fluid(ParticleFluid<dim>                     &fluid,
-              const std::vector<InflowParticle<dim>> &inflow,
-              const ParticleObstacles<dim>           &obstacles);
+    add_fluid(ParticleFluid<dim>             &fluid,
+              std::vector<LayerParticle<dim>> layers,
+              const ParticleObstacles<dim>   &obstacles);
     void
     add_walls(const std::vector<WallParticle<dim>> &walls);
     void
@@ -166,7 +166,7 @@ namespace undine
     particles::ParticleState<dim>    start;
     std::vector<std::string>         names; ///< of the bodies
     std::vector<MovingObstacle<dim>> moving;
-    std::size_t                      n_fluid = 0, n_inflow = 0, n_wall = 0, n_openings = 0;
+    std::size_t                      n_fluid = 0, n_layers = 0, n_wall = 0, n_openings = 0;
     std::size_t                      most_fluid = 0; ///< that closed walls have room for; 0: any
     bool                             walls_are_shown = false;
     std::vector<std::string>         remarks;

@@ -114,7 +114,7 @@ namespace undine
   count_lasting_particles(const particles::ParticleState<dim> &state)
   {
     return std::count_if(state.tags.begin(), state.tags.end(), [](const particles::Tag tag) {
-      return tag.kind() != particles::Kind::fluid && tag.material() != particles::inflow_material;
+      return tag.kind() != particles::Kind::fluid && !tag.is_in_layers();
     });
   }
 

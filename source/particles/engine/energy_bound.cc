@@ -32,6 +32,13 @@ namespace undine::particles
             inflow_speed = std::max(inflow_speed, std::sqrt(norm_square(state.velocities[i])));
           }
       }
+    for (const auto &side : setup.open_sides)
+      if (side.is_opening)
+        {
+          flows_in = true;
+          inflow_speed =
+            std::max(inflow_speed, std::sqrt(2 * std::abs(side.pressure) / setup.fluid_density));
+        }
     gravity = std::sqrt(norm_square(setup.gravity)) + std::abs(setup.attraction) * height;
   }
 

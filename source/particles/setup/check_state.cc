@@ -59,8 +59,7 @@ namespace undine::particles
       const bool moves   = !is_body && state.identities[i] < n_solid + setup.n_moving;
       if ((tag.kind() == Kind::solid) != is_body || (tag.material() == moving_material) != moves ||
           (is_body && tag.material() != setup.body_of[state.identities[i]] + 1) ||
-          (!is_body && !moves && tag.material() != 0 && !tag.is_inactive() &&
-           tag.material() != inflow_material))
+          (!is_body && !moves && tag.material() != 0 && !tag.is_inactive() && !tag.is_in_layers()))
         throw InputError(name_of(state, i) + " does not belong to the body that its tag says.");
     }
 

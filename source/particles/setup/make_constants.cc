@@ -71,7 +71,9 @@ namespace undine::particles
         constants.force.centre[axis]  = static_cast<Real>(setup.centre[axis]);
       }
     constants.force.attraction  = static_cast<Real>(setup.attraction);
+    const bool is_open          = setup.has_openings();
     constants.is_full           = setup.is_full;
+    constants.is_closed         = setup.is_full && !is_open;
     constants.displaced_density = static_cast<Real>(setup.is_full ? setup.fluid_density : 0.);
     constants.top_potential     = static_cast<Real>(setup.top_potential);
     constants.viscosity         = static_cast<Real>(setup.fluid_viscosity);
@@ -79,9 +81,10 @@ namespace undine::particles
                                    static_cast<Real>(setup.wall_roughness)};
     set_materials(constants, setup);
     constants.source = numerics.source;
-    // In a full domain particles are moved to even spacing instead, see EvenSpacing.
+    // In a full domain particles are moved to even spacing instead, see EvenSpacing; with openings
+    // there is an error of all volume.
     const double corrected  = setup.is_full ? 0. : 1.;
-    constants.density_share = static_cast<Real>(corrected * numerics.density_share);
+    constants.density_share = static_cast<Real>(constants.is_closed ? 0. : numerics.density_share);
     const double gravity    = std::sqrt(norm_square(setup.gravity));
     constants.relaxation_time =
       gravity > 0 && !setup.is_full
@@ -126,7 +129,10 @@ namespace undine::particles
                                    static_cast<Real>(side.plane),
                                    static_cast<Real>(side.inward),
                                    static_cast<Real>(side.depth),
-                                   side.is_inflow};
+                                   side.is_inflow,
+                                   side.is_opening,
+                                   static_cast<Real>(side.pressure),
+                                   side.enters_from_rest};
     return open;
   }
 

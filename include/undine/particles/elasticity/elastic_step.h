@@ -30,6 +30,7 @@ namespace undine::particles
     Contact<dim, Real>         contact;
     BodyForce<dim, Real>       force;
     Real                       displaced_density; ///< of Constants [kg/m^3]
+    bool                       is_closed;         ///< of Constants
     Real                       top_potential;     ///< of Constants [J/kg]
     Vector<dim, Real>         *x_start;           ///< [m]
     const Vector<dim, Real>   *v_start;           ///< [m/s]
@@ -179,7 +180,7 @@ namespace undine::particles
     {
       if (purpose != ElasticRun::final || !(carry_share > 0))
         return;
-      const Real level = is_in_full_domain() ? common_level(team) : Real(0);
+      const Real level = is_closed ? common_level(team) : Real(0);
       for_each_body_sum<4>(
         team,
         elasticity.bodies,
@@ -208,13 +209,6 @@ namespace undine::particles
     pressure_at_rest(const int i) const
     {
       return displaced_density * (top_potential - force.potential(elasticity.bodies.points[i].x));
-    }
-
-    UNDINE_HOST_DEVICE
-    bool
-    is_in_full_domain() const
-    {
-      return displaced_density > 0;
     }
 
     /// Of the pressure at rest in a full domain, where it is known up to a constant: that at which

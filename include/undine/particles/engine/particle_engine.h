@@ -35,7 +35,7 @@ namespace undine::particles
       check_state(new_setup, state);
       setup = new_setup;
       paths.clear();
-      measure_inflows(state);
+      measure_layers(state);
       energy_bound = EnergyBound<dim>(setup, state);
       load(state, frames_in_reserve * entering(0));
     }
@@ -71,6 +71,8 @@ namespace undine::particles
           if (reason.empty())
             {
               energy_bound.accept(before, balance());
+              if (setup.has_openings())
+                inflow_speed = std::max(inflow_speed, control.fastest);
               paths.clear();
               return control;
             }
@@ -188,32 +190,33 @@ namespace undine::particles
     {
       double depth = 0;
       for (const auto &side : setup.open_sides)
-        if (side.is_inflow)
+        if (side.is_inflow || side.is_opening)
           depth = depth > 0 ? std::min(depth, side.depth) : side.depth;
-      return n_behind_inflows == 0
-               ? 0
-               : static_cast<int>(n_behind_inflows * (2 + inflow_speed * frame / depth));
+      return n_in_layers == 0 ? 0
+                              : static_cast<int>(n_in_layers * (2 + inflow_speed * frame / depth));
     }
 
-    /// Look at the layers behind inflows.
+    /// Look at the layers behind inflows and openings. Through openings fluid may enter as fast as
+    /// anything moves.
     void
-    measure_inflows(const ParticleState<dim> &state)
+    measure_layers(const ParticleState<dim> &state)
     {
-      n_behind_inflows = 0;
-      inflow_speed     = 0;
+      n_in_layers  = 0;
+      inflow_speed = 0;
       for (std::size_t i = 0; i < state.tags.size(); ++i)
-        if (state.tags[i].material() == inflow_material)
-          {
-            ++n_behind_inflows;
+        {
+          n_in_layers += state.tags[i].is_in_layers() ? 1 : 0;
+          if (state.tags[i].material() == inflow_material ||
+              (setup.has_openings() && state.tags[i].is_free()))
             inflow_speed = std::max(inflow_speed, std::sqrt(norm_square(state.velocities[i])));
-          }
+        }
     }
 
     /// Park more particles if those that wait might not last for a frame.
     void
     make_room(const double frame)
     {
-      if (n_behind_inflows == 0)
+      if (n_in_layers == 0)
         return;
       int parked = 0;
       with_system([&](auto &present) { parked = present.count_parked(); });
@@ -317,19 +320,19 @@ namespace undine::particles
     static constexpr int most_in_a_batch   = 64;
     static constexpr int frames_in_reserve = 8;
 
-    std::unique_ptr<Executor>           executor;
-    Setup<dim>                          setup;
-    int                                 n        = 0;
-    int                                 expected = 1; ///< sub-steps of the next frame
-    Look                                look;         ///< empty: nobody does
-    Pace                                pace;
-    int                                 n_behind_inflows = 0; ///< particles behind inflows
-    double                              inflow_speed     = 0; ///< of the fastest of them [m/s]
-    WallPaths<dim>                      paths;                ///< of this frame
-    EnergyBound<dim>                    energy_bound;
-    mutable std::optional<Balance<dim>> last_balance; ///< of the present particles
-    std::unique_ptr<System<Entry>>      system;
-    std::unique_ptr<System<Wide>>       wide; ///< instead of `system`
+    std::unique_ptr<Executor>                      executor;
+    Setup<dim>                                     setup;
+    int                                            n        = 0;
+    int                                            expected = 1; ///< sub-steps of the next frame
+    Look                                           look;         ///< empty: nobody does
+    Pace                                           pace;
+    int                                            n_in_layers = 0; ///< behind inflows and openings
+    double                                         inflow_speed = 0; ///< of what may enter [m/s]
+    WallPaths<dim>                                 paths;            ///< of this frame
+    EnergyBound<dim>                               energy_bound;
+    mutable std::optional<Balance<dim>>            last_balance; ///< of the present particles
+    std::unique_ptr<System<Entry>>                 system;
+    std::unique_ptr<System<Wide>>                  wide; ///< instead of `system`
     std::unique_ptr<Snapshot<Executor, dim, Real>> snapshot;
   };
 

@@ -2,6 +2,7 @@
 #ifndef undine_particles_engine_particle_system_h
 #define undine_particles_engine_particle_system_h
 
+#include <undine/particles/boundaries/drive_openings.h>
 #include <undine/particles/boundaries/moving_walls.h>
 #include <undine/particles/boundaries/open_boundaries.h>
 #include <undine/particles/elasticity/elastic_arrays.h>
@@ -13,6 +14,7 @@
 #include <undine/particles/fluid/even_spacing.h>
 #include <undine/particles/fluid/explicit_forces.h>
 #include <undine/particles/fluid/local_shift.h>
+#include <undine/particles/fluid/volume_error.h>
 #include <undine/particles/multigrid/multigrid_arrays.h>
 #include <undine/particles/neighbours/cell_sort.h>
 #include <undine/particles/neighbours/neighbour_list.h>
@@ -129,6 +131,14 @@ namespace undine::particles
       list.find(now.view(), cells.cell_starts(), control.data());
       if (!has_fluid)
         return;
+      if (has_openings())
+        executor.for_each(n,
+                          DriveOpenings<dim, Real>{constants,
+                                                   open,
+                                                   now.places.data(),
+                                                   cells.cell_starts(),
+                                                   now.motions.data(),
+                                                   control.data()});
       solve_pressure();
       move_by_pressure();
     }
@@ -184,14 +194,14 @@ namespace undine::particles
                                                    control.data()});
       executor.exclusive_scan(n, crossed.data(), crossed_before.data());
       executor.for_each(n,
-                        RefillInflows<dim, Real>{open,
-                                                 n,
-                                                 now.places.data(),
-                                                 now.motions.data(),
-                                                 crossed.data(),
-                                                 crossed_before.data(),
-                                                 cells.first_parked(),
-                                                 control.data()});
+                        RefillLayers<dim, Real>{open,
+                                                n,
+                                                now.places.data(),
+                                                now.motions.data(),
+                                                crossed.data(),
+                                                crossed_before.data(),
+                                                cells.first_parked(),
+                                                control.data()});
     }
 
     void
@@ -218,6 +228,10 @@ namespace undine::particles
                                                         bodies.inside.data(),
                                                         equation.neighbourhood(),
                                                         control.data()});
+      if (has_openings())
+        executor.run(n,
+                     MeasureVolumeError<dim, Real>{
+                       n, now.places.data(), equation.neighbourhood().fillings, control.data()});
       const bool closed = constants.pair_force == PairForce::balanced;
       executor.for_each(
         n,
@@ -272,11 +286,18 @@ namespace undine::particles
     void
     take_out_mean(const Values<Value> &values, const MeanOf of)
     {
-      if (constants.is_full)
+      if (constants.is_closed)
         executor.run(
           n,
           TakeOutMean<dim, Real, Value>{
             of, n, now.places.data(), equation.is_unknown.data(), values.data(), control.data()});
+    }
+
+    /// In a full domain.
+    bool
+    has_openings() const
+    {
+      return constants.is_full && !constants.is_closed;
     }
 
     void
@@ -336,6 +357,7 @@ namespace undine::particles
                                 bodies.partners.data()},
                                constants.force,
                                constants.displaced_density,
+                               constants.is_closed,
                                constants.top_potential,
                                bodies.x_start.data(),
                                bodies.v_start.data(),

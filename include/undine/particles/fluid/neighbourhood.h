@@ -83,7 +83,8 @@ namespace undine::particles
       if (!constants.is_full)
         result.fillings[i] += constants.surface_lack * norm_square(side);
       result.coverages[i]   = coverage;
-      const bool unknown    = constants.is_full ? moves : has_pressure(tag, n, coverage > 0);
+      const bool unknown    = constants.is_full ? moves && tag.material() != opening_material
+                                                : has_pressure(tag, n, coverage > 0);
       result.is_unknown[i]  = unknown ? 1 : 0;
       const Real share      = tag.kind() == Kind::solid ? Real(1) : coverage;
       result.corrections[i] = StoredCorrection<dim, Real>::of(

@@ -61,6 +61,8 @@ namespace undine::particles
     /// particles: pressures are what is beyond it (P11), and of body forces only what acts on a
     /// density other than the fluid's is left.
     bool is_full;
+    /// Full and without openings: pressures are known up to a constant.
+    bool is_closed;
     /// Fluid at a free surface that moves by mean velocities, without bodies and walls that move:
     /// sub-steps, shifts and weights then let waves go on. Beside bodies they would cost light ones
     /// 3 % of their way, and beside walls that move let single particles through.

@@ -23,6 +23,7 @@ namespace undine::particles
   constexpr int parked_material   = -2; ///< of what waits outside of space to flow in
   constexpr int moving_material   = -3; ///< of walls that move as prescribed
   constexpr int inactive_material = -4; ///< of fixed walls where a moving one is: count for nothing
+  constexpr int opening_material  = -5; ///< of the layers behind openings that have a pressure
   /// @}
 
   /// Kind and material of a particle in one number.
@@ -73,6 +74,14 @@ namespace undine::particles
     is_inactive() const
     {
       return material() == inactive_material;
+    }
+
+    /// Of the layers behind inflows and openings, which move along their normal?
+    UNDINE_HOST_DEVICE
+    bool
+    is_in_layers() const
+    {
+      return material() == inflow_material || material() == opening_material;
     }
 
     /// Does it move as forces tell it?

@@ -74,6 +74,7 @@ namespace undine::particles
     unsigned int elastic_steps_total                        = 0;
     double       smallest_dt                                = 0; ///< [s]
     double       fastest                                    = 0; ///< [m/s]
+    double       volume_error                               = 0; ///< of MeasureVolumeError [1]
     SolverRecord pressure, faces;
 
     UNDINE_HOST_DEVICE

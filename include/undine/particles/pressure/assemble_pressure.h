@@ -96,9 +96,9 @@ namespace undine::particles
     /// In a full domain walls in contact with walls only have no pressure, as dummies.
     UNDINE_HOST_DEVICE
     bool
-    is_cut_off(const StoredCorrection<dim, Real> &correction) const
+    is_cut_off(const Tag tag, const StoredCorrection<dim, Real> &correction) const
     {
-      return constants.is_full && !correction.has_unknown();
+      return constants.is_full && !correction.has_unknown() && tag.material() != opening_material;
     }
 
     UNDINE_HOST_DEVICE
@@ -125,7 +125,7 @@ namespace undine::particles
       neighbours.for_each(
         i, fetch, [&](const int j, const Pair<dim, Real> &pair, const Other &other) {
           const auto plain = (faces.factor * pair.weight_over_square()) * pair.r;
-          if (pair.tag.kind() == Kind::dummy || is_cut_off(other.M))
+          if (pair.tag.kind() == Kind::dummy || is_cut_off(pair.tag, other.M))
             {
               flow += (other.v - v) * plain;
               return;
@@ -212,8 +212,8 @@ namespace undine::particles
       if (!is_unknown || (tag.kind() == Kind::solid && !constants.is_full))
         right_hand_side[i] = 0;
       else if (tag.kind() == Kind::solid)
-        right_hand_side[i] =
-          -pressure_scale(constants) / projected_time() * flow_at_surface(i, tag);
+        right_hand_side[i] = given_pressures(i, tag) -
+                             pressure_scale(constants) / projected_time() * flow_at_surface(i, tag);
       else
         right_hand_side[i] =
           given_pressures(i, tag) +
@@ -251,20 +251,30 @@ namespace undine::particles
       return sum;
     }
 
-    /// What neighbours contribute whose pressure is given, sum k_ij P_j: bodies, in one of the ways
-    /// to couple them.
+    /// What neighbours contribute whose pressure is given and not zero, sum k_ij P_j: what is
+    /// behind openings, and bodies in one of the ways to couple them.
     UNDINE_HOST_DEVICE
     Real
     given_pressures(const int i, const Tag tag) const
     {
-      if (constants.coupling == Coupling::simultaneous)
-        return 0;
-      Real sum = 0;
+      const bool of_bodies = constants.coupling != Coupling::simultaneous;
+      Real       sum       = 0;
+      if (!of_bodies && (!constants.is_full || !neighbourhood.is_beside_given[i]))
+        return sum;
       neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
-        if (pair.tag.kind() == Kind::solid)
-          sum += pressure_coefficient(constants, tag, pair) * motions[j].pressure;
+        if (of_bodies ? pair.tag.kind() == Kind::solid : pair.tag.material() == opening_material)
+          sum += stored_coefficient(tag, pair) * motions[j].pressure;
       });
       return sum;
+    }
+
+    /// As it is on the diagonal of the matrix.
+    UNDINE_HOST_DEVICE
+    Real
+    stored_coefficient(const Tag tag, const Pair<dim, Real> &pair) const
+    {
+      return Entry::of(0, pressure_coefficient(constants, tag, pair), matrix.scale)
+        .coefficient(matrix.scale);
     }
 
     UNDINE_HOST_DEVICE
@@ -279,9 +289,26 @@ namespace undine::particles
           case Source::relaxed:
             return constants.density_share * error;
           default:
-            return (share(dt) * (neighbourhood.fillings[i] - 1) + crowding(i, dt)) / (dt * dt) -
+            return (constants.is_full
+                      ? error_in_motion(dt)
+                      : share(dt) * (neighbourhood.fillings[i] - 1) + crowding(i, dt)) /
+                     (dt * dt) -
                    divergence(i, tag) / projected_time();
         }
+    }
+
+    /// In a full domain with openings: the volume of all the fluid is put right as fast as the
+    /// fluid moves, a share density_share while the fastest goes a fifth of a spacing, so that what
+    /// is at rest stays there.
+    UNDINE_HOST_DEVICE
+    Real
+    error_in_motion(const Real dt) const
+    {
+      if (constants.is_closed)
+        return 0;
+      const Real way = static_cast<Real>(control->fastest) * dt / constants.spacing;
+      return minimum(Real(1), 5 * way) * constants.density_share *
+             static_cast<Real>(control->volume_error);
     }
 
     /// Where particles crowd, as between a body and a wall, much more of the error is removed at
@@ -354,10 +381,10 @@ namespace undine::particles
     {
       Real sum = 0;
       neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
-        if (pair.tag.kind() == Kind::dummy || neighbourhood.is_unknown[j])
+        const bool is_cut_off = constants.is_full && pair.tag.material() != opening_material;
+        if (pair.tag.kind() == Kind::dummy || neighbourhood.is_unknown[j] || is_cut_off)
           return;
-        const Entry entry = Entry::of(0, pressure_coefficient(constants, tag, pair), matrix.scale);
-        sum += entry.coefficient(matrix.scale) * ((motions[j].v - own.v) * own.L);
+        sum += stored_coefficient(tag, pair) * ((motions[j].v - own.v) * own.L);
       });
       return sum;
     }

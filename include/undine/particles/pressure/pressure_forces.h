@@ -48,7 +48,8 @@ namespace undine::particles
       const Kind kind = particles.places[i].tag.kind();
       particles.potentials[i].set_companion(kind == Kind::fluid ? 1 - neighbourhood.coverages[i]
                                                                 : Real(0));
-      if (control->done() || (keeps_solids && kind == Kind::solid))
+      if (control->done() || (keeps_solids && kind == Kind::solid) ||
+          particles.places[i].tag.material() == opening_material)
         return;
       const Real pressure           = may_pull ? solution[i] : maximum(solution[i], Real(0));
       particles.motions[i].pressure = neighbourhood.is_unknown[i] ? pressure : Real(0);
@@ -96,7 +97,7 @@ namespace undine::particles
       Motion<dim, Real> motion = motions[i];
       if (!control->done() && place.tag.kind() == Kind::fluid)
         move(i, place, motion);
-      else if (!control->done() && place.tag.material() == inflow_material)
+      else if (!control->done() && place.tag.is_in_layers())
         place.x += (1 - constants.pressure_place) * static_cast<Real>(control->dt) * motion.v;
       else if (!control->done() && place.tag.kind() == Kind::solid)
         {

@@ -4,6 +4,7 @@
 
 #include <undine/particles/model/constants.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace undine::particles
@@ -80,8 +81,14 @@ namespace undine::particles
     double plane  = 0; ///< [m]
     double inward = 1; ///< +1 or -1: direction into the domain along the axis
     bool   is_inflow =
-      false;          ///< with layers of wall and dummy particles of `inflow_material` behind it
-    double depth = 0; ///< of these layers, a whole number of spacings [m]
+      false; ///< with layers of wall and dummy particles of `inflow_material` behind it
+    /// With layers of wall particles of `opening_material` behind it, which have the pressure: a
+    /// full domain goes on there. Else what leaves is taken out.
+    bool   is_opening = false;
+    double depth      = 0; ///< of these layers, a whole number of spacings [m]
+    double pressure   = 0; ///< of an opening [Pa]
+    /// Does what enters through an opening come from rest, with the pressure less rho v^2 / 2?
+    bool enters_from_rest = false;
   };
 
   /// What a run of particles is made of; constant. Identities 0 ... reference.size() - 1 are the
@@ -104,8 +111,8 @@ namespace undine::particles
     double fluid_bulk_modulus = 0;    ///< [Pa]; 0: incompressible
     double depth              = 0;    ///< of the fluid along gravity, for the waves' speed [m]
 
-    /// Fluid and bodies fill a domain that is closed or periodic: there is no free surface, and
-    /// pressures are known up to a constant. Without inflows, outflows and room around.
+    /// Fluid and bodies fill the domain: there is no free surface. Pressures are known up to a
+    /// constant unless there are openings.
     bool is_full = false;
     /// Potential energy per mass of the body force where the fluid at rest has no pressure: in
     /// the highest corner of a domain that it fills, else at its surface at the start [J/kg].
@@ -122,6 +129,14 @@ namespace undine::particles
     std::vector<unsigned char>       clamped;   ///< does not move
 
     Numerics numerics;
+
+    /// Does a full domain go on behind openings? Pressures are known then.
+    bool
+    has_openings() const
+    {
+      return std::any_of(
+        open_sides.begin(), open_sides.end(), [](const OpenSide &side) { return side.is_opening; });
+    }
   };
 } // namespace undine::particles
 
