@@ -261,10 +261,10 @@ namespace undine
         result.push_back(wall);
         occupied.for_each_near(wall.place, overlap * box.spacing, [&](const std::size_t k) {
           const auto &body = bodies[constants.body_of[k]];
-          throw body.options.error("",
-                                   "the body reaches into a wall at (" + write_value(occupied[k]) +
-                                     ")",
-                                   "Try: move it away by a spacing, or hold it there.");
+          throw body.options.error(
+            "",
+            "the body reaches into a wall at (" + write_value(occupied[k]) + ")",
+            "Try: move it away by a spacing, or hold it there in all directions.");
         });
       }
     for (const auto &wall : result)

@@ -54,8 +54,6 @@ namespace undine
     hold(const BodyBoundary<dim> &boundary, const ShapeBoundary<dim> &shape, double spacing);
     void
     start(std::vector<dealii::Point<dim>> nodes, const Surface<dim> &boundary);
-    void
-    hold(const BodyBoundary<dim> &boundary, const ShapeBoundary<dim> &shape, const double spacing);
   };
 
   /// The bodies of the section `Bodies`, in order of appearance, without particles. Throws
