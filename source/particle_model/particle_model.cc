@@ -158,8 +158,8 @@ namespace undine
           .section(effect->name)
           .error("",
                  "this effect is one of fluids on a grid or of bodies of finite elements",
-                 "Remove the section: particles know 'gravity', 'damping', 'viscosity', 'wall "
-                 "friction' and 'central attraction', and always carry their momentum.");
+                 "Remove the section: particles know 'gravity', 'viscosity', 'wall friction', "
+                 "'central attraction' and 'damping', and always carry their momentum.");
   }
 
 

@@ -41,9 +41,33 @@ namespace undine::particles
               square += (F[a][b] - R[a][b]) * (F[a][b] - R[a][b]);
           return mu * square + volume().energy(determinant(F));
         }
+      // What is small of second order is the difference of what is not: beyond single precision.
+      const ElasticMaterial<double> exact = {lambda,
+                                             mu,
+                                             properties.density,
+                                             properties.hourglass,
+                                             properties.damping,
+                                             properties.bulk_damping,
+                                             properties.contact,
+                                             properties.viscosity,
+                                             properties.drag,
+                                             properties.law};
+      Matrix<dim, double>           gradient;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          gradient[a][b] = F[a][b];
+      return static_cast<Real>(ElasticLaw<dim, double>{exact}.energy(gradient));
+    }
+
+    /// The same of all laws but the corotated one.
+    UNDINE_HOST_DEVICE
+    Real
+    energy(const Gradient &F) const
+    {
+      const Real lambda = properties.lambda, mu = properties.mu;
       const Real J = determinant(F), first = double_contraction(F, F) + (3 - dim);
       if (properties.law == Law::neo_hookean)
-        return mu / 2 * (first - 3) + neo_hookean_energy(J);
+        return mu / 2 * (first - 3) + neo_hookean_energy(J) + volume().energy(J);
       if (properties.law == Law::nearly_incompressible_rubber)
         return mu / 2 * (distortion(J).value * first - 3) + volume().energy(J);
       const auto E = strain(F);
@@ -70,9 +94,10 @@ namespace undine::particles
         return F * hooke(strain(F));
       const Real factor =
         properties.law == Law::neo_hookean ? mu : mu * distortion(determinant(F)).value;
+      const auto C = cofactors(F);
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
-          result[a][b] = factor * F[a][b];
+          result[a][b] = factor * (F[a][b] - C[a][b]); // small, as is t, for the rounding
       return result;
     }
 
@@ -81,12 +106,16 @@ namespace undine::particles
     Real
     tension(const Gradient &F) const
     {
-      const Real J = determinant(F);
+      const Real J      = determinant(F);
+      Real       result = volume().tension(J);
       if (properties.law == Law::neo_hookean)
-        return neo_hookean_tension(J);
-      Real result = volume().tension(J);
+        result += neo_hookean_tension(J) + properties.mu;
       if (properties.law == Law::nearly_incompressible_rubber)
-        result += properties.mu / 2 * distortion(J).slope * (double_contraction(F, F) + (3 - dim));
+        {
+          const auto s = distortion(J);
+          result +=
+            properties.mu * (s.value + s.slope / 2 * (double_contraction(F, F) + (3 - dim)));
+        }
       return result;
     }
 
@@ -144,7 +173,7 @@ namespace undine::particles
         return (2 * mu + volume().stiffness(J) * faces) / properties.density;
       Real modulus = 0;
       if (properties.law == Law::neo_hookean)
-        modulus = mu + neo_hookean_stiffness(J) * faces;
+        modulus = mu + (neo_hookean_stiffness(J) + volume().stiffness(J)) * faces;
       else if (properties.law == Law::nearly_incompressible_rubber)
         {
           const Real j = maximum(J, VolumeLaw<Real>::flat);
@@ -180,10 +209,10 @@ namespace undine::particles
             return {lambda, lambda + 2 * mu};
           case Law::nearly_incompressible_rubber:
             return {lambda + Real(2) / 3 * mu, lambda + 2 * mu};
-          case Law::saint_venant_kirchhoff:
-            return {Real(0), lambda + 2 * mu};
-          default:
+          case Law::linear_elastic:
             return {Real(0), Real(0)};
+          default:
+            return {Real(0), lambda + 2 * mu};
         }
     }
 
@@ -195,7 +224,8 @@ namespace undine::particles
       switch (properties.law)
         {
           case Law::neo_hookean:
-            return maximum(Real(0), neo_hookean_stiffness(J) - properties.mu);
+            return maximum(Real(0),
+                           neo_hookean_stiffness(J) + volume().stiffness(J) - properties.mu);
           case Law::nearly_incompressible_rubber:
             return volume().stiffness(J) - Real(2) / 3 * properties.mu;
           default:
