@@ -106,7 +106,7 @@ namespace undine::particles
             choose_step();
           __syncthreads();
           if (is_worker)
-            point = step.moved(point, is_clamped, shared.h, a);
+            point = step.moved(point, held, shared.h, a);
         }
       while (shared.goes_on);
       if (is_owner && WarpLanes::rank() == 0)
@@ -144,7 +144,7 @@ namespace undine::particles
       const auto &bodies = step.elasticity.bodies;
 
       own      = step.elasticity.particle(i);
-      is_clamped  = bodies.clamped[i];
+      held     = bodies.clamped[i];
       pressure = step.pressure_acceleration(i);
       now.R    = bodies.rotations[i];
       point    = step.start_of(i);
@@ -279,6 +279,7 @@ namespace undine::particles
                                acceleration()
     {
       auto result = step.body_force(own.material, point.x) + pressure;
+      result += step.drag(own.material, point.v);
       result += touch.acceleration;
       return result += step.elasticity.acceleration(own, now.T, WarpLanes(), [&](const auto &f) {
         for_each_bond([&](const auto &bond) {
@@ -320,7 +321,7 @@ namespace undine::particles
     typename Contact<dim, float>::Response touch;
     ElasticPoint<dim, float>               point;
     Vector<dim, float>                     pressure; ///< acceleration by it
-    bool                                   is_clamped;
+    unsigned char                          held; ///< directions
     int                                    n_bonds, n_partners;
   };
 

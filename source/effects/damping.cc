@@ -29,7 +29,7 @@ namespace undine
     void
     check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
     {
-      if (!around.solid)
+      if (!around.solid && !around.has_body_particles)
         throw options.error("",
                             "damping acts on bodies, but the scene has none",
                             "Remove the section or add a body.");
@@ -51,6 +51,14 @@ namespace undine
     {
       environment.mass_damping += mass_coefficient;
       environment.stiffness_damping += stiffness_coefficient;
+    }
+
+    bool
+    affect_particles(particles::Setup<dim> &setup) const override
+    {
+      setup.body_damping.mass += mass_coefficient;
+      setup.body_damping.stiffness += stiffness_coefficient;
+      return true;
     }
 
   private:

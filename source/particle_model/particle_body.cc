@@ -6,12 +6,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace undine
 {
   namespace
   {
     constexpr double rounding_in_bodies = 1e-6; // [spacings]
+
+
+    particles::Law
+    choose_law(const Options &options)
+    {
+      using particles::Law;
+      const std::map<std::string, Law> laws{
+        {"corotated", Law::corotated},
+        {"linear elastic", Law::linear_elastic},
+        {"Saint Venant-Kirchhoff", Law::saint_venant_kirchhoff},
+        {"neo-Hookean", Law::neo_hookean},
+        {"nearly incompressible rubber", Law::nearly_incompressible_rubber}};
+      std::vector<std::string> words;
+      for (const auto &law : laws)
+        words.push_back(law.first);
+      std::string word = "corotated";
+      options.add("Material",
+                  word,
+                  "",
+                  Allowed::one_of(words),
+                  "The law between strain and stress. corotated: Hooke's law in the stretches of "
+                  "each particle; the others are those of finite elements.");
+      return laws.at(word);
+    }
 
 
     template <int dim>
@@ -28,9 +53,6 @@ namespace undine
           if (result.back().kind != BodyBoundary<dim>::Kind::clamp)
             throw options.error(
               "Kind", "is not possible for a body of particles", "Allowed: clamp.");
-          if (options.given("Components"))
-            throw options.error(
-              "Components", "particles are clamped in all directions or in none", "Remove it.");
         }
       return result;
     }
@@ -77,9 +99,15 @@ namespace undine
     options.require(
       "Density", setup.density, "kg/m^3", Allowed::positive(), "Mass per volume at rest.");
     ElasticConstants constants;
+    setup.law = choose_law(options);
     constants.add_options(options);
     setup.youngs_modulus = constants.youngs_modulus;
     setup.poissons_ratio = constants.poissons_ratio;
+    options.add("Initial displacement",
+                displacement,
+                "m",
+                Allowed::constant_in_time(),
+                "At t = 0, of the point that rests at x.");
     options.add("Initial velocity",
                 velocity,
                 "m/s",
@@ -119,10 +147,20 @@ namespace undine
     const auto shape       = make_shape_boundary(description);
     const auto all_of_body = shape.surface(name);
     check_closed(all_of_body, shape.nodes);
-    volume  = body_volumes(all_of_body, shape.nodes)[0];
-    surface = std::make_unique<const SurfaceDistance<dim>>(all_of_body, shape.nodes);
+    volume = body_volumes(all_of_body, shape.nodes)[0];
+    place_in(SurfaceDistance<dim>(all_of_body, shape.nodes), spacing);
+    clamped.assign(places.size(), 0);
+    for (const auto &boundary : boundaries)
+      hold(boundary, shape, spacing);
+    start(shape.nodes, all_of_body);
+  }
 
-    const auto                    box = surface->box();
+
+  template <int dim>
+  void
+  ParticleBody<dim>::place_in(const SurfaceDistance<dim> &shape, const double spacing)
+  {
+    const auto                    box = shape.box();
     std::array<unsigned int, dim> count, index{};
     dealii::Point<dim>            first;
     for (unsigned int axis = 0; axis < dim; ++axis)
@@ -140,7 +178,7 @@ namespace undine
         auto place = first;
         for (unsigned int d = 0; d < dim; ++d)
           place[d] += index[d] * spacing;
-        if (surface->nearest(place).distance < -rounding_in_bodies * spacing)
+        if (shape.nearest(place).distance < -rounding_in_bodies * spacing)
           places.push_back(place);
         for (axis = 0; axis < dim && ++index[axis] == count[axis]; ++axis)
           index[axis] = 0;
@@ -148,19 +186,38 @@ namespace undine
     if (places.empty())
       throw options.error(
         "", "the body is smaller than a particle", "Try: a smaller 'Particles / Spacing'.");
-    clamped.assign(places.size(), 0);
-    for (const auto &boundary : boundaries)
-      hold(boundary, shape, spacing);
+  }
+
+
+  template <int dim>
+  void
+  ParticleBody<dim>::start(std::vector<dealii::Point<dim>> nodes, const Surface<dim> &boundary)
+  {
+    const auto finite = [&](const std::string          &key,
+                            const Expression<dim, dim> &expression,
+                            const dealii::Point<dim>   &place) {
+      const auto value = expression.vector(place, 0.);
+      if (!std::isfinite(value.norm()))
+        throw options.error(key,
+                            "is not a number at (" + write_value(place) + ")",
+                            "Try: an expression that is finite in the whole body.");
+      return value;
+    };
     for (std::size_t k = 0; k < places.size(); ++k)
       {
-        velocities.push_back(velocity.vector(places[k], 0.));
-        if (!std::isfinite(velocities.back().norm()))
-          throw options.error("Initial velocity",
-                              "is not a number at (" + write_value(places[k]) + ")",
-                              "Try: an expression that is finite in the whole body.");
-        if (clamped[k])
-          velocities.back() = 0;
+        starts.push_back(places[k] + finite("Initial displacement", displacement, places[k]));
+        velocities.push_back(finite("Initial velocity", velocity, places[k]));
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          if (clamped[k] >> axis & 1)
+            velocities.back()[axis] = 0;
       }
+    for (auto &node : nodes)
+      node += finite("Initial displacement", displacement, node);
+    if (!(body_volumes(boundary, nodes)[0] > 0))
+      throw options.error("Initial displacement",
+                          "turns the body inside out or leaves no volume",
+                          "Try: smaller displacements.");
+    surface = std::make_unique<const SurfaceDistance<dim>>(boundary, nodes);
   }
 
 
@@ -174,7 +231,10 @@ namespace undine
     // depth.
     const bool near_surface = !boundary.sides.empty() || !boundary.options.given("Where");
     const SurfaceDistance<dim> part(named_part(boundary, shape), shape.nodes);
-    bool                       any = false;
+    unsigned char              directions = 0;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      directions |= boundary.directions[axis] ? 1 << axis : 0;
+    bool any = false;
     for (std::size_t k = 0; k < places.size(); ++k)
       {
         const double where = boundary.where.value(places[k], 0.);
@@ -185,8 +245,8 @@ namespace undine
         if (where > 0 && (!near_surface || std::abs(part.nearest(places[k]).distance) <
                                              (1 - rounding_in_bodies) * spacing))
           {
-            clamped[k] = 1;
-            any        = true;
+            clamped[k] |= directions;
+            any = true;
           }
       }
     if (!any)

@@ -50,15 +50,15 @@ namespace undine
                 const ParticleDomain<dim>    &box,
                 const ParticleObstacles<dim> &obstacles)
     {
-      const double outside = box.distance_outside(body.places[k]);
-      const auto   place   = "(" + write_value(body.places[k]) + ")";
-      if (outside > (body.clamped[k] ? box.layers * box.spacing : 0.))
+      const double outside = box.distance_outside(body.starts[k]);
+      const auto   place   = "(" + write_value(body.starts[k]) + ")";
+      if (outside > (body.is_fixed(k) ? box.layers * box.spacing : 0.))
         throw body.options.error(
           "",
           "the body is outside the domain at " + place,
           "Try: a larger domain; what is clamped may reach into walls, at most " +
             write_value(box.layers * box.spacing) + " m.");
-      if (!body.clamped[k] && obstacles.contain(body.places[k]))
+      if (!body.is_fixed(k) && obstacles.contain(body.starts[k]))
         throw body.options.error(
           "",
           "the body is in an obstacle at " + place,
@@ -160,8 +160,8 @@ namespace undine
           .section(effect->name)
           .error("",
                  "this effect is one of fluids on a grid or of bodies of finite elements",
-                 "Remove the section: particles know 'gravity', 'viscosity', 'wall friction' and "
-                 "'central attraction', and always carry their momentum.");
+                 "Remove the section: particles know 'gravity', 'viscosity', 'wall friction', "
+                 "'central attraction' and 'damping', and always carry their momentum.");
   }
 
 
@@ -176,7 +176,7 @@ namespace undine
         body.fill(box.spacing);
         for (std::size_t k = 0; k < body.places.size(); ++k)
           {
-            const auto &place = body.places[k];
+            const auto &place = body.starts[k];
             check_place(body, k, box, obstacles);
             occupied.for_each_near(place, overlap * box.spacing, [&](const std::size_t other) {
               throw body.options.error("",
@@ -207,11 +207,11 @@ namespace undine
     constants.bodies.push_back(body.setup);
     for (std::size_t k = 0; k < body.places.size(); ++k)
       {
-        occupied.add(body.places[k]);
+        occupied.add(body.starts[k]);
         constants.reference.push_back(plain<dim>(body.places[k]));
         constants.body_of.push_back(number);
         constants.clamped.push_back(body.clamped[k]);
-        add(body.places[k],
+        add(body.starts[k],
             body.velocities[k],
             particles::Tag::of(particles::Kind::solid, number + 1));
       }
@@ -256,17 +256,17 @@ namespace undine
       {
         bool room = true; // what is clamped in a wall takes its place
         occupied.for_each_near(wall.place, apart * box.spacing, [&](const std::size_t k) {
-          room = room && !constants.clamped[k];
+          room = room && constants.clamped[k] != particles::all_directions<dim>;
         });
         if (!room)
           continue;
         result.push_back(wall);
         occupied.for_each_near(wall.place, overlap * box.spacing, [&](const std::size_t k) {
           const auto &body = bodies[constants.body_of[k]];
-          throw body.options.error("",
-                                   "the body reaches into a wall at (" + write_value(occupied[k]) +
-                                     ")",
-                                   "Try: move it away by a spacing, or hold it there.");
+          throw body.options.error(
+            "",
+            "the body reaches into a wall at (" + write_value(occupied[k]) + ")",
+            "Try: move it away by a spacing, or hold it there in all directions.");
         });
       }
     for (const auto &wall : result)

@@ -3,6 +3,7 @@
 #include <undine/particle_model/particle_body.h>
 #include <undine/particle_model/particle_fluid.h>
 #include <undine/particle_model/particle_numerics.h>
+#include <undine/particles/elasticity/reference_lattice.h>
 #include <undine/particles/setup/make_constants.h>
 #include <undine/scene/measure_particles.h>
 #include <undine/surface/obstacle_description.h>
@@ -146,22 +147,12 @@ namespace undine
 
 
     /// Explicit steps of bodies in a frame, by the fastest of them.
+    template <int dim>
     double
-    count_elastic_steps(const std::vector<particles::BodySetup> &bodies,
-                        const particles::Numerics               &numerics,
-                        const double                             spacing,
-                        const double                             frame)
+    count_elastic_steps(const particles::Setup<dim> &setup, const double frame)
     {
-      double steps = 0;
-      for (const auto &body : bodies)
-        {
-          const double nu = body.poissons_ratio;
-          const double modulus =
-            body.youngs_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); // lambda + 2 mu [Pa]
-          steps = std::max(
-            steps, frame * std::sqrt(modulus / body.density) / (spacing * numerics.elastic_share));
-        }
-      return steps;
+      return frame * particles::ReferenceLattice<dim, double>(setup).rate() /
+             setup.numerics.elastic_share;
     }
   } // namespace
 
@@ -212,7 +203,7 @@ namespace undine
         size.waiting      = count_waiting(*fluid, box);
         size.sub_steps    = count_sub_steps(setup, frame, fastest);
       }
-    size.elastic_steps = count_elastic_steps(setup.bodies, setup.numerics, box.spacing, frame);
+    size.elastic_steps = count_elastic_steps(setup, frame);
     if (setup.numerics.most_elastic_steps > 0)
       size.elastic_steps =
         std::min(size.elastic_steps, size.sub_steps * setup.numerics.most_elastic_steps);

@@ -41,10 +41,8 @@ namespace undine
     const auto bodies = scene.section("Bodies");
     for (const auto &name : bodies.named_sections("beam"))
       refuse(bodies.section(name),
-             {{"Material", "Remove it: bodies of particles are elastic, with large rotations."},
-              {"Plane state", "Remove it: plane bodies of particles are in plane strain."},
-              {"Load", "Remove it: particles know 'Effects / gravity' only."},
-              {"Initial displacement", "Remove it: try 'Initial velocity'."}},
+             {{"Plane state", "Remove it: plane bodies of particles are in plane strain."},
+              {"Load", "Remove it: particles know 'Effects / gravity' only."}},
              of_elements);
   }
 

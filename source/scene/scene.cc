@@ -38,13 +38,14 @@ namespace undine
     void
     check_effects(const Scene<dim> &scene, const Options &options)
     {
-      typename Effect<dim>::Surroundings surroundings{scene.models.fluid.get(),
-                                                      scene.models.solid.get(),
-                                                      scene.models.surface != nullptr,
-                                                      {},
-                                                      {},
-                                                      scene.models.particles &&
-                                                        scene.models.particles->has_fluid()};
+      typename Effect<dim>::Surroundings surroundings{
+        scene.models.fluid.get(),
+        scene.models.solid.get(),
+        scene.models.surface != nullptr,
+        {},
+        {},
+        scene.models.particles && scene.models.particles->has_fluid(),
+        scene.models.particles && !scene.models.particles->body_names().empty()};
       for (const auto &effect : scene.models.effects)
         {
           surroundings.effects.push_back(effect->name);

@@ -34,6 +34,7 @@ namespace undine
       std::vector<std::string> effects;               ///< names of those that the scene calls for
       std::vector<std::string> scalars; ///< names of the scalar fields that are advected
       bool                     has_fluid_particles = false; ///< a fluid, but not on a grid
+      bool                     has_body_particles  = false; ///< bodies without finite elements
     };
 
     virtual ~Effect() = default;

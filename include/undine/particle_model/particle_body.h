@@ -21,8 +21,8 @@ namespace undine
     /// Read the keys of the section `name`. Throws InputError.
     ParticleBody(const std::string &name, const Options &options);
 
-    /// Place its particles: the points inside the shape of a lattice around the middle of its box,
-    /// so that a box of a whole number of spacings is filled exactly. Throws InputError.
+    /// Place its particles: at rest the points inside the shape of a lattice around the middle of
+    /// its box, so that a box of a whole number of spacings is filled exactly. Throws InputError.
     void
     fill(const double spacing);
 
@@ -30,17 +30,30 @@ namespace undine
     Options                                     options;
     ShapeDescription<dim>                       description;
     particles::BodySetup                        setup;
-    Expression<dim, dim>                        velocity;   ///< at t = 0 [m/s]
-    std::vector<BodyBoundary<dim>>              boundaries; ///< which hold it
-    std::vector<dealii::Point<dim>>             places;     ///< at rest [m]
-    std::vector<dealii::Tensor<1, dim>>         velocities; ///< at t = 0 [m/s]
-    std::vector<unsigned char>                  clamped;    ///< by particle
-    double                                      volume = 0; ///< of the shape [m^dim]
-    std::unique_ptr<const SurfaceDistance<dim>> surface;
+    Expression<dim, dim>                        velocity;     ///< at t = 0 [m/s]
+    std::vector<BodyBoundary<dim>>              boundaries;   ///< which hold it
+    Expression<dim, dim>                        displacement; ///< at t = 0 [m]
+    std::vector<dealii::Point<dim>>             places;       ///< at rest [m]
+    std::vector<dealii::Point<dim>>             starts;       ///< at t = 0 [m]
+    std::vector<dealii::Tensor<1, dim>>         velocities;   ///< at t = 0 [m/s]
+    std::vector<unsigned char>                  clamped;      ///< directions as bits, by particle
+    double                                      volume = 0;   ///< of the shape [m^dim]
+    std::unique_ptr<const SurfaceDistance<dim>> surface;      ///< at t = 0
+
+    /// Is it clamped in all directions?
+    bool
+    is_fixed(const std::size_t particle) const
+    {
+      return clamped[particle] == particles::all_directions<dim>;
+    }
 
   private:
     void
-    hold(const BodyBoundary<dim> &boundary, const ShapeBoundary<dim> &shape, const double spacing);
+    place_in(const SurfaceDistance<dim> &shape, double spacing);
+    void
+    hold(const BodyBoundary<dim> &boundary, const ShapeBoundary<dim> &shape, double spacing);
+    void
+    start(std::vector<dealii::Point<dim>> nodes, const Surface<dim> &boundary);
   };
 
   /// The bodies of the section `Bodies`, in order of appearance, without particles. Throws

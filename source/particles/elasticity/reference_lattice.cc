@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/particles/elasticity/explicit_steps.h>
 #include <undine/particles/elasticity/reference_lattice.h>
 #include <undine/particles/model/lattice.h>
 #include <undine/particles/setup/make_constants.h>
@@ -15,7 +16,10 @@ namespace undine::particles
   {
     template <class Real>
     ElasticMaterial<Real>
-    material_of(const BodySetup &body, const int dim, const double spacing)
+    material_of(const BodySetup   &body,
+                const BodyDamping &damping,
+                const int          dim,
+                const double       spacing)
     {
       const double E = body.youngs_modulus, nu = body.poissons_ratio;
       const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
@@ -26,7 +30,10 @@ namespace undine::particles
               static_cast<Real>(body.hourglass),
               static_cast<Real>(body.damping),
               static_cast<Real>(body.bulk_damping),
-              static_cast<Real>(contact * std::pow(spacing, dim - 2))};
+              static_cast<Real>(contact * std::pow(spacing, dim - 2)),
+              static_cast<Real>(damping.stiffness),
+              static_cast<Real>(damping.mass),
+              body.law};
     }
 
     template <int dim>
@@ -70,7 +77,10 @@ namespace undine::particles
         points.push_back(point);
       }
     for (const auto &body : setup.bodies)
-      materials.push_back(material_of<Real>(body, dim, spacing));
+      materials.push_back(material_of<Real>(body, setup.body_damping, dim, spacing));
+    held.assign(materials.size(), 0);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      held[bodies[i]] |= clamped[i];
     members.resize(bodies.size());
     std::iota(members.begin(), members.end(), 0);
     std::stable_sort(members.begin(), members.end(), [&](const int a, const int b) {
@@ -142,13 +152,18 @@ namespace undine::particles
   double
   ReferenceLattice<dim, Real>::rate() const
   {
-    double fastest = 0;
+    double fastest = 0, damped = 0;
     for (const auto &material : materials)
       {
-        fastest = std::max(fastest,
-                           std::sqrt(double(material.lambda + 2 * material.mu) / material.density));
+        const double square = double(material.lambda + 2 * material.mu) / material.density;
+        fastest             = std::max(fastest, std::sqrt(square));
+        if (material.viscosity > 0 || material.drag > 0)
+          {
+            const auto rate = static_cast<Real>(square / (spacing * spacing));
+            damped          = std::max(damped, double(damped_rate(material, rate, rate)));
+          }
       }
-    return fastest / spacing;
+    return std::max(fastest / spacing, damped);
   }
 
 

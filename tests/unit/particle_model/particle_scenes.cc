@@ -143,7 +143,8 @@ TEMPLATE_TEST_CASE_SIG(
     {
       CHECK(state.identities[k] == int(k));
       CHECK(state.tags[k].material() == 1);
-      CHECK(setup.clamped[k] == (setup.reference[k][0] < 4.3 - 0.9));
+      CHECK(setup.clamped[k] ==
+            (setup.reference[k][0] < 4.3 - 0.9 ? particles::all_directions<dim> : 0));
       CHECK(state.velocities[k][0] == Approx(setup.clamped[k] ? 0. : setup.reference[k][0]));
     }
   for (std::size_t k = n; k < state.positions.size(); ++k)
@@ -178,7 +179,7 @@ TEST_CASE("particles: what is clamped in a wall takes the place of the wall's pa
   CHECK(count(without, Kind::dummy) - count(with, Kind::dummy) == 4);
   const auto &setup = with.setup();
   for (std::size_t k = 0; k < setup.reference.size(); ++k)
-    CHECK(setup.clamped[k] == (setup.reference[k][1] < 0));
+    CHECK(setup.clamped[k] == (setup.reference[k][1] < 0 ? particles::all_directions<2> : 0));
   CHECK(least_distance(with.initial_state()) == Approx(1));
 }
 

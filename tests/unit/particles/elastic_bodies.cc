@@ -40,7 +40,7 @@ namespace
     scene.for_each_point(lower, upper, [&](const Point<dim> &x) {
       const double xi = x[0] / (length * l0);
       scene.add(x, Kind::solid, 1, along<dim>(dim - 1, xi > 0 ? 5e-4 * first_mode(xi) : 0.));
-      scene.setup.clamped.back() = xi < 0;
+      scene.setup.clamped.back() = xi < 0 ? all_directions<dim> : 0;
     });
     scene.set_free_space(2 * length * l0);
 

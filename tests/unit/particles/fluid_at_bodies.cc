@@ -32,7 +32,7 @@ namespace
       for (int axis = 0; axis < dim - 1; ++axis)
         margin = std::min({margin, x[axis], width * l0 - x[axis]});
       scene.add(x, Kind::solid, 1, Point<dim>::zero());
-      scene.setup.clamped.back() = margin < 2 * l0;
+      scene.setup.clamped.back() = margin < 2 * l0 ? all_directions<dim> : 0;
     });
     lower[dim - 1] = height + 3;
     upper[dim - 1] = height + 17;

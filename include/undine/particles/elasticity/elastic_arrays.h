@@ -27,6 +27,7 @@ namespace undine::particles
       , members(executor, lattice.members)
       , starts(executor, lattice.starts)
       , clamped(executor, lattice.clamped)
+      , held(executor, lattice.held)
       , inside(executor, lattice.inside)
       , counts(executor, lattice.counts)
       , indices(executor, lattice.indices)
@@ -60,6 +61,7 @@ namespace undine::particles
               members.data(),
               starts.data(),
               clamped.data(),
+              held.data(),
               capacity,
               counts.data(),
               indices.data(),
@@ -91,8 +93,8 @@ namespace undine::particles
     Buffer<Executor, int>                       bodies;
     Buffer<Executor, ElasticMaterial<Real>>     materials;
     Buffer<Executor, int>                       members, starts; ///< of ElasticBodies
-    Buffer<Executor, unsigned char>             clamped;
-    Buffer<Executor, unsigned char>             inside; ///< surrounded by their own body
+    Buffer<Executor, unsigned char>             clamped, held;   ///< of ElasticBodies
+    Buffer<Executor, unsigned char>             inside;          ///< surrounded by their own body
     Buffer<Executor, int>                       counts, indices;
     Matrices                                    inverse_moments;
     /// @}

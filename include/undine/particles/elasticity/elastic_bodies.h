@@ -2,19 +2,17 @@
 #ifndef undine_particles_elasticity_elastic_bodies_h
 #define undine_particles_elasticity_elastic_bodies_h
 
+#include <undine/particles/elasticity/elastic_law.h>
 #include <undine/particles/elasticity/elastic_state.h>
-#include <undine/particles/elasticity/volume_law.h>
 #include <undine/particles/execution/lanes.h>
-#include <undine/particles/math/rotation.h>
 #include <undine/particles/model/cell_grid.h>
 #include <undine/particles/neighbours/neighbours.h>
 
 namespace undine::particles
 {
-  /// Fixed corotated elasticity of particles, derived from one energy (P9), so that momentum and
-  /// angular momentum are exact:
-  ///     W = sum_i V (mu |F_i - R_i|^2 + U(det F_i))
-  ///       + sum_ij alpha mu V w_ij |x_ij - F_i X_ij|^2 / a_i,     U: VolumeLaw
+  /// Elasticity of particles, derived from one energy (P9), so that momentum and, but for the
+  /// linear law, angular momentum are exact:
+  ///     W = sum_i V W(F_i) + sum_ij alpha mu V w_ij |x_ij - F_i X_ij|^2 / a_i,   W(F): ElasticLaw
   ///     F_i = (sum_j w x_ij X_ij^T) A_i^{-1},  R_i = rotation of F_i,  a_i = tr(A_i) / dim.
   /// In the inside of a lattice alpha = 1 is the particle method's usual sum over rotated bonds
   /// (the source's equation 6 without its local rotation).
@@ -25,7 +23,7 @@ namespace undine::particles
     Real                     spacing; ///< [m]
     Real                     reach;   ///< [m]
     ElasticBodies<dim, Real> bodies;
-    bool                     is_damped = true; ///< else without viscous forces
+    bool                     is_damped = true; ///< else without numerical viscosity
 
     /// One neighbour j of a particle i in the reference.
     struct Bond
@@ -146,13 +144,16 @@ namespace undine::particles
       const auto &properties = particle.material;
       const Real  stiffness  = 2 * properties.hourglass * properties.mu * particle.inverse_mean;
       const auto  F          = lanes.sum(moment) * particle.inverse_moment;
-      const auto  R          = rotation_of(F, last_rotation);
-      auto        T =
-        stress(properties, F, R, lanes.sum(rate) * particle.inverse_moment, particle.carried) *
-        particle.inverse_moment;
+      const auto  R          = law(properties).rotation(F, last_rotation);
+      const auto  F_rate     = lanes.sum(rate) * particle.inverse_moment;
+      auto        T = stress(properties, F, R, F_rate, particle.carried) * particle.inverse_moment;
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
           T[a][b] -= stiffness * F[a][b];
+      if (properties.viscosity > 0)
+        for (int a = 0; a < dim; ++a)
+          for (int b = 0; b < dim; ++b)
+            T[a][b] -= stiffness * properties.viscosity * F_rate[a][b];
       return {F, R, T};
     }
 
@@ -176,6 +177,10 @@ namespace undine::particles
         force += (bond.weight * (stiffness * (particle.inverse_mean + bond.inverse_mean) +
                                  rate * (bond.v * bond.x) / positive(norm_square(bond.x)))) *
                  bond.x;
+        if (properties.viscosity > 0)
+          force += (bond.weight * stiffness * properties.viscosity *
+                    (particle.inverse_mean + bond.inverse_mean)) *
+                   bond.v;
       });
       return (1 / properties.density) * lanes.sum(force);
     }
@@ -209,12 +214,13 @@ namespace undine::particles
       });
     }
 
-    /// Changes of F and of P A^{-1} with places that move along u; the cofactors of F are held, and
-    /// R turns as it does where F is a rotation: rigid motions change no stress.
+    /// Changes of F and of P A^{-1} with places that move along u, as in ElasticLaw, and, times
+    /// `rate_share` [1/s], with velocities that change by u.
     UNDINE_HOST_DEVICE
     void
     differentiate(const int                i,
                   const Vector<dim, Real> *u,
+                  const Real               rate_share,
                   Matrix<dim, Real>       *F_changes,
                   Matrix<dim, Real>       *stress_changes) const
     {
@@ -222,16 +228,12 @@ namespace undine::particles
       for_each_bond(i, OneLane(), [&](const Bond &bond) {
         moment.add_outer_product(bond.weight, u[bond.j] - u[i], bond.X);
       });
-      const auto       &properties = material(i);
-      const auto        F          = moment * bodies.inverse_moments[i];
-      const auto        C          = cofactors(bodies.deformations[i]);
-      const Real        J          = determinant(bodies.deformations[i]);
-      const Real        pull       = volume_law(properties).stiffness(J) * double_contraction(C, F);
-      const auto        stretch    = without_turn(bodies.rotations[i], F);
-      Matrix<dim, Real> stress;
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-          stress[a][b] = 2 * properties.mu * stretch[a][b] + pull * C[a][b];
+      const auto &properties = material(i);
+      const auto  F          = moment * bodies.inverse_moments[i];
+      const auto  now        = bodies.deformations[i];
+      auto        stress     = law(properties).stress_change(now, bodies.rotations[i], F);
+      if (rate_share * properties.viscosity > 0)
+        add(stress, rate_share * properties.viscosity, law(properties).strain_rate_stress(now, F));
       F_changes[i]      = F;
       stress_changes[i] = stress * bodies.inverse_moments[i];
     }
@@ -241,14 +243,16 @@ namespace undine::particles
     Vector<dim, Real>
     acceleration_change(const int                i,
                         const Vector<dim, Real> *u,
+                        const Real               rate_share,
                         const Matrix<dim, Real> *F_changes,
                         const Matrix<dim, Real> *stress_changes) const
     {
       const auto &properties = material(i);
       const auto  F_i = F_changes[i], stress_i = stress_changes[i];
-      const Real  stiffness = 2 * properties.hourglass * properties.mu;
-      const Real  a_i       = inverse_mean(i);
-      auto        force     = Vector<dim, Real>::zero();
+      const Real  stiffness =
+        2 * properties.hourglass * properties.mu * (1 + rate_share * properties.viscosity);
+      const Real a_i   = inverse_mean(i);
+      auto       force = Vector<dim, Real>::zero();
       for_each_bond(i, OneLane(), [&](const Bond &bond) {
         const auto u_ij = u[bond.j] - u[i];
         force += bond.weight * (stress_i * bond.X + stress_changes[bond.j] * bond.X);
@@ -259,32 +263,12 @@ namespace undine::particles
       return (1 / properties.density) * force;
     }
 
-    /// The square of the speed of pressure waves where they are fastest [m^2/s^2].
-    UNDINE_HOST_DEVICE
-    static Real
-    sound_square(const ElasticMaterial<Real> &properties, const Matrix<dim, Real> &F)
-    {
-      const auto C      = cofactors(F);
-      Real       square = 0; // of |C C^T - 1|, which bounds the change of the largest stretch
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-          {
-            Real entry = a == b ? Real(-1) : Real(0);
-            for (int c = 0; c < dim; ++c)
-              entry += C[a][c] * C[b][c];
-            square += entry * entry;
-          }
-      return (2 * properties.mu +
-              volume_law(properties).stiffness(determinant(F)) * (1 + square_root(square))) /
-             properties.density;
-    }
-
-    /// U'(det F) of a particle [Pa], after deform().
+    /// What bears a pressure around a particle [Pa], after deform().
     UNDINE_HOST_DEVICE
     Real
     volume_tension(const int i) const
     {
-      return volume_law(material(i)).tension(determinant(bodies.deformations[i]));
+      return law(material(i)).mean_tension(bodies.deformations[i], bodies.rotations[i]);
     }
 
     /// Of a small change of the volume of what a particle belongs to [1/Pa].
@@ -303,15 +287,11 @@ namespace undine::particles
     {
       const auto &properties = material(i);
       const auto  F = bodies.deformations[i], R = bodies.rotations[i];
-      Real        square = 0;
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-          square += (F[a][b] - R[a][b]) * (F[a][b] - R[a][b]);
-      Real bonds = 0;
+      Real        bonds = 0;
       for_each_bond(i, OneLane(), [&](const Bond &bond) {
         bonds += bond.weight * norm_square(bond.x - F * bond.X);
       });
-      return properties.mu * square + volume_law(properties).energy(determinant(F)) +
+      return law(properties).energy(F, R) +
              properties.hourglass * properties.mu * inverse_mean(i) * bonds;
     }
 
@@ -333,23 +313,6 @@ namespace undine::particles
               other.inverse_mean};
     }
 
-    /// The part of a change of F that is no rotation, R sym(R^T dF).
-    UNDINE_HOST_DEVICE
-    static Matrix<dim, Real>
-    without_turn(const Matrix<dim, Real> &R, const Matrix<dim, Real> &change)
-    {
-      auto in_body = Matrix<dim, Real>::diagonal(0);
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-          for (int c = 0; c < dim; ++c)
-            {
-              const Real entry = R[c][a] * change[c][b] / 2;
-              in_body[a][b] += entry;
-              in_body[b][a] += entry;
-            }
-      return R * in_body;
-    }
-
     /// Not zero, as it would be of a particle with itself, with which lists are filled up.
     UNDINE_HOST_DEVICE
     static Real
@@ -367,10 +330,10 @@ namespace undine::particles
     }
 
     UNDINE_HOST_DEVICE
-    static VolumeLaw<Real>
-    volume_law(const ElasticMaterial<Real> &properties)
+    static ElasticLaw<dim, Real>
+    law(const ElasticMaterial<Real> &properties)
     {
-      return {properties.lambda, properties.lambda + 2 * properties.mu};
+      return {properties};
     }
 
     /// rho c_p, the scale of damping [kg/m^2 s].
@@ -381,8 +344,17 @@ namespace undine::particles
       return square_root((properties.lambda + 2 * properties.mu) * properties.density);
     }
 
-    /// Of first Piola and Kirchhoff, P = 2 mu (F - R) + U'(det F) cof(F) [Pa] (P9), with bulk
-    /// viscosity and with the pressure that the body carries (P10).
+    UNDINE_HOST_DEVICE
+    static void
+    add(Matrix<dim, Real> &to, const Real factor, const Matrix<dim, Real> &what)
+    {
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          to[a][b] += factor * what[a][b];
+    }
+
+    /// Of first Piola and Kirchhoff [Pa] (P14), with viscosity (P15), bulk viscosity and the
+    /// pressure that the body carries (P10).
     UNDINE_HOST_DEVICE
     Matrix<dim, Real>
     stress(const ElasticMaterial<Real> &properties,
@@ -394,13 +366,13 @@ namespace undine::particles
       const Real bulk_viscosity =
         is_damped ? properties.bulk_damping * sound_impedance(properties) * spacing : Real(0);
       const auto C    = cofactors(F); // dJ/dF
-      const Real pull = volume_law(properties).tension(determinant(F)) + carried +
+      const Real pull = law(properties).tension(F) + carried +
                         bulk_viscosity * double_contraction(C, F_rate) /
                           maximum(Real(1), double_contraction(C, C) / dim);
-      Matrix<dim, Real> result;
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-          result[a][b] = 2 * properties.mu * (F[a][b] - R[a][b]) + pull * C[a][b];
+      auto result = law(properties).distortion_stress(F, R);
+      add(result, pull, C);
+      if (properties.viscosity > 0)
+        add(result, properties.viscosity, law(properties).strain_rate_stress(F, F_rate));
       return result;
     }
   };

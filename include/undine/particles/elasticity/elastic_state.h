@@ -34,6 +34,20 @@ namespace undine::particles
   /// @}
 
 
+  /// Without the directions that are held.
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE
+  Vector<dim, Real>
+  free_part(Vector<dim, Real> v, const unsigned char held)
+  {
+    if (held != 0)
+      for (int axis = 0; axis < dim; ++axis)
+        if ((held >> axis & 1) != 0)
+          v[axis] = 0;
+    return v;
+  }
+
+
   /// The particles of all elastic bodies, by identity. The reference configuration and its
   /// neighbourhoods never change: forces are total Lagrangian.
   template <int dim, class Real>
@@ -47,7 +61,8 @@ namespace undine::particles
     int                              n_bodies;
     const int                       *members; ///< by body
     const int                       *starts; ///< of the bodies' particles in `members`, and its end
-    const unsigned char             *clamped;  ///< does not move
+    const unsigned char             *clamped;  ///< directions in which it does not move, bits
+    const unsigned char             *held;     ///< of the bodies: those of any of their particles
     int                              capacity; ///< of the list of neighbours in the reference
     const int                       *counts;
     const int                       *indices;

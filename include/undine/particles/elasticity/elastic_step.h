@@ -88,11 +88,11 @@ namespace undine::particles
     UNDINE_HOST_DEVICE
     static ElasticPoint<dim, Real>
     moved(const ElasticPoint<dim, Real> &point,
-          const bool                     is_clamped,
+          const unsigned char            held,
           const Real                     h,
           const Vector<dim, Real>       &a)
     {
-      const auto v = is_clamped ? Vector<dim, Real>::zero() : point.v + h * a;
+      const auto v = free_part(point.v + h * a, held);
       return {point.x + h * v, v};
     }
 
@@ -103,6 +103,14 @@ namespace undine::particles
     body_force(const ElasticMaterial<Real> &material, const Vector<dim, Real> &x) const
     {
       return (1 - displaced_density / material.density) * force.acceleration(x);
+    }
+
+    /// By damping of the velocity itself (P15) [m/s^2].
+    UNDINE_HOST_DEVICE
+    static Vector<dim, Real>
+    drag(const ElasticMaterial<Real> &material, const Vector<dim, Real> &v)
+    {
+      return -material.drag * v;
     }
 
     /// By the fluid's pressure [m/s^2].
@@ -121,10 +129,17 @@ namespace undine::particles
             const Matrix<dim, Real>     &F,
             const Response              &contacts) const
     {
-      const Real square =
-        elasticity.sound_square(material, F) / (elasticity.spacing * elasticity.spacing) +
-        contacts.frequency_square / lattice_frequency_square +
-        contacts.closing_square * closing_factor * closing_factor;
+      const ElasticLaw<dim, Real> law{material};
+      const Real                  spacing_square = elasticity.spacing * elasticity.spacing;
+      const Real                  square         = law.sound_square(F) / spacing_square +
+                          contacts.frequency_square / static_cast<Real>(lattice_frequency_square) +
+                          contacts.closing_square * closing_factor * closing_factor;
+      if (material.viscosity > 0 || material.drag > 0)
+        {
+          const Real rate =
+            damped_rate(material, square, law.strain_rate_square(F) / spacing_square);
+          return rate > static_cast<Real>(bounds.elastic_rate) ? static_cast<float>(rate) : 0.f;
+        }
       return square > static_cast<Real>(bounds.elastic_rate * bounds.elastic_rate)
                ? static_cast<float>(square_root(square))
                : 0.f;
@@ -229,10 +244,6 @@ namespace undine::particles
 
     static constexpr Real release = 10;
 
-    /// Square of the highest frequency of a lattice of particles over c_p / l0: explicit steps are
-    /// stable up to about 0.95 l0 / c_p.
-    static constexpr Real lattice_frequency_square = Real(4.4);
-
     /// In a step two may come closer by elastic_share over this of their distance.
     static constexpr Real closing_factor = Real(4);
 
@@ -328,8 +339,7 @@ namespace undine::particles
       team.sync();
       team.for_each(n, [&](const int i) {
         ElasticPoint<dim, Real> point = bodies().points[i];
-        point.v =
-          bodies().clamped[i] ? Vector<dim, Real>::zero() : point.v + implicit_vectors.change[i];
+        point.v = free_part(point.v + implicit_vectors.change[i], bodies().clamped[i]);
         point.x += h * point.v;
         points_next[i] = point;
       });
@@ -345,6 +355,7 @@ namespace undine::particles
     {
       auto result = body_force(elasticity.material(i), elasticity.bodies.points[i].x) +
                     pressure_acceleration(i);
+      result += drag(elasticity.material(i), elasticity.bodies.points[i].v);
       result += contact.response(i, lanes).acceleration;
       return result += elasticity.acceleration(i, lanes);
     }

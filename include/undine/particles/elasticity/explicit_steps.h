@@ -2,10 +2,29 @@
 #ifndef undine_particles_elasticity_explicit_steps_h
 #define undine_particles_elasticity_explicit_steps_h
 
+#include <undine/particles/model/elastic_material.h>
 #include <undine/particles/model/step_control.h>
 
 namespace undine::particles
 {
+  /// Square of the highest frequency of a lattice of particles over c_p / l0: explicit steps are
+  /// stable up to about 0.95 l0 / c_p.
+  static constexpr double lattice_frequency_square = 4.4;
+
+  /// As in StepBounds, with damping [1/s]: where elasticity alone has the square `elastic` of that
+  /// rate, and the speed of waves that belongs to viscosity has the square `viscous` over l0
+  /// [1/s^2]. With omega for the former and beta = eta omega_v^2 + alpha explicit steps are stable
+  /// up to h^2 omega^2 + 2 h beta = 4.
+  template <class Real>
+  UNDINE_HOST_DEVICE
+  Real
+  damped_rate(const ElasticMaterial<Real> &material, const Real elastic, const Real viscous)
+  {
+    const Real lattice = static_cast<Real>(lattice_frequency_square);
+    const Real beta    = material.viscosity * lattice * viscous + material.drag;
+    return (beta + square_root(beta * beta + 4 * lattice * elastic)) / (2 * square_root(lattice));
+  }
+
   /// The explicit steps of elastic bodies in a sub-step: each is chosen when it begins, of equal
   /// ones for what is left.
   struct ExplicitSteps

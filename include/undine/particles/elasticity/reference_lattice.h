@@ -19,13 +19,14 @@ namespace undine::particles
     std::vector<int>                       bodies;
     std::vector<ElasticMaterial<Real>>     materials;
     std::vector<int>                       members, starts; ///< of ElasticBodies
-    std::vector<unsigned char>             clamped;
+    std::vector<unsigned char>             clamped, held;   ///< of ElasticBodies
     std::vector<unsigned char>     inside; ///< has nearly as many neighbours as in a full lattice
     int                            capacity;
     std::vector<int>               counts, indices;
     std::vector<Matrix<dim, Real>> inverse_moments;
 
-    /// c_p / l0 of the fastest body [1/s]; 0 without bodies.
+    /// As in StepBounds, of the body that needs the shortest explicit steps [1/s]; 0 without
+    /// bodies.
     double
     rate() const;
 

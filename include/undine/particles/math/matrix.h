@@ -86,6 +86,29 @@ namespace undine::particles
     return sum;
   }
 
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE
+  Matrix<dim, Real>
+  transposed(const Matrix<dim, Real> &m)
+  {
+    Matrix<dim, Real> result;
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        result[i][j] = m[j][i];
+    return result;
+  }
+
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE
+  Real
+  trace(const Matrix<dim, Real> &m)
+  {
+    Real sum = 0;
+    for (int i = 0; i < dim; ++i)
+      sum += m[i][i];
+    return sum;
+  }
+
   /// det(m) m^{-T}, which exists for singular m too. @{
   template <class Real>
   UNDINE_HOST_DEVICE

@@ -35,11 +35,12 @@ namespace undine::particles
   /// Bounds on sub-steps [s], constant.
   struct StepBounds
   {
-    double asked           = 0; ///< largest
-    double waves           = 0; ///< share of l0 / sqrt(g H); 0: none
-    double viscosity       = 0; ///< share of l0^2 / nu; 0: none
-    double speed_share     = 0; ///< of l0 that the fastest particle may cross [m]
-    double elastic_rate    = 0; ///< c_p / l0 of the fastest body at rest [1/s]; 0: no bodies
+    double asked       = 0; ///< largest
+    double waves       = 0; ///< share of l0 / sqrt(g H); 0: none
+    double viscosity   = 0; ///< share of l0^2 / nu; 0: none
+    double speed_share = 0; ///< of l0 that the fastest particle may cross [m]
+    /// c_p / l0 of the fastest body at rest, more with damping [1/s]; 0: no bodies.
+    double elastic_rate    = 0;
     double elastic_share   = 0; ///< of 1 over that rate, for an explicit step of bodies [1]
     int most_elastic_steps = 0; ///< explicit ones in a sub-step; else one implicit; 0: any number
   };

@@ -71,6 +71,14 @@ namespace undine::particles
     double damping         = 0.02; ///< share of critical damping of bonds [1]
     double bulk_damping    = 0.2;  ///< of sound, as a share of rho c_p l0 [1]
     double contact_modulus = 0;    ///< [Pa]; 0: lambda + 2 mu
+    Law    law             = Law::corotated;
+  };
+
+  /// Of all bodies, C = alpha M + eta V (P15).
+  struct BodyDamping
+  {
+    double mass      = 0; ///< alpha [1/s]
+    double stiffness = 0; ///< eta [s]
   };
 
   /// A side of the box, or a part of space behind a plane, where fluid enters or leaves; see
@@ -126,7 +134,8 @@ namespace undine::particles
     std::vector<BodySetup>           bodies;
     std::vector<Vector<dim, double>> reference; ///< X [m]
     std::vector<int>                 body_of;   ///< entry of `bodies`
-    std::vector<unsigned char>       clamped;   ///< does not move
+    std::vector<unsigned char>       clamped;   ///< directions in which it does not move, bits
+    BodyDamping                      body_damping;
 
     Numerics numerics;
 
