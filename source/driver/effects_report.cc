@@ -40,11 +40,13 @@ namespace undine
           rows.push_back(
             {name, false, "no subsection 'Effects / " + name + "'", registry.help(name), {name}});
         else
-          rows.push_back({name,
-                          true,
-                          "Effects / " + name + ": " + (*found)->summary(),
-                          registry.help(name),
-                          {scene.models.particles ? of_particles : name}});
+          rows.push_back(
+            {name,
+             true,
+             "Effects / " + name + ": " +
+               (scene.models.particles ? (*found)->summary_of_particles() : (*found)->summary()),
+             registry.help(name),
+             {scene.models.particles ? of_particles : name}});
       }
   }
 
