@@ -30,7 +30,7 @@ namespace undine
   {
     const auto &registry = Registry<Effect<dim>>::instance();
     const auto &effects  = scene.models.effects;
-    // Particles have no phase of each effect: their forces are computed in one pass.
+    // Particles have no phase of each force: all are computed in one pass.
     const std::string of_particles = name_of(particles::Phase::forces);
     for (const auto &name : registry.names())
       {
@@ -46,7 +46,7 @@ namespace undine
              "Effects / " + name + ": " +
                (scene.models.particles ? (*found)->summary_of_particles() : (*found)->summary()),
              registry.help(name),
-             {scene.models.particles ? of_particles : name}});
+             {scene.models.particles && (*found)->is_in_passes() ? of_particles : name}});
       }
   }
 

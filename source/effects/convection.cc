@@ -80,6 +80,12 @@ namespace undine
       return true;
     }
 
+    bool
+    is_in_passes() const override
+    {
+      return false;
+    }
+
     /// Surfaces may move: what then is kept from stage to stage.
     void
     initialize(const FluidModel<dim> &model, FluidState<dim> &state) const override

@@ -112,6 +112,14 @@ namespace undine
 
 
   template <int dim>
+  bool
+  Effect<dim>::is_in_passes() const
+  {
+    return true;
+  }
+
+
+  template <int dim>
   std::pair<std::string, std::string>
   Effect<dim>::reason_not_for_particles() const
   {

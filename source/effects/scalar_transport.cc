@@ -125,6 +125,12 @@ namespace undine
       return true;
     }
 
+    bool
+    is_in_passes() const override
+    {
+      return false;
+    }
+
     void
     initialize(const FluidModel<dim> &model, FluidState<dim> &state) const override
     {

@@ -179,10 +179,10 @@ namespace undine
 
     ParticleSize          size;
     particles::Setup<dim> setup;
-    setup.spacing   = box.spacing;
-    setup.numerics  = numerics.numerics;
-    size.is_double  = numerics.precision == particles::Precision::double_precision ||
-                     seeks_equilibrium(scene);
+    setup.spacing  = box.spacing;
+    setup.numerics = numerics.numerics;
+    size.is_double =
+      numerics.precision == particles::Precision::double_precision || seeks_equilibrium(scene);
     size.on_device  = numerics.executor != "host";
     size.walls      = count_walls(scene, box);
     size.grid_cells = 1;

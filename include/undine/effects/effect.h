@@ -131,6 +131,11 @@ namespace undine
     virtual bool
     affect_particles(particles::Setup<dim> &setup) const;
 
+    /// Do the passes over particles compute it, and spend time on it? Else, if anything, a phase of
+    /// its own name does.
+    virtual bool
+    is_in_passes() const;
+
     /// Why particles do not have it, and what to try; asked where affect_particles() is false.
     virtual std::pair<std::string, std::string>
     reason_not_for_particles() const;

@@ -65,7 +65,10 @@ namespace undine
   {
     for (const auto &effect : effects)
       for (auto &field : effect->carried_scalars())
-        fields.push_back(std::move(field));
+        {
+          fields.push_back(std::move(field));
+          phase = effect->name;
+        }
   }
 
 
@@ -121,10 +124,11 @@ namespace undine
         const double speed = side.inward * velocity[side.axis];
         if (!side.is_inflow || !(speed > 0))
           continue; // layers move along the normal of their side
-        const double behind = side.inward * (side.plane - place[side.axis]);
-        const double passed = std::clamp(behind / speed, 0., length);
-        entry.time          = time + passed;
-        entry.place         = point_of(place + passed * velocity);
+        const double behind    = side.inward * (side.plane - place[side.axis]);
+        const double passed    = std::clamp(behind / speed, 0., length);
+        entry.time             = time + passed;
+        entry.place            = point_of(place);
+        entry.place[side.axis] = side.plane;
         return true;
       }
     return false;
@@ -136,10 +140,12 @@ namespace undine
   CarriedScalars<dim>::follow(particles::ParticleState<dim>       &after,
                               const particles::ParticleState<dim> &before,
                               const double                         time,
-                              const double                         length) const
+                              const double                         length,
+                              TimingTree                          &timing) const
   {
     if (empty())
       return;
+    const auto               timed   = timing.section(phase);
     constexpr std::size_t    nowhere = -1;
     std::vector<std::size_t> numbers(std::max(count_identities(before), count_identities(after)),
                                      nowhere); // in `before`

@@ -2,7 +2,6 @@
 #include <undine/base/core/errors.h>
 #include <undine/base/parallel/interruption.h>
 #include <undine/coupled/scheme/particle_scheme.h>
-#include <undine/coupled/scheme/relaxation.h>
 #include <undine/coupled/step/physics.h>
 #include <undine/particles/execution/phases.h>
 #include <undine/particles/setup/disorder.h>
@@ -206,7 +205,7 @@ namespace undine
     if (is_static)
       {
         Relaxation<dim> relaxation(*engine, model->setup());
-        control = relaxation.relax(fetched);
+        control = relax(relaxation, fetched);
         fetch(fetched, report, control);
         append(report.columns,
                {{"Stops", "1", double(relaxation.stops())},
@@ -218,7 +217,7 @@ namespace undine
         control = advance(state, dt);
         fetch(fetched, report, control);
       }
-    scalars->follow(fetched, state.particles, state.clock.time, dt);
+    scalars->follow(fetched, state.particles, state.clock.time, dt, *timing);
     append(report.columns, scalars->columns(fetched));
     assert_finite(report.columns);
     report.linear_iterations = control.pressure.iterations;
@@ -257,6 +256,29 @@ namespace undine
         throw SolveError(std::string(reason.what()) +
                          " Fluid flows into the domain and nowhere out, and it is nearly full: try "
                          "an outflow, an open side or an earlier 'Time / End'.");
+      }
+  }
+
+
+  template <int dim>
+  particles::StepControl
+  ParticleScheme<dim>::relax(Relaxation<dim>               &relaxation,
+                             particles::ParticleState<dim> &particles) const
+  {
+    try
+      {
+        return relaxation.relax(particles);
+      }
+    catch (const particles::FrameAbandoned &)
+      {
+        throw_if_interrupted(model->communicator());
+        throw;
+      }
+    catch (const SolveError &reason)
+      {
+        throw SolveError("an equilibrium was sought ('Time / Integrator = static'), which is only "
+                         "where every body is held: " +
+                         std::string(reason.what()));
       }
   }
 

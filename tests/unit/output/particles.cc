@@ -52,11 +52,11 @@ namespace
         all.velocities[k][1] = 0.1 * k;
         all.pressures[k]     = 3. + k;
       }
-    all.guesses      = {1.5, 2.5, -1};
+    all.guesses = {1.5, 2.5, -1};
     all.scalars["smoke"].assign(all.positions.size(), 0.5);
     all.scalars["smoke"][3] = -7.25;
-    state.clock.step = 7;
-    state.clock.time = 0.25;
+    state.clock.step        = 7;
+    state.clock.time        = 0.25;
     return state;
   }
 

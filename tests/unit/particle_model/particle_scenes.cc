@@ -234,8 +234,11 @@ TEST_CASE("particles: a domain is full if no cube in it is free and nothing can 
 }
 
 
-TEMPLATE_TEST_CASE_SIG(
-  "particles: a void region is as far empty as bodies and walls close it", "", ((int dim), dim), 2, 3)
+TEMPLATE_TEST_CASE_SIG("particles: a void region is as far empty as bodies and walls close it",
+                       "",
+                       ((int dim), dim),
+                       2,
+                       3)
 {
   const auto room = [](const double lower, const double upper) {
     std::string text = fmt::format("set Lower corner = {}, 4", lower);
@@ -252,10 +255,10 @@ TEMPLATE_TEST_CASE_SIG(
   const auto with_void = [&](const std::string &plate, const std::string &seed) {
     return read_particles<dim>(
       particle_box<dim>(10) + plate +
-      section("Fluid",
-              "set Density = 1000\n" +
-                section("Void regions",
-                        section("air", "set Seed = " + seed + (dim == 3 ? ", 5" : "")))));
+      section(
+        "Fluid",
+        "set Density = 1000\n" +
+          section("Void regions", section("air", "set Seed = " + seed + (dim == 3 ? ", 5" : "")))));
   };
   const std::size_t layer = power(10, dim - 1);
   for (const std::string seed : {"5, 1.5", "0.6, 0.6"})
@@ -276,11 +279,10 @@ TEMPLATE_TEST_CASE_SIG(
 TEST_CASE("particles: what is clamped deeper in walls than they are thick is left out")
 {
   const auto beam = [](const std::string &end) {
-    return read_particles<2>(
-      particle_box<2>(10) +
-      body("beam",
-           "set Lower corner = 4, " + end + "\n set Upper corner = 6, 5\n" +
-             section("Boundaries", section("foot", "set Where = -y"))));
+    return read_particles<2>(particle_box<2>(10) +
+                             body("beam",
+                                  "set Lower corner = 4, " + end + "\n set Upper corner = 6, 5\n" +
+                                    section("Boundaries", section("foot", "set Where = -y"))));
   };
   const auto short_one = beam("-3"), long_one = beam("-6");
   CHECK(count(short_one, Kind::solid) == 16);

@@ -125,9 +125,10 @@ TEST_CASE("particles: wrong obstacles and effects are refused")
                 {"'Obstacles/other'", "another one that moves"});
   check_message(obstacle("set Surface = there_is_no_such_file.stl"),
                 {"'Surface'", "cannot be read"});
-  check_message(particle_box<2>(10) + fluid_section + section("Effects", section("sleep", "")),
+  check_message(particle_box<2>(10) + fluid_section +
+                  section("Effects", section("sleep", "set Speed = 1\n set Time = 1")),
                 {"'Effects/sleep'", "'gravity', 'viscosity', 'wall friction'"});
   check_message(particle_box<2>(10) + fluid_section +
-                  section("Effects", section("vorticity confinement", "")),
+                  section("Effects", section("vorticity confinement", "set Strength = 1")),
                 {"'Effects/vorticity confinement'", "particles smooth nothing"});
 }

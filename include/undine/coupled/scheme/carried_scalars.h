@@ -3,8 +3,10 @@
 #define undine_coupled_scheme_carried_scalars_h
 
 #include <undine/base/core/column.h>
+#include <undine/base/core/timing.h>
 #include <undine/coupled/model/models.h>
 
+#include <string>
 #include <vector>
 
 namespace undine
@@ -39,7 +41,8 @@ namespace undine
     follow(particles::ParticleState<dim>       &after,
            const particles::ParticleState<dim> &before,
            double                               time,
-           double                               length) const;
+           double                               length,
+           TimingTree                          &timing) const;
 
     /// The integral of each field over the fluid.
     Columns
@@ -65,6 +68,7 @@ namespace undine
                double                                length) const;
 
     std::vector<Field>        fields;
+    std::string               phase; ///< of the timing, by the effect
     const ParticleModel<dim> &model;
   };
 } // namespace undine

@@ -3,6 +3,7 @@
 #define undine_coupled_scheme_particle_scheme_h
 
 #include <undine/coupled/scheme/carried_scalars.h>
+#include <undine/coupled/scheme/relaxation.h>
 #include <undine/coupled/scheme/scheme.h>
 #include <undine/particles/engine/engine.h>
 
@@ -53,6 +54,10 @@ namespace undine
     /// A frame. Throws SolveError, with what the scene may have to do with it.
     particles::StepControl
     advance(const State<dim> &state, const double dt);
+
+    /// Seek an equilibrium of what the engine holds. Throws SolveError if none is found.
+    particles::StepControl
+    relax(Relaxation<dim> &relaxation, particles::ParticleState<dim> &particles) const;
 
     /// Tell the follower how far the frame is. Returns false if it is to be abandoned.
     bool
