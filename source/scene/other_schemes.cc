@@ -28,9 +28,29 @@ namespace undine
   } // namespace
 
 
+  namespace
+  {
+    void
+    refuse_one_way(const Options &coupling)
+    {
+      std::string direction = "two-way";
+      if (coupling.given("Direction"))
+        coupling.add("Direction", direction, "", Allowed::anything(), "");
+      if (direction != "two-way")
+        coupling.mistake(coupling.error("Direction",
+                                        "is '" + direction +
+                                          "', but fluid and bodies of particles always push each "
+                                          "other: they have one pressure",
+                                        "Allowed: two-way. Try: 'Obstacles' in place of bodies "
+                                        "that the fluid shall not move."));
+    }
+  } // namespace
+
+
   void
   refuse_keys_of_other_schemes(const Options &scene)
   {
+    refuse_one_way(scene.section("Coupling"));
     const std::string of_elements = "belongs to bodies of finite elements, not of particles";
     const auto        bodies      = scene.section("Bodies");
     for (const auto &name : bodies.named_sections("beam"))
