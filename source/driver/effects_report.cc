@@ -30,7 +30,7 @@ namespace undine
   {
     const auto &registry = Registry<Effect<dim>>::instance();
     const auto &effects  = scene.models.effects;
-    // Particles have no phase of each effect: their forces are computed in one pass.
+    // Particles have no phase of each force: all are computed in one pass.
     const std::string of_particles = name_of(particles::Phase::forces);
     for (const auto &name : registry.names())
       {
@@ -40,11 +40,13 @@ namespace undine
           rows.push_back(
             {name, false, "no subsection 'Effects / " + name + "'", registry.help(name), {name}});
         else
-          rows.push_back({name,
-                          true,
-                          "Effects / " + name + ": " + (*found)->summary(),
-                          registry.help(name),
-                          {scene.models.particles ? of_particles : name}});
+          rows.push_back(
+            {name,
+             true,
+             "Effects / " + name + ": " +
+               (scene.models.particles ? (*found)->summary_of_particles() : (*found)->summary()),
+             registry.help(name),
+             {scene.models.particles && (*found)->is_in_passes() ? of_particles : name}});
       }
   }
 

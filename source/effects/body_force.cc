@@ -53,6 +53,14 @@ namespace undine
         }
     }
 
+    std::pair<std::string, std::string>
+    reason_not_for_particles() const override
+    {
+      return {"particles do not know forces that depend on place and time",
+              "Try: 'gravity' or 'central attraction', or compute the scene on a "
+              "grid: 'Scheme = simultaneous'."};
+    }
+
     std::string
     summary() const override
     {

@@ -62,6 +62,15 @@ namespace undine
                    "Add it to 'Effects/scalar transport' as a subsection of that name.");
     }
 
+    std::pair<std::string, std::string>
+    reason_not_for_particles() const override
+    {
+      return {"what particles carry does not act back on their flow: all of a fluid "
+              "have one density",
+              "Remove the section, or compute the scene on a grid: 'Scheme = "
+              "simultaneous'."};
+    }
+
     std::string
     summary() const override
     {

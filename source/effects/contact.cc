@@ -53,6 +53,15 @@ namespace undine
                             "Remove 'Solid numerics / Newton iterations'.");
     }
 
+    std::pair<std::string, std::string>
+    reason_not_for_particles() const override
+    {
+      return {"bodies of particles always keep off each other, walls and obstacles; "
+              "the effect's own walls are of finite elements",
+              "Remove the section; walls are those of 'Domain' and 'Obstacles', "
+              "stiffness is 'Contact modulus' of a body."};
+    }
+
     std::string
     summary() const override
     {

@@ -45,7 +45,7 @@ namespace undine
     void
     check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
     {
-      if (!around.fluid)
+      if (!around.fluid && !around.has_fluid_particles)
         throw options.error("",
                             "convection acts on a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
@@ -61,10 +61,29 @@ namespace undine
       return form.is_flux() ? "flux form, central, implicit" : method->summary();
     }
 
+    std::string
+    summary_of_particles() const override
+    {
+      return "particles carry their momentum";
+    }
+
     typename Effect<dim>::Work
     work() const override
     {
       return {dim, 0};
+    }
+
+    /// They move with their momentum anyway.
+    bool
+    affect_particles(particles::Setup<dim> &) const override
+    {
+      return true;
+    }
+
+    bool
+    is_in_passes() const override
+    {
+      return false;
     }
 
     /// Surfaces may move: what then is kept from stage to stage.

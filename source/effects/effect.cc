@@ -21,8 +21,24 @@ namespace undine
 
 
   template <int dim>
+  std::string
+  Effect<dim>::summary_of_particles() const
+  {
+    return summary();
+  }
+
+
+  template <int dim>
   std::vector<std::string>
   Effect<dim>::scalars() const
+  {
+    return {};
+  }
+
+
+  template <int dim>
+  std::vector<typename Effect<dim>::CarriedScalar>
+  Effect<dim>::carried_scalars() const
   {
     return {};
   }
@@ -92,6 +108,24 @@ namespace undine
   Effect<dim>::affect_particles(particles::Setup<dim> &) const
   {
     return false;
+  }
+
+
+  template <int dim>
+  bool
+  Effect<dim>::is_in_passes() const
+  {
+    return true;
+  }
+
+
+  template <int dim>
+  std::pair<std::string, std::string>
+  Effect<dim>::reason_not_for_particles() const
+  {
+    return {"this effect is one of fluids on a grid or of bodies of finite elements",
+            "Remove the section: particles know 'gravity', 'viscosity', 'wall friction', "
+            "'central attraction' and 'damping', and always carry their momentum."};
   }
 
 

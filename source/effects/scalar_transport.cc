@@ -57,7 +57,7 @@ namespace undine
     void
     check(const Options &options, const typename Effect<dim>::Surroundings &around) const override
     {
-      if (!around.fluid)
+      if (!around.fluid && !around.has_fluid_particles)
         throw options.error("",
                             "scalar transport needs a fluid, but the scene has none",
                             "Remove the section or add a section 'Fluid'.");
@@ -65,6 +65,8 @@ namespace undine
         throw options.error("",
                             "names no field to advect",
                             "Add a subsection with the field's name, such as 'subsection smoke'.");
+      if (!around.fluid)
+        return check_for_particles(options);
       for (const auto &field : fields)
         if (around.has_immersed_surfaces && field->diffusivity > 0 && !form.is_flux())
           throw options.section(field->name)
@@ -91,6 +93,42 @@ namespace undine
       for (const auto &field : fields)
         names.push_back(field->name);
       return names;
+    }
+
+    std::vector<typename Effect<dim>::CarriedScalar>
+    carried_scalars() const override
+    {
+      std::vector<typename Effect<dim>::CarriedScalar> result;
+      for (const auto &field : fields)
+        {
+          const TransportedScalar<dim> *scalar = field.get();
+          result.push_back({scalar->name, {}, {}, {}});
+          auto &carried   = result.back();
+          carried.initial = [scalar](const dealii::Point<dim> &place) {
+            return scalar->initial.value(place, 0);
+          };
+          carried.entering = [scalar](const dealii::Point<dim> &place, const double time) {
+            return scalar->entering_value(place, time);
+          };
+          if (!scalar->source.is_zero())
+            carried.source = [scalar](const dealii::Point<dim> &place, const double time) {
+              return scalar->source.value(place, time);
+            };
+        }
+      return result;
+    }
+
+    /// They carry it with them, which asks nothing of their setup.
+    bool
+    affect_particles(particles::Setup<dim> &) const override
+    {
+      return true;
+    }
+
+    bool
+    is_in_passes() const override
+    {
+      return false;
     }
 
     void
@@ -247,15 +285,45 @@ namespace undine
     }
 
     static void
-    check_field(const Options                    &options,
-                const TransportedScalar<dim>     &field,
-                const std::vector<Boundary<dim>> &boundaries)
+    check_name(const Options                  &options,
+               const TransportedScalar<dim>   &field,
+               const std::vector<std::string> &taken)
     {
-      static const std::vector<std::string> taken{"velocity", "pressure", "vorticity_magnitude"};
       if (std::find(taken.begin(), taken.end(), field.name) != taken.end())
         throw options.error(field.name,
                             "is the name of another field of the fluid",
                             "Choose another name, such as 'smoke'.");
+    }
+
+    /// Particles do not exchange what they carry, with each other or with walls.
+    void
+    check_for_particles(const Options &options) const
+    {
+      const std::string hint = "Remove the key, or compute the scene on a grid: 'Scheme = "
+                               "simultaneous'.";
+      for (const auto &field : fields)
+        {
+          check_name(
+            options, *field, {"velocity", "displacement", "pressure", "kind", "body", "identity"});
+          const auto section = options.section(field->name);
+          if (field->diffusivity > 0)
+            throw section.error("Diffusivity",
+                                "is not zero, but particles carry a scalar unmixed",
+                                "Allowed: 0. " + hint);
+          if (!field->dirichlet_boundaries.empty())
+            throw section.error("Dirichlet boundaries",
+                                "needs diffusion, but particles carry a scalar unmixed: nothing "
+                                "goes over to them from a wall",
+                                hint);
+        }
+    }
+
+    static void
+    check_field(const Options                    &options,
+                const TransportedScalar<dim>     &field,
+                const std::vector<Boundary<dim>> &boundaries)
+    {
+      check_name(options, field, {"velocity", "pressure", "vorticity_magnitude"});
       std::string known;
       for (const auto &boundary : boundaries)
         known += (known.empty() ? "'" : ", '") + boundary.name + "'";

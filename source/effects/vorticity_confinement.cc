@@ -50,6 +50,14 @@ namespace undine
                             "Remove the section or add a subsection 'convection' to 'Effects'.");
     }
 
+    std::pair<std::string, std::string>
+    reason_not_for_particles() const override
+    {
+      return {"it makes good what the advection on a grid smooths; particles smooth "
+              "nothing in this way",
+              "Remove the section."};
+    }
+
     std::string
     summary() const override
     {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/boundary/boundary.h>
+#include <undine/particle_model/particle_body.h>
 #include <undine/particle_model/particle_domain.h>
 
 #include <fmt/format.h>
@@ -42,8 +43,13 @@ namespace undine
     const auto domain = scene.section("Domain");
     cells.fill(1);
     sides.fill(ParticleSide::wall);
-    read_corners(domain);
-    read_sides(domain);
+    if (!domain.given() && !scene.section("Fluid").given() && scene.section("Bodies").given())
+      surround(read_particle_bodies<dim>(scene));
+    else
+      {
+        read_corners(domain);
+        read_sides(domain);
+      }
   }
 
 
@@ -57,7 +63,9 @@ namespace undine
                    lower,
                    "m",
                    Allowed::anything(),
-                   "Lower end of the inside in each direction.");
+                   "Lower end of the inside in each direction. A scene without a fluid may have no "
+                   "section Domain: there is then room around the bodies, as far as the longest "
+                   "edge of the box around all of them, and no wall.");
     domain.require(
       "Upper corner",
       upper,
@@ -98,6 +106,43 @@ namespace undine
           "Try: 'Upper corner = " + short_text(fit) +
             "', or a 'Particles / Spacing' that divides "
             "the domain.");
+  }
+
+
+  template <int dim>
+  void
+  ParticleDomain<dim>::surround(const std::vector<ParticleBody<dim>> &bodies)
+  {
+    sides.fill(ParticleSide::open);
+    double edge = std::numeric_limits<double>::infinity();
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        lower[axis] = edge;
+        upper[axis] = -edge;
+      }
+    for (const auto &body : bodies)
+      for (const auto &node : make_shape_boundary(body.description).nodes)
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          {
+            lower[axis] = std::min(lower[axis], node[axis]);
+            upper[axis] = std::max(upper[axis], node[axis]);
+          }
+    edge = 0;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      edge = std::max(edge, upper[axis] - lower[axis]);
+    const double margin = std::ceil(edge / spacing) * spacing;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        lower[axis] -= margin;
+        const double count = std::ceil((upper[axis] + margin - lower[axis]) / spacing);
+        if (!(count < most_cells))
+          throw InputError(fmt::format("The bodies are {:.3g} m long, which is too many "
+                                       "'Particles / Spacing' of {:.3g} m. Try: a larger spacing.",
+                                       edge,
+                                       spacing));
+        cells[axis] = static_cast<unsigned int>(count);
+        upper[axis] = lower[axis] + count * spacing;
+      }
   }
 
 

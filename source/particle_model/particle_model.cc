@@ -2,6 +2,7 @@
 #include <undine/particle_model/fluid_parts.h>
 #include <undine/particle_model/particle_model.h>
 #include <undine/particle_model/plain_vector.h>
+#include <undine/particle_model/void_cubes.h>
 
 #include <fmt/format.h>
 
@@ -43,6 +44,31 @@ namespace undine
     }
 
 
+    /// Is what is clamped so deep in walls that nothing there sees it? It is left out.
+    template <int dim>
+    bool
+    is_buried(const ParticleBody<dim> &body, const std::size_t k, const ParticleDomain<dim> &box)
+    {
+      return body.is_fixed(k) && box.distance_outside(body.starts[k]) > box.layers * box.spacing;
+    }
+
+
+    template <int dim>
+    void
+    check_is_seen(const ParticleBody<dim> &body, const ParticleDomain<dim> &box)
+    {
+      for (std::size_t k = 0; k < body.places.size(); ++k)
+        if (!is_buried(body, k, box))
+          return;
+      throw body.options.error("",
+                               "the body is outside the domain at (" +
+                                 write_value(body.places.front()) + ")",
+                               "Try: a larger domain; what is clamped may reach into walls, but "
+                               "something must be within " +
+                                 write_value(box.layers * box.spacing) + " m of the domain.");
+    }
+
+
     template <int dim>
     void
     check_place(const ParticleBody<dim>      &body,
@@ -50,14 +76,12 @@ namespace undine
                 const ParticleDomain<dim>    &box,
                 const ParticleObstacles<dim> &obstacles)
     {
-      const double outside = box.distance_outside(body.starts[k]);
-      const auto   place   = "(" + write_value(body.starts[k]) + ")";
-      if (outside > (body.is_fixed(k) ? box.layers * box.spacing : 0.))
+      const auto place = "(" + write_value(body.starts[k]) + ")";
+      if (!body.is_fixed(k) && box.distance_outside(body.starts[k]) > 0)
         throw body.options.error(
           "",
           "the body is outside the domain at " + place,
-          "Try: a larger domain; what is clamped may reach into walls, at most " +
-            write_value(box.layers * box.spacing) + " m.");
+          "Try: a larger domain; only what is clamped may reach into walls.");
       if (!body.is_fixed(k) && obstacles.contain(body.starts[k]))
         throw body.options.error(
           "",
@@ -145,7 +169,10 @@ namespace undine
     read_shows_walls(scene);
     read_particle_bodies<dim>(scene);
     if (scene.is_reference() || scene.section("Fluid").given())
-      scene.attempt([&] { ParticleFluid<dim>{scene}; }, {"Fluid"});
+      {
+        scene.attempt([&] { ParticleFluid<dim>{scene}; }, {"Fluid"});
+        scene.attempt([&] { VoidCubes<dim>{scene.section("Fluid")}; }, {"Fluid"});
+      }
     declare_particle_obstacles<dim>(scene);
   }
 
@@ -156,12 +183,10 @@ namespace undine
   {
     for (const auto &effect : effects)
       if (!effect->affect_particles(constants))
-        throw scene.section("Effects")
-          .section(effect->name)
-          .error("",
-                 "this effect is one of fluids on a grid or of bodies of finite elements",
-                 "Remove the section: particles know 'gravity', 'viscosity', 'wall friction', "
-                 "'central attraction' and 'damping', and always carry their momentum.");
+        {
+          const auto [reason, hint] = effect->reason_not_for_particles();
+          throw scene.section("Effects").section(effect->name).error("", reason, hint);
+        }
   }
 
 
@@ -174,8 +199,11 @@ namespace undine
       {
         auto &body = bodies[b];
         body.fill(box.spacing);
+        check_is_seen(body, box);
         for (std::size_t k = 0; k < body.places.size(); ++k)
           {
+            if (is_buried(body, k, box))
+              continue;
             const auto &place = body.starts[k];
             check_place(body, k, box, obstacles);
             occupied.for_each_near(place, overlap * box.spacing, [&](const std::size_t other) {
@@ -207,6 +235,8 @@ namespace undine
     constants.bodies.push_back(body.setup);
     for (std::size_t k = 0; k < body.places.size(); ++k)
       {
+        if (is_buried(body, k, box))
+          continue;
         occupied.add(body.starts[k]);
         constants.reference.push_back(plain<dim>(body.places[k]));
         constants.body_of.push_back(number);
@@ -415,8 +445,13 @@ namespace undine
     const auto taken = [&](const dealii::Point<dim> &place) {
       return occupied.any_near(place, apart * box.spacing) || obstacles.contain(place);
     };
-    fluid.fill(box, taken);
-    check_room(fluid, taken);
+    VoidCubes<dim> voids(fluid.options);
+    voids.fill(box, taken);
+    const auto not_for_fluid = [&](const dealii::Point<dim> &place) {
+      return taken(place) || voids.contain(place);
+    };
+    fluid.fill(box, not_for_fluid);
+    check_room(fluid, not_for_fluid);
     auto places = fluid.places;
     for (const auto &particle : layers)
       places.push_back(particle.place);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/scheme/particle_scheme.h>
 #include <undine/effects/effect.h>
 #include <undine/particle_model/particle_body.h>
 #include <undine/particle_model/particle_fluid.h>
@@ -169,9 +170,10 @@ namespace undine
 
     ParticleSize          size;
     particles::Setup<dim> setup;
-    setup.spacing   = box.spacing;
-    setup.numerics  = numerics.numerics;
-    size.is_double  = numerics.precision == particles::Precision::double_precision;
+    setup.spacing  = box.spacing;
+    setup.numerics = numerics.numerics;
+    size.is_double =
+      numerics.precision == particles::Precision::double_precision || seeks_equilibrium(scene);
     size.on_device  = numerics.executor != "host";
     size.walls      = count_walls(scene, box);
     size.grid_cells = 1;

@@ -249,6 +249,7 @@ namespace undine
       }
     else
       {
+        refuse_keys_of_particles(options);
         if (given("Bodies"))
           attempt(SolidModel<dim>::declare, {"Bodies", "Solid numerics"});
         if (given("Fluid"))

@@ -8,8 +8,10 @@
 #include <undine/particles/setup/setup.h>
 #include <undine/solid/assembly/solid_environment.h>
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace undine
@@ -56,9 +58,29 @@ namespace undine
     virtual std::string
     summary() const = 0;
 
+    /// The same of a scene of particles.
+    virtual std::string
+    summary_of_particles() const;
+
     /// Scalar fields that the effect adds to the fluid's state.
     virtual std::vector<std::string>
     scalars() const;
+
+    /// A scalar field as particles carry it: unmixed.
+    struct CarriedScalar
+    {
+      std::string name;
+      /// At a place at the start.
+      std::function<double(const dealii::Point<dim> &)> initial;
+      /// Of fluid that comes in, at a place and time [s].
+      std::function<double(const dealii::Point<dim> &, double)> entering;
+      /// How fast it grows at a place and time [1/s]; empty: not.
+      std::function<double(const dealii::Point<dim> &, double)> source;
+    };
+
+    /// Those of scalars() that particles carry. The functions live as long as the effect.
+    virtual std::vector<CarriedScalar>
+    carried_scalars() const;
 
     /// Set the fields named by scalars() to their initial values.
     virtual void
@@ -109,6 +131,15 @@ namespace undine
     /// the effect.
     virtual bool
     affect_particles(particles::Setup<dim> &setup) const;
+
+    /// Do the passes over particles compute it, and spend time on it? Else, if anything, a phase of
+    /// its own name does.
+    virtual bool
+    is_in_passes() const;
+
+    /// Why particles do not have it, and what to try; asked where affect_particles() is false.
+    virtual std::pair<std::string, std::string>
+    reason_not_for_particles() const;
 
     /// What the effect adds to the file `statistics`.
     virtual Columns

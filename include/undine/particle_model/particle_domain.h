@@ -11,6 +11,9 @@
 
 namespace undine
 {
+  template <int dim>
+  struct ParticleBody;
+
   /// What a side of the box of particles is.
   enum class ParticleSide
   {
@@ -33,7 +36,8 @@ namespace undine
   class ParticleDomain
   {
   public:
-    /// Read the section `Domain`. Throws InputError. `reach` is that of the weight [spacings].
+    /// Read the section `Domain`; without it and a fluid there is room around the bodies. Throws
+    /// InputError. `reach` is that of the weight [spacings].
     ParticleDomain(const Options &scene, const double spacing, const double reach);
 
     /// Edge of the cubes [m]
@@ -85,6 +89,9 @@ namespace undine
     wall_particles() const;
 
   private:
+    /// Room around bodies in a scene that has nothing else.
+    void
+    surround(const std::vector<ParticleBody<dim>> &bodies);
     void
     read_corners(const Options &domain);
     void

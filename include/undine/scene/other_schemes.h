@@ -12,6 +12,10 @@ namespace undine
   void
   refuse_keys_of_other_schemes(const Options &scene);
 
+  /// The same of a scene of another scheme, for what only particles can do.
+  void
+  refuse_keys_of_particles(const Options &scene);
+
   /// Keys and sections that say how finely and by which solvers another method computes, so that
   /// one file may have the numbers of several: they are no mistakes. Returns a note for each.
   std::vector<std::string>

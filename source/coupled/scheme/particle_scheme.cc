@@ -2,6 +2,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/base/parallel/interruption.h>
 #include <undine/coupled/scheme/particle_scheme.h>
+#include <undine/coupled/step/physics.h>
 #include <undine/particles/execution/phases.h>
 #include <undine/particles/setup/disorder.h>
 
@@ -73,10 +74,36 @@ namespace undine
   } // namespace
 
 
+  bool
+  seeks_equilibrium(const Options &scene)
+  {
+    auto words = Registry<TimeIntegrator>::instance().names();
+    words.push_back("sub-steps");
+    std::string word = words.back();
+    scene.section("Time").add(
+      "Integrator",
+      word,
+      "",
+      Allowed::one_of(words),
+      "static: the equilibrium of bodies under the loads at the end of each Step, without a fluid, "
+      "in "
+      "double precision. "
+      "All others are those of other schemes and not read: particles move in sub-steps.");
+    return word == "static";
+  }
+
+
   template <int dim>
   void
   ParticleScheme<dim>::add_options(const Options &options)
   {
+    is_static = seeks_equilibrium(options);
+    if (is_static && options.section("Fluid").given())
+      options.mistake(options.section("Time").error(
+        "Integrator",
+        "'static' seeks an equilibrium of bodies, but the scene has a fluid, which moves under "
+        "loads that bodies withstand",
+        "Remove the key, and try a later 'Time / End': motion dies away by itself."));
     options.section("Time").add("Step",
                                 frame,
                                 "s",
@@ -99,19 +126,35 @@ namespace undine
     if (!Registry<particles::EngineFactory<dim>>::instance().contains(name))
       throw InputError("this program has no executor '" + name +
                        "' for particles; it has: " + names);
+    // What is left to move in an equilibrium is less than single precision resolves.
     engine = Registry<particles::EngineFactory<dim>>::instance().make(name)->make(
-      model->numerics().precision, model->numerics().device);
+      is_static ? particles::Precision::double_precision : model->numerics().precision,
+      model->numerics().device);
 
     state.particles = model->initial_state();
     particles::disorder(model->setup(), state.particles);
     load(state);
     if (name == "host")
       engine->time_phases(); // which costs nothing there
+    if (is_static && model->setup().n_moving > 0)
+      throw InputError("Time / Integrator = static: obstacles that move have no equilibrium. Try: "
+                       "remove the key, or the obstacles' 'Displacement'.");
+    scalars.emplace(models.effects, *model);
     Report report;
     fetch(state.particles, report, particles::StepControl());
+    scalars->start(state.particles);
+    append(report.columns, scalars->columns(state.particles));
+    if (is_static)
+      append(report.columns, {{"Stops", "1", 0}, {"Released energy over elastic energy", "1", 0}});
     report.note = engine->describe();
     for (const auto &remark : model->notes())
       report.note += "\nnote: " + remark;
+    if (scalars->longest_frame() < frame)
+      report.note +=
+        fmt::format("\nnote: frames are {:.3g} s long at most, instead of 'Time / Step': "
+                    "what flows in gets its scalars once a frame, and the layers behind "
+                    "an inflow must not go by in one",
+                    scalars->longest_frame());
     return report;
   }
 
@@ -120,7 +163,7 @@ namespace undine
   double
   ParticleScheme<dim>::choose_dt(const State<dim> &state) const
   {
-    return state.clock.land(frame);
+    return state.clock.land(std::min(frame, scalars->longest_frame()));
   }
 
 
@@ -155,12 +198,27 @@ namespace undine
     load(state);
     is_loaded = false; // until the frame is known to be good
     Report report;
-    report.dt = dt;
-    told      = particles::StepControl();
-    engine->move_walls(model->wall_paths(state.clock.time, dt));
-    const auto control = advance(state, dt);
-    auto       fetched = state.particles; // which stay as they are if the frame is no good
-    fetch(fetched, report, control);
+    report.dt    = dt;
+    told         = particles::StepControl();
+    auto fetched = state.particles; // which stay as they are if the frame is no good
+    particles::StepControl control;
+    if (is_static)
+      {
+        Relaxation<dim> relaxation(*engine, model->setup());
+        control = relax(relaxation, fetched);
+        fetch(fetched, report, control);
+        append(report.columns,
+               {{"Stops", "1", double(relaxation.stops())},
+                {"Released energy over elastic energy", "1", relaxation.released()}});
+      }
+    else
+      {
+        engine->move_walls(model->wall_paths(state.clock.time, dt));
+        control = advance(state, dt);
+        fetch(fetched, report, control);
+      }
+    scalars->follow(fetched, state.particles, state.clock.time, dt, *timing);
+    append(report.columns, scalars->columns(fetched));
     assert_finite(report.columns);
     report.linear_iterations = control.pressure.iterations;
     report.note              = complaint(control);
@@ -198,6 +256,29 @@ namespace undine
         throw SolveError(std::string(reason.what()) +
                          " Fluid flows into the domain and nowhere out, and it is nearly full: try "
                          "an outflow, an open side or an earlier 'Time / End'.");
+      }
+  }
+
+
+  template <int dim>
+  particles::StepControl
+  ParticleScheme<dim>::relax(Relaxation<dim>               &relaxation,
+                             particles::ParticleState<dim> &particles) const
+  {
+    try
+      {
+        return relaxation.relax(particles);
+      }
+    catch (const particles::FrameAbandoned &)
+      {
+        throw_if_interrupted(model->communicator());
+        throw;
+      }
+    catch (const SolveError &reason)
+      {
+        throw SolveError("an equilibrium was sought ('Time / Integrator = static'), which is only "
+                         "where every body is held: " +
+                         std::string(reason.what()));
       }
   }
 

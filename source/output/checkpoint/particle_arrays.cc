@@ -12,6 +12,13 @@ namespace undine
                       spacing_name = "particles/spacing";
 
 
+    std::string
+    name_of_scalar(const std::string &name)
+    {
+      return "particles/scalars/" + name;
+    }
+
+
     StateArray
     array_of(const std::string &name, const std::vector<double> &values, const hsize_t columns)
     {
@@ -60,6 +67,8 @@ namespace undine
                1)};
     if (!state.guesses.empty())
       result.push_back(array_of(guesses_name, state.guesses, 1));
+    for (const auto &[name, values] : state.scalars)
+      result.push_back(array_of(name_of_scalar(name), values, 1));
     return result;
   }
 
@@ -80,7 +89,9 @@ namespace undine
     state.identities.assign(array->values.begin(), array->values.end());
     ++array;
     if (!state.guesses.empty())
-      state.guesses = array->values;
+      state.guesses = (array++)->values;
+    for (auto &[name, values] : state.scalars)
+      values = (array++)->values;
   }
 
 
@@ -106,6 +117,8 @@ namespace undine
     state.tags.resize(n);
     state.identities.resize(n);
     state.guesses.resize(length(guesses_name));
+    for (auto &[name, values] : state.scalars)
+      values.resize(length(name_of_scalar(name)));
   }
 
 

@@ -17,7 +17,7 @@ namespace undine
       const int                          identity = state.identities[k];
       const auto                        &rest     = model.setup().reference;
       dealii::DataOutBase::Patch<0, dim> patch;
-      patch.data.reinit(2 * dim + 4, 1);
+      patch.data.reinit(2 * dim + 4 + state.scalars.size(), 1);
       unsigned int row = 0;
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
@@ -33,6 +33,8 @@ namespace undine
       patch.data(row++, 0) = static_cast<int>(tag.kind());
       patch.data(row++, 0) = tag.kind() == particles::Kind::solid ? tag.material() - 1 : -1;
       patch.data(row++, 0) = identity;
+      for (const auto &[name, values] : state.scalars)
+        patch.data(row++, 0) = tag.kind() == particles::Kind::fluid ? values[identity] : 0;
       return patch;
     }
   } // namespace
@@ -50,6 +52,8 @@ namespace undine
     result.add_scalar("kind", "1");
     result.add_scalar("body", "1");
     result.add_scalar("identity", "1");
+    for (const auto &[name, values] : state.scalars)
+      result.add_scalar(name, "");
     for (std::size_t k = 0; k < state.positions.size(); ++k)
       {
         const auto kind = state.tags[k].kind();

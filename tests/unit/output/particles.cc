@@ -52,9 +52,11 @@ namespace
         all.velocities[k][1] = 0.1 * k;
         all.pressures[k]     = 3. + k;
       }
-    all.guesses      = {1.5, 2.5, -1};
-    state.clock.step = 7;
-    state.clock.time = 0.25;
+    all.guesses = {1.5, 2.5, -1};
+    all.scalars["smoke"].assign(all.positions.size(), 0.5);
+    all.scalars["smoke"][3] = -7.25;
+    state.clock.step        = 7;
+    state.clock.time        = 0.25;
     return state;
   }
 
@@ -84,13 +86,15 @@ TEST_CASE("particles: a checkpoint read back is what was written")
   const auto            state  = sample_state(models);
   write_checkpoint(folder.path, models, state);
   State<2> other;
-  other.particles = models.particles->initial_state();
+  other.particles                  = models.particles->initial_state();
+  other.particles.scalars["smoke"] = {};
   read_checkpoint(folder.path, models, other);
   const auto &a = state.particles, &b = other.particles;
   CHECK(other.clock.step == 7);
   CHECK(a.identities == b.identities);
   CHECK(a.pressures == b.pressures);
   CHECK(a.guesses == b.guesses);
+  CHECK(a.scalars == b.scalars);
   for (std::size_t k = 0; k < a.positions.size(); ++k)
     {
       CHECK(a.tags[k].code == b.tags[k].code);
@@ -124,7 +128,7 @@ TEST_CASE("particles: pictures have points with their numbers, walls on request"
   const auto state  = sample_state(models);
   const auto part   = particle_patches(*models.particles, state.particles);
   CHECK(part.patches.size() == 24 + 4);
-  CHECK(part.components.size() == 8);
+  CHECK(part.components.size() == 9);
   for (const auto &patch : part.patches)
     {
       const auto k = place_of_identity(state.particles, int(patch.data(7, 0)));
@@ -134,6 +138,8 @@ TEST_CASE("particles: pictures have points with their numbers, walls on request"
       const bool of_body = patch.data(5, 0) == 1;
       CHECK(patch.data(6, 0) == (of_body ? 0 : -1));
       CHECK(patch.data(2, 0) == Approx(of_body ? 0.25 : 0.));
+      CHECK(patch.data(8, 0) ==
+            (of_body ? 0 : state.particles.scalars.at("smoke")[state.particles.identities[k]]));
     }
   const auto with_walls = sample_models("subsection Output\n set Walls = true\nend\n");
   CHECK(particle_patches(*with_walls.particles, state.particles).patches.size() ==

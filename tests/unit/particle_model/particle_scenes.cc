@@ -3,6 +3,8 @@
 
 #include "particle_scene.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <set>
 
@@ -230,4 +232,61 @@ TEST_CASE("particles: a domain is full if no cube in it is free and nothing can 
       section("Particles", "set Spacing = 1\n" + section("Pressure", "set Pair force = minimum")) +
       section("Domain", "set Lower corner = 0, 0\n set Upper corner = 8, 8") + water),
     Catch::Contains("balanced"));
+}
+
+
+TEMPLATE_TEST_CASE_SIG("particles: a void region is as far empty as bodies and walls close it",
+                       "",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  const auto room = [](const double lower, const double upper) {
+    std::string text = fmt::format("set Lower corner = {}, 4", lower);
+    std::string end  = fmt::format("set Upper corner = {}, 6", upper);
+    if (dim == 3)
+      {
+        text += ", 0";
+        end += ", 10";
+      }
+    return body("plate",
+                text + "\n" + end + "\n" +
+                  section("Boundaries", section("ends", "set Sides = left, right")));
+  };
+  const auto with_void = [&](const std::string &plate, const std::string &seed) {
+    return read_particles<dim>(
+      particle_box<dim>(10) + plate +
+      section(
+        "Fluid",
+        "set Density = 1000\n" +
+          section("Void regions", section("air", "set Seed = " + seed + (dim == 3 ? ", 5" : "")))));
+  };
+  const std::size_t layer = power(10, dim - 1);
+  for (const std::string seed : {"5, 1.5", "0.6, 0.6"})
+    {
+      const auto model = with_void(room(0, 10), seed);
+      CHECK(count(model, Kind::fluid) == 4 * layer);
+      CHECK(!model.setup().is_full);
+      for (std::size_t k = 0; k < model.initial_state().tags.size(); ++k)
+        if (model.initial_state().tags[k].kind() == Kind::fluid)
+          CHECK(model.initial_state().positions[k][1] > 6);
+    }
+  CHECK(count(with_void(room(0, 10), "5, 9"), Kind::fluid) == 4 * layer);
+  // Where the plate does not reach the wall, nothing is left for the fluid.
+  CHECK_THROWS_WITH(with_void(room(0, 8), "5, 1.5"), Catch::Matchers::Contains("no fluid left"));
+}
+
+
+TEST_CASE("particles: what is clamped deeper in walls than they are thick is left out")
+{
+  const auto beam = [](const std::string &end) {
+    return read_particles<2>(particle_box<2>(10) +
+                             body("beam",
+                                  "set Lower corner = 4, " + end + "\n set Upper corner = 6, 5\n" +
+                                    section("Boundaries", section("foot", "set Where = -y"))));
+  };
+  const auto short_one = beam("-3"), long_one = beam("-6");
+  CHECK(count(short_one, Kind::solid) == 16);
+  CHECK(count(long_one, Kind::solid) == 16);
+  CHECK(short_one.setup().clamped == long_one.setup().clamped);
 }

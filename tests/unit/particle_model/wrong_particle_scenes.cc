@@ -63,6 +63,24 @@ TEST_CASE("particles: wrong fluids are refused")
 }
 
 
+TEST_CASE("particles: wrong void regions are refused")
+{
+  const auto voids = [](const std::string &text) {
+    return particle_box<2>(10) +
+           section("Fluid", "set Density = 1000\n" + section("Void regions", text)) +
+           section("Bodies", block("one", "5, 5"));
+  };
+  check_message(voids(section("air", "set Seed = 11, 5")),
+                {"'Fluid/Void regions/air'", "'Seed'", "outside the domain"});
+  check_message(voids(section("air", "set Seed = 5, 5")), {"'Seed'", "in a body"});
+  check_message(voids(section("air", "set Seed = 1, 1\n set Pressure = 10")),
+                {"'Pressure'", "there is no pressure", "Allowed: 0"});
+  check_message(voids(section("air", "set Seed = 1, 1")), {"no fluid left"});
+  check_message(voids(section("air", "set Seed = 1, 1") + section("more", "set Seed = 8, 8")),
+                {"'Fluid/Void regions/more'", "same room"});
+}
+
+
 TEST_CASE("particles: wrong bodies are refused")
 {
   const auto bodies = [](const std::string &text) {
@@ -107,6 +125,10 @@ TEST_CASE("particles: wrong obstacles and effects are refused")
                 {"'Obstacles/other'", "another one that moves"});
   check_message(obstacle("set Surface = there_is_no_such_file.stl"),
                 {"'Surface'", "cannot be read"});
-  check_message(particle_box<2>(10) + fluid_section + section("Effects", section("convection", "")),
-                {"'Effects/convection'", "'gravity', 'viscosity', 'wall friction'"});
+  check_message(particle_box<2>(10) + fluid_section +
+                  section("Effects", section("sleep", "set Speed = 1\n set Time = 1")),
+                {"'Effects/sleep'", "'gravity', 'viscosity', 'wall friction'"});
+  check_message(particle_box<2>(10) + fluid_section +
+                  section("Effects", section("vorticity confinement", "set Strength = 1")),
+                {"'Effects/vorticity confinement'", "particles smooth nothing"});
 }

@@ -2,15 +2,22 @@
 #ifndef undine_coupled_scheme_particle_scheme_h
 #define undine_coupled_scheme_particle_scheme_h
 
+#include <undine/coupled/scheme/carried_scalars.h>
+#include <undine/coupled/scheme/relaxation.h>
 #include <undine/coupled/scheme/scheme.h>
 #include <undine/particles/engine/engine.h>
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace undine
 {
+  /// Does a scene of particles ask for equilibria of its bodies (`Time / Integrator = static`)?
+  bool
+  seeks_equilibrium(const Options &scene);
+
   /// Fluid and bodies as particles: a step is a frame, which the engine makes in sub-steps that it
   /// chooses. The engine keeps the particles between frames; the state is a copy of them.
   template <int dim>
@@ -48,6 +55,10 @@ namespace undine
     particles::StepControl
     advance(const State<dim> &state, const double dt);
 
+    /// Seek an equilibrium of what the engine holds. Throws SolveError if none is found.
+    particles::StepControl
+    relax(Relaxation<dim> &relaxation, particles::ParticleState<dim> &particles) const;
+
     /// Tell the follower how far the frame is. Returns false if it is to be abandoned.
     bool
     tell(const particles::StepControl &control);
@@ -62,10 +73,12 @@ namespace undine
     void
     collect_seconds();
 
-    double                                  frame  = 0.01; ///< [s]
-    const ParticleModel<dim>               *model  = nullptr;
-    TimingTree                             *timing = nullptr;
+    double                                  frame     = 0.01;  ///< [s]
+    bool                                    is_static = false; ///< each is an equilibrium
+    const ParticleModel<dim>               *model     = nullptr;
+    TimingTree                             *timing    = nullptr;
     std::unique_ptr<particles::Engine<dim>> engine;
+    std::optional<CarriedScalars<dim>>      scalars;
     bool                                    is_loaded   = false;
     double                                  loaded_time = 0; ///< of the engine's particles [s]
     std::map<std::string, double>           seconds;         ///< so far

@@ -4,6 +4,8 @@
 
 #include <undine/particles/model/particle.h>
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace undine::particles
@@ -23,6 +25,10 @@ namespace undine::particles
     /// What the method remembers besides, in an order of its own: guesses for its solvers, and what
     /// elastic bodies carry. May be empty.
     std::vector<double> guesses;
+
+    /// What particles of fluid carry, by the fields' names and identities. Engines leave it as it
+    /// is.
+    std::map<std::string, std::vector<double>> scalars;
   };
 } // namespace undine::particles
 
