@@ -329,6 +329,8 @@ namespace undine
   {
     for (const auto &particle : layers)
       {
+        if (!particle.is_inflow && !constants.is_full)
+          continue; // nothing is there
         const auto boundaries = fluid.options.section("Boundaries");
         const auto place      = "(" + write_value(particle.place) + ")";
         occupied.for_each_near(particle.place, apart * box.spacing, [&](const std::size_t k) {
@@ -445,6 +447,7 @@ namespace undine
     const auto taken = [&](const dealii::Point<dim> &place) {
       return occupied.any_near(place, apart * box.spacing) || obstacles.contain(place);
     };
+    check_layers(fluid, layers, obstacles);
     VoidCubes<dim> voids(fluid.options);
     voids.fill(box, taken);
     const auto not_for_fluid = [&](const dealii::Point<dim> &place) {
@@ -462,7 +465,8 @@ namespace undine
                                   layers.end(),
                                   [](const auto &particle) { return !particle.is_inflow; }),
                    layers.end());
-    check_layers(fluid, layers, obstacles);
+    else
+      check_layers(fluid, layers, obstacles);
     dealii::Tensor<1, dim> gravity;
     for (unsigned int axis = 0; axis < dim; ++axis)
       gravity[axis] = constants.gravity[axis];

@@ -51,7 +51,7 @@ TEMPLATE_TEST_CASE_SIG("particles: three layers stand behind an inflow, nothing 
                        2,
                        3)
 {
-  const auto   model  = read_particles<dim>(opened<dim>(inflow<dim>() + outflow));
+  const auto   model  = read_particles<dim>(opened<dim>(inflow<dim>() + outflow, "", "9 - x"));
   const auto   closed = read_particles<dim>(opened<dim>(""));
   const size_t side   = dim == 2 ? 10 : 100; // particles of a layer
   CHECK(count(closed, Kind::wall) - count(model, Kind::wall) == side);
@@ -88,7 +88,9 @@ TEST_CASE("particles: the rest of a side beside an inflow is a wall, and later b
 {
   const auto model = read_particles<2>(
     opened<2>(inflow<2>("set Region = y - 4") +
-              opening("hole", "set Sides = left, top\n set Kind = outflow\n set Region = y - 8")));
+                opening("hole", "set Sides = left, top\n set Kind = outflow\n set Region = y - 8"),
+              "",
+              "9 - y"));
   size_t n_behind = 0, n_wall = 0;
   for (std::size_t k = 0; k < model.initial_state().tags.size(); ++k)
     {
@@ -158,9 +160,9 @@ TEST_CASE("particles: wrong inflows and outflows are refused")
   check(left("set Velocity = 1; 0\n set Region = y - 20"), {"'Region'", "leaves nothing"});
   check(left("set Velocity = 1; 0\n set Region = log(-y)"), {"'Region'", "not a number"});
   check(opened<2>(section("out", "set Sides = left\n set Kind = outflow\n set Velocity = 1; 0")),
-        {"'Velocity'", "not used by an outflow"});
-  check(opened<2>(section("out", "set Sides = left\n set Kind = pressure")),
-        {"'Kind'", "inflow | outflow"});
+        {"'Velocity'", "not used by an opening of this kind"});
+  check(opened<2>(section("out", "set Sides = left\n set Kind = no-slip wall")),
+        {"'Kind'", "inflow | outflow | pressure"});
   check(opened<2>(inflow<2>(), "set Periodic sides = left, right"),
         {"'Sides'", "'left', which is periodic"});
   check(opened<2>(inflow<2>(), "set Open sides = left"), {"'Sides'", "'left', which is open"});

@@ -204,6 +204,51 @@ TEST_CASE("particles: two bodies have materials of their own")
 }
 
 
+TEST_CASE(
+  "particles: what is full goes on behind openings, what has a surface is open to air there")
+{
+  const auto read = [](const std::string &keys) {
+    return read_particles<2>(particle_box<2>(8) + section("Fluid", "set Density = 1000\n" + keys));
+  };
+  const auto boundaries = [](const std::string &keys) {
+    return section("Boundaries", section("side", "set Sides = right\n" + keys));
+  };
+  const auto count_layers = [](const ParticleModel<2> &model) {
+    const auto &tags = model.initial_state().tags;
+    return std::count_if(tags.begin(), tags.end(), [](const particles::Tag tag) {
+      return tag.material() == particles::opening_material;
+    });
+  };
+  const auto full = read(boundaries("set Kind = pressure\n set Pressure = 5"));
+  CHECK(count_layers(full) == 3 * 8);
+  REQUIRE(full.setup().open_sides.size() == 1);
+  CHECK(full.setup().open_sides[0].is_opening);
+  CHECK(full.setup().open_sides[0].pressure == 5);
+  CHECK(full.setup().open_sides[0].plane == 8);
+  CHECK(!full.setup().open_sides[0].enters_from_rest);
+  CHECK(full.setup().numerics.faces_tolerance == 1e-3);
+  CHECK(read(boundaries("set Kind = outflow")).setup().open_sides[0].enters_from_rest);
+
+  const auto with_surface =
+    read("set Region = 7 - y\n" + boundaries("set Kind = pressure\n set Pressure = 0"));
+  CHECK(!with_surface.setup().is_full);
+  CHECK(count_layers(with_surface) == 0);
+  CHECK(with_surface.domain().sides[1] == ParticleSide::open);
+
+  CHECK_THROWS_WITH(
+    read("set Region = 7 - y\n" + boundaries("set Kind = pressure\n set Pressure = 3")),
+    Catch::Contains("'Pressure': is not zero") && Catch::Contains("beyond the air's"));
+  CHECK_THROWS_WITH(
+    read(
+      section("Boundaries",
+              section("low", "set Sides = right\n set Kind = outflow\n set Region = 3 - y") +
+                section("high", "set Sides = right\n set Kind = pressure\n set Region = y - 5"))),
+    Catch::Contains("differs from that of another opening"));
+  CHECK_THROWS_WITH(read(boundaries("set Kind = outflow\n set Pressure = 3")),
+                    Catch::Contains("'Pressure': is not used"));
+}
+
+
 TEST_CASE("particles: a domain is full if no cube in it is free and nothing can leave it")
 {
   const auto is_full = [](const std::string &domain, const std::string &rest) {
@@ -222,8 +267,11 @@ TEST_CASE("particles: a domain is full if no cube in it is free and nothing can 
   CHECK(is_full("", fluid("set Region = 3 - y") + lid));
   CHECK(!is_full("", fluid("set Region = 7 - y")));
   CHECK(!is_full("set Open sides = top", water));
-  CHECK(!is_full(
-    "", fluid(section("Boundaries", section("drain", "set Sides = left\n set Kind = outflow")))));
+  const auto opening = [](const std::string &keys) {
+    return section("Boundaries", section("drain", "set Sides = left\n" + keys));
+  };
+  CHECK(is_full("", fluid(opening("set Kind = outflow"))));
+  CHECK(!is_full("", fluid("set Region = 7 - y\n" + opening("set Kind = outflow"))));
   // With fluid above the lid that has a surface, and with none that has.
   CHECK_THROWS_WITH(is_full("", fluid("set Region = 7 - y") + lid), Catch::Contains("close"));
   CHECK_THROWS_WITH(is_full("", water + lid), Catch::Contains("close"));

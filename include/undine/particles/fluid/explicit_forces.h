@@ -77,13 +77,15 @@ namespace undine::particles
           const Real              their    = constants.density(pair.tag);
           change += tag.kind() == Kind::fluid ? entry.of_fluid(i, pair, their, approach)
                                               : entry.of_solid(j, pair, density, approach);
-          if (pair.tag.is_free() || !constants.wall_friction.acts())
+          const bool is_opening = pair.tag.material() == opening_material; // without traction
+          if (pair.tag.is_free() || !(constants.wall_friction.acts() || is_opening))
             change += (constants.is_full ? friction * constants.spread * pair.weight_over_square()
                                          : friction * pair.weight) *
                       approach;
           const Real speed = approach * pair.r;
-          const Real near =
-            pair.tag.kind() == Kind::fluid ? near_fluid : constants.collision_distance;
+          const Real near  = pair.tag.kind() == Kind::fluid || is_opening
+                               ? near_fluid
+                               : constants.collision_distance;
           if (pair.square < near * near && speed < 0)
             {
               const Real share = pair.tag.is_free() ? their / (density + their) : Real(1);
