@@ -19,7 +19,10 @@ namespace undine::particles
     return constants.fluid_density * constants.spread * constants.number_density / (2 * dim);
   }
 
-  /// The pair's coefficient in the pressure equation, k_ij [1].
+  /// The pair's coefficient in the pressure equation, k_ij [1]. Where a full domain has openings
+  /// bodies heavier than the fluid count as fluid there, as walls do: the fluid at the edge of a
+  /// thin body is accelerated more than coefficients of a heavy one say, so that its velocity would
+  /// be corrected several times too much, and the stream through the openings with it.
   template <int dim, class Real>
   UNDINE_HOST_DEVICE
   Real
@@ -29,7 +32,9 @@ namespace undine::particles
   {
     if (tag.material() == 0 && pair.tag.material() == 0) // mostly, and a quotient takes long
       return pair.weight;
-    return pair.weight * constants.fluid_density / constants.mean_density(tag, pair.tag);
+    const Real ratio        = constants.fluid_density / constants.mean_density(tag, pair.tag);
+    const bool has_openings = constants.is_full && !constants.is_closed;
+    return pair.weight * (has_openings ? maximum(Real(1), ratio) : ratio);
   }
 
 
