@@ -145,7 +145,7 @@ TEST_CASE("body forces that contradict the scene are refused with a hint", "[bod
                          section("Domain", "set Lower corner = 0, 0\nset Upper corner = 1, 1") +
                          section("Fluid", "set Density = 1")),
                        on_fluid("Acceleration", "1; 0")),
-             Contains("body force") && Contains("particles know"));
+             Contains("body force") && Contains("particles do not know forces"));
   CHECK_THAT(complaint(open_column(), section("vorticity confinement", "set Strength = 1")),
              Contains("convection") && Contains("Remove"));
 }
