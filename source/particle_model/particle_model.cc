@@ -477,14 +477,25 @@ namespace undine
     n_layers             = layers.size();
     for (std::size_t k = 0; k < n_fluid; ++k)
       add(fluid.places[k], fluid.velocities[k], Tag::of(Kind::fluid, 0));
+    add_layers(layers, gravity);
+  }
+
+
+  template <int dim>
+  void
+  ParticleModel<dim>::add_layers(const std::vector<LayerParticle<dim>> &layers,
+                                 const dealii::Tensor<1, dim>          &gravity)
+  {
+    using particles::Kind;
     double fastest = 0;
     for (const auto &particle : layers)
       {
         const bool has_pressure = particle.layer == 0 || !particle.is_inflow;
         add(particle.place,
             particle.velocity,
-            Tag::of(has_pressure ? Kind::wall : Kind::dummy,
-                    particle.is_inflow ? particles::inflow_material : particles::opening_material));
+            particles::Tag::of(has_pressure ? Kind::wall : Kind::dummy,
+                               particle.is_inflow ? particles::inflow_material
+                                                  : particles::opening_material));
         fastest = std::max(fastest, particle.velocity.norm());
       }
     if (fastest == 0)

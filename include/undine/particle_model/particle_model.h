@@ -152,6 +152,10 @@ namespace undine
     add_fluid(ParticleFluid<dim>             &fluid,
               std::vector<LayerParticle<dim>> layers,
               const ParticleObstacles<dim>   &obstacles);
+    /// And bound depth and sub-steps by what flows in. `gravity` [m/s^2].
+    void
+    add_layers(const std::vector<LayerParticle<dim>> &layers,
+               const dealii::Tensor<1, dim>          &gravity);
     void
     add_walls(const std::vector<WallParticle<dim>> &walls);
     void

@@ -2,7 +2,7 @@
 #ifndef undine_particle_model_plain_vector_h
 #define undine_particle_model_plain_vector_h
 
-#include <deal.II/base/tensor.h>
+#include <deal.II/base/point.h>
 
 #include <undine/particles/math/vector.h>
 
@@ -14,6 +14,17 @@ namespace undine
   plain(const dealii::Tensor<1, dim> &vector)
   {
     particles::Vector<dim, double> result;
+    for (int axis = 0; axis < dim; ++axis)
+      result[axis] = vector[axis];
+    return result;
+  }
+
+  /// And back.
+  template <int dim>
+  dealii::Point<dim>
+  point_of(const particles::Vector<dim, double> &vector)
+  {
+    dealii::Point<dim> result;
     for (int axis = 0; axis < dim; ++axis)
       result[axis] = vector[axis];
     return result;

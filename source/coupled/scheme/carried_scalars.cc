@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/coupled/scheme/carried_scalars.h>
+#include <undine/particle_model/plain_vector.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,17 +16,6 @@ namespace undine
   namespace
   {
     constexpr double most_of_layers = 0.9; // that may come in during a frame
-
-
-    template <int dim>
-    dealii::Point<dim>
-    point_of(const particles::Vector<dim, double> &vector)
-    {
-      dealii::Point<dim> result;
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        result[axis] = vector[axis];
-      return result;
-    }
 
 
     template <int dim>

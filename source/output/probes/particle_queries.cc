@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/disjoint_sets.h>
 #include <undine/output/probes/particle_queries.h>
+#include <undine/particle_model/plain_vector.h>
 #include <undine/particles/model/lattice.h>
 #include <undine/particles/setup/make_constants.h>
 
@@ -9,20 +10,6 @@
 
 namespace undine
 {
-  namespace
-  {
-    template <int dim>
-    dealii::Point<dim>
-    point_of(const particles::Vector<dim, double> &vector)
-    {
-      dealii::Point<dim> result;
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        result[axis] = vector[axis];
-      return result;
-    }
-  } // namespace
-
-
   template <int dim>
   std::size_t
   place_of_identity(const particles::ParticleState<dim> &state, const int identity)
