@@ -135,7 +135,8 @@ def run(program, case, settings, ranks=1, steps=STEPS):
         with open(file, "w") as stream:
             stream.write(scene(case))
         arguments = [file, "--output", os.path.join(folder, "results"),
-                     "--set", f"Time/Maximum steps={steps}", "--set", "Time/Integrator=theta"]
+                     "--set", f"Time/Maximum steps={steps}", "--set", "Time/Integrator=theta",
+                     "--set", "Solid numerics/Inexact Newton=false"]
         for setting in settings:
             arguments += ["--set", setting]
         text = scene_tools.run(program, arguments, ranks).stdout

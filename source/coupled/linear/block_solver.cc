@@ -132,22 +132,31 @@ namespace undine
 
 
   template <int dim>
-  typename BlockSolver<dim>::BlockVector
-  BlockSolver<dim>::solve(const BlockSystem &system,
-                          const BlockVector &right_side,
-                          const Vector      &displacement,
-                          const double       reduction)
+  void
+  BlockSolver<dim>::initialize(const BlockSystem &new_system, const Vector &displacement)
   {
-    if (settings.solver == "iterative")
+    system = &new_system;
+    factors.reset();
+    if (settings.solver != "iterative")
+      return;
+    if (!schur)
+      schur = std::make_unique<const SchurComplement>(*system, *places, settings.multigrid);
+    weights = square_roots_of_diagonal(*system, schur->matrix());
+    tangent_inverse.initialize(system->tangent(), displacement);
+    settings.preconditioner->initialize(
+      *system, *schur, [&](Vector &x, const Vector &b) { tangent_inverse.vmult(x, b); });
+  }
+
+
+  template <int dim>
+  typename BlockSolver<dim>::BlockVector
+  BlockSolver<dim>::solve(const BlockVector &right_side, const double reduction)
+  {
+    if (settings.solver == "iterative" && !factors)
       {
-        if (!schur)
-          schur = std::make_unique<const SchurComplement>(system, *places, settings.multigrid);
-        tangent_inverse.initialize(system.tangent(), displacement);
-        settings.preconditioner->initialize(
-          system, *schur, [&](Vector &x, const Vector &b) { tangent_inverse.vmult(x, b); });
-        auto       solution = system.vector();
+        auto       solution = system->vector();
         const bool converged =
-          iterate(solution, system, right_side, std::max(reduction, settings.tolerance));
+          iterate(solution, right_side, std::max(reduction, settings.tolerance));
         if (!tangent_inverse.note().empty())
           all_notes = tangent_inverse.note();
         if (converged)
@@ -155,29 +164,31 @@ namespace undine
         all_notes = fmt::format("GMRES did not converge within {} iterations: solved directly",
                                 settings.maximum_iterations);
       }
-    JointFactorisation everything;
-    everything.factorise(system, system.pressure().locally_owned_range_indices());
-    return everything.solve(right_side);
+    if (!factors)
+      {
+        factors = std::make_unique<JointFactorisation>();
+        factors->factorise(*system, system->pressure().locally_owned_range_indices());
+      }
+    return factors->solve(right_side);
   }
 
 
   template <int dim>
   bool
   BlockSolver<dim>::iterate(BlockVector       &solution,
-                            const BlockSystem &system,
                             const BlockVector &right_side,
                             const double       reduction)
   {
-    const auto weights = square_roots_of_diagonal(system, schur->matrix());
-    auto       scaled  = right_side;
+    auto scaled = right_side;
     divide(scaled, weights);
     dealii::SolverControl control(settings.maximum_iterations, reduction * scaled.l2_norm());
     bool                  failed = false;
+    settings.preconditioner->start_solve();
     try
       {
         using FGMRES = dealii::SolverFGMRES<BlockVector>;
         FGMRES(control, typename FGMRES::AdditionalData(100))
-          .solve(ScaledSystem{system, weights},
+          .solve(ScaledSystem{*system, weights},
                  solution,
                  scaled,
                  ScaledPreconditioner{*settings.preconditioner, weights});

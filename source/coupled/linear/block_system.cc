@@ -2,6 +2,7 @@
 #include <undine/coupled/linear/block_system.h>
 
 #include <EpetraExt_MatrixMatrix.h>
+#include <EpetraExt_Transpose_RowMatrix.h>
 #include <Epetra_Vector.h>
 
 #include <cmath>
@@ -52,11 +53,14 @@ namespace undine
     A.trilinos_matrix().ExtractDiagonalCopy(inverse);
     for (int i = 0; i < inverse.MyLength(); ++i)
       inverse[i] = inverse[i] == 0 ? 0 : k / std::abs(inverse[i]);
-    Epetra_CrsMatrix scaled(flux);
-    scaled.RightScale(inverse);
+    // Products with a transposed matrix take several times as long.
+    EpetraExt::RowMatrix_Transpose transpose;
+    auto                          &transposed =
+      dynamic_cast<Epetra_CrsMatrix &>(transpose(const_cast<Epetra_CrsMatrix &>(flux)));
+    transposed.LeftScale(inverse);
 
     Epetra_CrsMatrix product(Copy, flux.RowMap(), 0);
-    EpetraExt::MatrixMatrix::Multiply(scaled, false, flux, true, product);
+    EpetraExt::MatrixMatrix::Multiply(flux, false, transposed, false, product);
     Epetra_CrsMatrix *sum = nullptr;
     EpetraExt::MatrixMatrix::Add(product, false, 1., hL.trilinos_matrix(), false, 1., sum);
     const std::unique_ptr<Epetra_CrsMatrix> owner(sum);

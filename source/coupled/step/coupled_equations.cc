@@ -66,9 +66,8 @@ namespace undine
                        swept.l2_norm(),
                        fluid.predicted_flux().l2_norm(),
                        flux_rounding / tolerance})});
-    last_norm = std::hypot(relative(residual.block(0).l2_norm(), here.force),
-                           relative(residual.block(1).l2_norm(), here.flux));
-    return last_norm;
+    return std::hypot(relative(residual.block(0).l2_norm(), here.force),
+                      relative(residual.block(1).l2_norm(), here.flux));
   }
 
 
@@ -115,24 +114,34 @@ namespace undine
 
 
   template <int dim>
-  typename CoupledEquations<dim>::Unknown
-  CoupledEquations<dim>::correction(const Unknown &x)
+  void
+  CoupledEquations<dim>::linearise(const Vector &velocity)
   {
-    reference    = here;
-    auto tangent = solid.jacobian(x.block(0));
+    const auto displacement = solid.displacement(velocity);
+    tangent                 = std::make_unique<BlockSystem::Matrix>(solid.jacobian(velocity));
     if (follower.is_on())
       {
-        follower.subtract_stiffness(
-          tangent, solid.displacement_factor(), solid.displacement(x.block(0)));
-        fix_rows_and_columns(tangent, model.all_fixed());
+        follower.subtract_stiffness(*tangent, solid.displacement_factor(), displacement);
+        fix_rows_and_columns(*tangent, model.all_fixed());
       }
+    const auto timed = timing.section("solve linear system");
+    system           = std::make_unique<const BlockSystem>(
+      *tangent, surface.matrix(), surface.factor(), fluid.matrix());
+    solver.initialize(*system, displacement);
+  }
+
+
+  template <int dim>
+  typename CoupledEquations<dim>::Unknown
+  CoupledEquations<dim>::correction(const Unknown &x, const CorrectionRequest &request)
+  {
+    reference = here;
     throw_if_interrupted(model.communicator());
-    const auto        timed = timing.section("solve linear system");
-    const BlockSystem system(tangent, surface.matrix(), surface.factor(), fluid.matrix());
+    if (request.new_tangent)
+      linearise(x.block(0));
+    const auto timed = timing.section("solve linear system");
     residual *= -1.;
-    // No more accurate than Newton's method needs it.
-    const double enough = 0.01 * model.numerics().newton.relative_tolerance / last_norm;
-    auto         result = solver.solve(system, residual, solid.displacement(x.block(0)), enough);
+    auto result = solver.solve(residual, request.reduction);
     timing.memory.hold_briefly("two-way coupling",
                                surface.matrix().memory_consumption() +
                                  fluid.matrix().memory_consumption() + solver.memory_consumption());

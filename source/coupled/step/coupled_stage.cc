@@ -79,7 +79,9 @@ namespace undine
               parts.timing,
               flux_rounding(parts.models.fluid->grid(), *surface, fluid.dt))
     , x(problem.vector())
+    , last_pressure(x.block(1))
   {
+    copy_to_vector(last_pressure, state.fluid.pressure);
     pressures.start(state.fluid.velocity,
                     fluid.tracer.velocity(),
                     end_time,
@@ -130,41 +132,62 @@ namespace undine
     const auto       timed = parts.timing.section("couple");
     SolidReport<dim> report;
     parts.solver.start_step(pressures.places());
-    Vector last_pressure = x.block(1);
-    copy_to_vector(last_pressure, state.fluid.pressure);
-    find_entering_speeds([&](const unsigned int round) {
-      state.fluid.velocity = predicted;
-      pressures.open(state.fluid.velocity);
-      // A given number of corrections begins anew, so that there are exactly so many.
-      const bool goes_on = round > 0 && newton.fixed_iterations == 0;
-      report.newton.append(
-        goes_on ? solve_from(x.block(0), x.block(1))
-                : solve_from_guesses(
-                    equations,
-                    newton,
-                    [&] {
-                      parts.motion_solver.begin_stage(equations.symmetry());
-                      return resting_guess(equations, parts.motion_solver, parts.timing);
-                    },
-                    [&](const Vector &velocity) { return solve_from(velocity, last_pressure); }));
-      pressures.accelerate(state.fluid.velocity, x.block(1));
-      return pressures.update_backflow(state.fluid.velocity);
-    });
+    if (newton.fixed_iterations > 0)
+      // Every round begins anew, so that there are exactly so many corrections.
+      find_entering_speeds([&](const unsigned int) { return solve_round(report.newton, newton); });
+    else
+      {
+        // No more accurate than the speeds are, before the last round.
+        NewtonOptions rough      = newton;
+        rough.relative_tolerance = std::max(newton.relative_tolerance, 1e-5);
+        if (pressures.has_openings())
+          find_entering_speeds(
+            [&](const unsigned int n) { return solve_round(report.newton, rough, n > 0); });
+        solve_round(report.newton, newton, pressures.has_openings());
+      }
     report.note = parts.solver.note();
     end(report);
     return report;
   }
 
 
+  /// Solves the equations with the last speeds of the backflow, from the guesses of the step or
+  /// from where another round has ended. Returns by how much better speeds would change v^{n+1}.
+  template <int dim>
+  double
+  CoupledStage<dim>::solve_round(NewtonReport        &report,
+                                 const NewtonOptions &options,
+                                 const bool           goes_on)
+  {
+    state.fluid.velocity = predicted;
+    pressures.open(state.fluid.velocity);
+    const auto rest = [&] {
+      parts.motion_solver.begin_stage(equations.symmetry());
+      return resting_guess(equations, parts.motion_solver, parts.timing);
+    };
+    const auto from = [&](const Vector &velocity) {
+      return solve_from(velocity, last_pressure, options);
+    };
+    report.append(goes_on ? solve_from(x.block(0), x.block(1), options, true)
+                          : solve_from_guesses(equations, options, rest, from));
+    pressures.accelerate(state.fluid.velocity, x.block(1));
+    return pressures.update_backflow(state.fluid.velocity);
+  }
+
+
+  /// Newton's method from these guesses.
   template <int dim>
   NewtonReport
-  CoupledStage<dim>::solve_from(const Vector &velocity, const Vector &pressure)
+  CoupledStage<dim>::solve_from(const Vector        &velocity,
+                                const Vector        &pressure,
+                                const NewtonOptions &options,
+                                const bool           has_tangent)
   {
     x.block(0) = equations.kept_apart(velocity);
     x.block(1) = pressure;
     pressures.closed_regions().fix_pressure_level(x.block(1));
     problem.start();
-    return solve_newton(problem, x, newton);
+    return solve_newton(problem, x, options, has_tangent);
   }
 
 
@@ -208,9 +231,9 @@ namespace undine
     auto              right_side = problem.vector();
     right_side.block(0)          = forces;
     parts.impulse_solver.start_step(pressures.places());
-    const auto response = parts.impulse_solver.solve(
-      system, right_side, equations.displacement(x.block(0)), impulse_reduction);
-    fluid_by_contact = state.fluid.velocity;
+    parts.impulse_solver.initialize(system, equations.displacement(x.block(0)));
+    const auto response = parts.impulse_solver.solve(right_side, impulse_reduction);
+    fluid_by_contact    = state.fluid.velocity;
     add(*fluid_by_contact, -1., state.fluid.velocity);
     pressures.accelerate(*fluid_by_contact, response.block(1));
     if (state.impulses)

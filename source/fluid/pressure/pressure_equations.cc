@@ -9,6 +9,8 @@
 #include <undine/fluid/pressure/pressure_gradient.h>
 #include <undine/fluid/pressure/pressure_matrix.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 namespace undine
@@ -40,6 +42,7 @@ namespace undine
     set_boundary_velocity(velocity, model.boundaries(), time);
     regions.balanced_fluxes(velocity, swept, time);
     openings = undine::open_faces(model, advecting, all_numbers.topology().get(), time);
+    opens    = dealii::Utilities::MPI::logical_or(!openings.empty(), model.grid().communicator());
   }
 
 

@@ -27,6 +27,13 @@ namespace undine
                 "1",
                 Allowed::not_negative(),
                 "Do exactly so many, converged or not, from d = d^n; 0: as many as it takes.");
+    options.add("Inexact Newton",
+                newton.inexact,
+                "",
+                Allowed::anything(),
+                "Keep the tangent as long as corrections reduce the residual tenfold, and solve "
+                "linear systems no further than a correction can gain; false: a new tangent and "
+                "the linear tolerance for each. Results agree up to the Newton tolerance.");
     options.add(
       "Linear solver",
       linear_solver,

@@ -5,6 +5,7 @@
 #include <deal.II/lac/solver_gmres.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace undine
 {
@@ -25,50 +26,58 @@ namespace undine
 
 
   template <int dim>
+  void
+  TangentSolver<dim>::initialize(const Matrix &A, const Vector &displacement)
+  {
+    matrix        = &A;
+    places        = displacement;
+    is_factorised = false;
+  }
+
+
+  template <int dim>
   typename TangentSolver<dim>::Vector
-  TangentSolver<dim>::solve(const Matrix &A,
-                            const Vector &b,
-                            const Vector &displacement,
-                            const double  negligible)
+  TangentSolver<dim>::solve(const Vector &b, const double reduction)
   {
     if (!is_direct())
       {
         // First with the hierarchy of an earlier matrix, if there is one.
         Vector x = model.vector();
-        if (multigrid && iterate(x, A, b, negligible))
+        if (multigrid && iterate(x, b, reduction))
           return x;
-        multigrid        = make_multigrid(A, model, displacement);
-        first_iterations = 0;
-        x                = 0;
-        if (multigrid && iterate(x, A, b, negligible))
+        multigrid  = make_multigrid(*matrix, model, places);
+        first_rate = 0;
+        x          = 0;
+        if (multigrid && iterate(x, b, reduction))
           return x;
         multigrid.reset();
         gave_up   = true;
         all_notes = "multigrid did not converge (the tangent is indefinite, or cells are badly "
                     "shaped): solved directly";
       }
-    factorisation.factorise(A);
+    if (!is_factorised)
+      factorisation.factorise(*matrix);
+    is_factorised = true;
     return factorisation.solve(b);
   }
 
 
   template <int dim>
   bool
-  TangentSolver<dim>::iterate(Vector &x, const Matrix &A, const Vector &b, const double negligible)
+  TangentSolver<dim>::iterate(Vector &x, const Vector &b, const double reduction)
   {
     const unsigned int    maximum_iterations = 300;
-    const double          relative           = model.numerics().linear_tolerance;
-    const double          tolerance          = std::max(negligible, relative * b.l2_norm());
-    dealii::SolverControl control(maximum_iterations, tolerance);
+    const double          part = std::max(reduction, model.numerics().linear_tolerance);
+    dealii::SolverControl control(maximum_iterations, part * b.l2_norm());
     bool                  failed = false;
     try
       {
         using GMRES = dealii::SolverGMRES<Vector>;
         if (symmetry == Symmetry::symmetric)
-          dealii::SolverCG<Vector>(control).solve(A, x, b, multigrid->hierarchy);
+          dealii::SolverCG<Vector>(control).solve(*matrix, x, b, multigrid->hierarchy);
         else
           GMRES(control, typename GMRES::AdditionalData(100, true)) // preconditioned from the right
-            .solve(A, x, b, multigrid->hierarchy);
+            .solve(*matrix, x, b, multigrid->hierarchy);
       }
     catch (const std::exception &)
       {
@@ -77,9 +86,11 @@ namespace undine
     all_iterations += control.last_step();
     if (dealii::Utilities::MPI::logical_or(failed, model.communicator()))
       return false;
-    if (first_iterations == 0)
-      first_iterations = std::max(control.last_step(), 1u);
-    else if (control.last_step() > first_iterations + first_iterations / 2 + 2)
+    const double decades = std::max(-std::log10(part), 1.);
+    const double rate    = std::max(control.last_step(), 1u) / decades;
+    if (first_rate == 0)
+      first_rate = rate;
+    else if (rate > 1.5 * first_rate + 2 / decades)
       multigrid.reset();
     return true;
   }

@@ -16,6 +16,8 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 namespace undine
 {
   namespace
@@ -26,14 +28,11 @@ namespace undine
     {
     public:
       using Unknown = typename SolidModel<dim>::Vector;
+      using Matrix  = typename SolidModel<dim>::Matrix;
 
-      StepProblem(SolidEquations<dim> &equations,
-                  TangentSolver<dim>  &solver,
-                  const double         tolerance,
-                  TimingTree          &timing)
+      StepProblem(SolidEquations<dim> &equations, TangentSolver<dim> &solver, TimingTree &timing)
         : equations(equations)
         , solver(solver)
-        , tolerance(tolerance)
         , timing(timing)
       {
         solver.begin_stage(equations.symmetry());
@@ -47,17 +46,18 @@ namespace undine
       }
 
       Unknown
-      correction(const Unknown &velocity)
+      correction(const Unknown &velocity, const CorrectionRequest &request)
       {
         throw_if_interrupted(velocity.get_mpi_communicator());
-        const auto jacobian = equations.jacobian(velocity);
-        const auto timed    = timing.section("solve linear system");
+        if (request.new_tangent)
+          {
+            jacobian = std::make_unique<const Matrix>(equations.jacobian(velocity));
+            solver.initialize(*jacobian, equations.displacement(velocity));
+          }
+        const auto timed = timing.section("solve linear system");
         residual *= -1.;
-        // A hundredth of the residual at which Newton's method stops.
-        const double negligible = 0.01 * tolerance * scale();
-        auto         change =
-          solver.solve(jacobian, residual, equations.displacement(velocity), negligible);
-        const double part = equations.collision_free_fraction(velocity, change);
+        auto         change = solver.solve(residual, request.reduction);
+        const double part   = equations.collision_free_fraction(velocity, change);
         if (part < 1)
           change *= part;
         return change;
@@ -84,9 +84,10 @@ namespace undine
     private:
       SolidEquations<dim> &equations;
       TangentSolver<dim>  &solver;
-      const double         tolerance;
       TimingTree          &timing;
       Unknown              residual;
+
+      std::unique_ptr<const Matrix> jacobian;
     };
 
 
@@ -248,7 +249,7 @@ namespace undine
     const auto          timed = timing.section("solid");
     SolidEquations<dim> equations(
       model, mass_matrix, state, environment, time, dt, timing, nodal_forces, contact, begin);
-    StepProblem<dim> problem(equations, solver, model.numerics().newton.relative_tolerance, timing);
+    StepProblem<dim> problem(equations, solver, timing);
     auto             velocity = model.vector();
 
     SolidReport<dim> report;

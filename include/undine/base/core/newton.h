@@ -4,6 +4,7 @@
 
 #include <undine/base/core/errors.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -20,12 +21,28 @@ namespace undine
     unsigned int fixed_iterations   = 0;  ///< do exactly so many, converged or not; 0: converge
     unsigned int maximum_cuts       = 10; ///< halvings of one correction in the line search
     unsigned int relaxed_steps      = 8;  ///< full corrections that may increase the residual
+    bool         inexact = true; ///< keep tangents, solve no further than a correction can gain
+
+    /// Not where the number of corrections is given.
+    bool
+    is_inexact() const
+    {
+      return inexact && fixed_iterations == 0;
+    }
+  };
+
+  /// What Newton's method asks of a correction.
+  struct CorrectionRequest
+  {
+    bool   new_tangent; ///< r'(x); else the tangent that the last correction had
+    double reduction;   ///< the part of |r| that the linear solver may leave [1]
   };
 
   /// How it went.
   struct NewtonReport
   {
     unsigned int        iterations        = 0; ///< corrections computed
+    unsigned int        tangents          = 0; ///< assembled for them
     unsigned int        cuts              = 0; ///< halvings in the line search
     unsigned int        linear_iterations = 0;
     std::vector<double> residuals; ///< norm before the first and after every correction
@@ -36,6 +53,7 @@ namespace undine
     append(const NewtonReport &later)
     {
       iterations += later.iterations;
+      tangents += later.tangents;
       cuts += later.cuts;
       linear_iterations = later.linear_iterations;
       scale             = later.scale;
@@ -49,6 +67,12 @@ namespace undine
   /// correction halved until the residual falls [Chamberlain, Powell, Lemarechal, Pedersen 1982;
   /// Nocedal, Wright, Numerical Optimization, section 15.6]. After that the residual may not rise
   /// any more: every correction that does not bring it below its best is halved.
+  ///
+  /// It may be inexact: as long as corrections reduce the residual tenfold, those that follow keep
+  /// the tangent (the chord method), and the linear solver is never asked for much more than a
+  /// correction can gain [Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995,
+  /// sections 5.4 and 6.1]. When it ends is decided by the residual alone, as with a new tangent
+  /// and a full solution for every correction.
   template <class Problem>
   class Newton
   {
@@ -57,7 +81,7 @@ namespace undine
     ///
     ///     using Unknown          with add(double, const Unknown &)
     ///     double evaluate(x)     norm of r(x), which it keeps; SolveError where r makes no sense
-    ///     Unknown correction(x)  -r'(x)^{-1} r(x) for the x evaluated last
+    ///     Unknown correction(x, const CorrectionRequest &)  -A^{-1} r(x) for the x evaluated last
     ///     double scale()         size of the terms whose sum is r
     ///     double rounding()      the norm that rounding alone gives r
     ///     unsigned int linear_iterations()  so far
@@ -67,12 +91,15 @@ namespace undine
 
     /// Improve x until |r| <= max(relative tolerance * scale, rounding) (T6). Where the descent
     /// ends before, |r| <= 100 rounding is accepted; else throws SolveError with the history of
-    /// |r|. A given number of corrections is done whatever |r| is.
+    /// |r|. A given number of corrections is done whatever |r| is. `has_tangent`: an earlier call
+    /// has left the problem a tangent with which to begin.
     NewtonReport
-    solve(typename Problem::Unknown &x);
+    solve(typename Problem::Unknown &x, bool has_tangent = false);
 
   private:
     using Unknown = typename Problem::Unknown;
+
+    static constexpr double enough_to_keep_a_tangent = 0.1; ///< reduction of the residual [1]
 
     /// The best point so far, to go back to.
     struct Best
@@ -81,6 +108,10 @@ namespace undine
       Unknown correction;
       double  residual;
     };
+
+    /// How the correction of an x with this residual is to be computed.
+    CorrectionRequest
+    request(double residual) const;
 
     /// Infinite where x is inadmissible.
     double
@@ -104,7 +135,9 @@ namespace undine
     const NewtonOptions &options;
     NewtonReport         report;
     Best                 best;
-    unsigned int         relaxed = 0; ///< corrections since the best point
+    unsigned int         relaxed       = 0; ///< corrections since the best point
+    bool                 keeps_tangent = false;
+    double               reduction     = 1; ///< of the residual by the last correction [1]
     std::string          last_refusal;
   };
 
@@ -119,9 +152,11 @@ namespace undine
 
   template <class Problem>
   NewtonReport
-  Newton<Problem>::solve(Unknown &x)
+  Newton<Problem>::solve(Unknown &x, const bool has_tangent)
   {
     report          = NewtonReport();
+    reduction       = 1;
+    keeps_tangent   = has_tangent && options.is_inexact();
     double residual = problem.evaluate(x);
     if (!std::isfinite(residual))
       throw SolveError("the forces at the start of the step are not finite numbers. Check the "
@@ -134,14 +169,26 @@ namespace undine
       options.fixed_iterations > 0 ? options.fixed_iterations : options.maximum_iterations;
     while (report.iterations < limit && (options.fixed_iterations > 0 || !converged(residual)))
       {
-        const Unknown correction = problem.correction(x);
+        const auto    asked      = request(residual);
+        const Unknown correction = problem.correction(x, asked);
         if (residual < best.residual)
           {
             best    = {x, correction, residual};
             relaxed = 0;
           }
-        residual = take_correction(x, correction);
+        const double before = residual;
+        residual            = take_correction(x, correction);
         ++report.iterations;
+        report.tangents += asked.new_tangent ? 1 : 0;
+        reduction = residual / before;
+        keeps_tangent =
+          options.is_inexact() && reduction <= enough_to_keep_a_tangent && residual < best.residual;
+        if (!asked.new_tangent && !(reduction < 1))
+          {
+            x        = best.x; // from which this correction went
+            residual = problem.evaluate(x);
+            continue;
+          }
         if (options.fixed_iterations > 0 && std::isinf(residual))
           throw SolveError("the correction cannot be accepted. " + last_refusal);
         if (options.fixed_iterations == 0 && !(residual < best.residual))
@@ -165,6 +212,17 @@ namespace undine
                           "Try a smaller step, a finer mesh, or more iterations."
                                              : last_refusal));
     return report;
+  }
+
+
+  template <class Problem>
+  CorrectionRequest
+  Newton<Problem>::request(const double residual) const
+  {
+    // A hundredth of what is tolerated in the end.
+    const double least = 0.01 * options.relative_tolerance * problem.scale() / residual;
+    const double gain  = options.is_inexact() ? std::min(0.1 * reduction, 1e-3) : 0.;
+    return {!keeps_tangent, std::min(std::max(least, gain), 1.)};
   }
 
 
@@ -247,12 +305,15 @@ namespace undine
   }
 
 
-  /// Solve problem(x) = 0 from the guess x.
+  /// Solve problem(x) = 0 from the guess x; see Newton::solve().
   template <class Problem>
   NewtonReport
-  solve_newton(Problem &problem, typename Problem::Unknown &x, const NewtonOptions &options)
+  solve_newton(Problem                   &problem,
+               typename Problem::Unknown &x,
+               const NewtonOptions       &options,
+               const bool                 has_tangent = false)
   {
-    return Newton<Problem>(problem, options).solve(x);
+    return Newton<Problem>(problem, options).solve(x, has_tangent);
   }
 } // namespace undine
 

@@ -39,6 +39,12 @@ namespace undine
                const SchurComplement &schur,
                const ApplyInverse    &tangent_inverse) = 0;
 
+    /// A solution begins for another right side of the same system.
+    virtual void
+    start_solve()
+    {
+    }
+
     /// result = about the inverse of the system times `right_side`; not always the same linear map.
     /// Collective. Throws SolveError.
     virtual void

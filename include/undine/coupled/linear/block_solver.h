@@ -3,6 +3,7 @@
 #define undine_coupled_linear_block_solver_h
 
 #include <undine/coupled/linear/block_preconditioner.h>
+#include <undine/coupled/linear/joint_factorisation.h>
 #include <undine/solid/solvers/tangent_preconditioner.h>
 
 #include <string>
@@ -44,14 +45,15 @@ namespace undine
     void
     start_step(const CellsOfUnknowns &places);
 
+    /// Solutions of `system` follow, which must outlive them; `displacement` [m] says where the
+    /// bodies are. Collective. Throws SolveError if the tangent is singular or not a number.
+    void
+    initialize(const BlockSystem &system, const Vector &displacement);
+
     /// The solution up to `reduction` of the right side, at least the settings' tolerance.
-    /// `displacement` [m] says where the bodies are. Collective. Throws SolveError if the system is
-    /// singular or not a number.
+    /// Collective. Throws SolveError if the system is singular or not a number.
     BlockVector
-    solve(const BlockSystem &system,
-          const BlockVector &right_side,
-          const Vector      &displacement,
-          const double       reduction);
+    solve(const BlockVector &right_side, const double reduction);
 
     /// Number of iterations of all solves since start_step(), and the largest of one. @{
     unsigned int
@@ -72,15 +74,15 @@ namespace undine
   private:
     /// False if the iteration does not converge.
     bool
-    iterate(BlockVector       &solution,
-            const BlockSystem &system,
-            const BlockVector &right_side,
-            const double       reduction);
+    iterate(BlockVector &solution, const BlockVector &right_side, const double reduction);
 
     const BlockSolverSettings             &settings;
     TangentPreconditioner<dim>             tangent_inverse;
     const CellsOfUnknowns                 *places = nullptr;
-    std::unique_ptr<const SchurComplement> schur; ///< nullptr: of no system yet
+    const BlockSystem                     *system = nullptr;
+    std::unique_ptr<const SchurComplement> schur;   ///< nullptr: of no system yet
+    BlockVector                            weights; ///< W, by which residuals are measured
+    std::unique_ptr<JointFactorisation>    factors; ///< of the system, if it was solved with them
     unsigned int                           all_iterations = 0, largest_iterations = 0;
     std::string                            all_notes;
   };

@@ -2,11 +2,14 @@
 #ifndef undine_coupled_step_coupled_equations_h
 #define undine_coupled_step_coupled_equations_h
 
+#include <undine/base/core/newton.h>
 #include <undine/coupled/immersed/follower_pressure.h>
 #include <undine/coupled/immersed/surface_flux.h>
 #include <undine/coupled/linear/block_solver.h>
 #include <undine/fluid/pressure/pressure_equations.h>
 #include <undine/solid/step/solid_equations.h>
+
+#include <memory>
 
 namespace undine
 {
@@ -59,7 +62,7 @@ namespace undine
     /// The change of `x`, evaluated last, by the linearised equations (C2), shortened where contact
     /// would close a gap. Collective. Throws SolveError and Interruption.
     Unknown
-    correction(const Unknown &x);
+    correction(const Unknown &x, const CorrectionRequest &request);
 
     /// 1: norms are relative already.
     double
@@ -99,10 +102,14 @@ namespace undine
 
     void
     measure(const Sizes &own);
+    void
+    linearise(const Vector &velocity);
 
-    Sizes  reference; ///< where corrections were computed
-    Sizes  here;      ///< for the point evaluated last
-    double last_norm = 0;
+    Sizes reference; ///< where corrections were computed
+    Sizes here;      ///< for the point evaluated last
+
+    std::unique_ptr<BlockSystem::Matrix> tangent;
+    std::unique_ptr<const BlockSystem>   system; ///< with this tangent
   };
 } // namespace undine
 

@@ -85,8 +85,13 @@ namespace undine
     /// @}
 
   private:
+    double
+    solve_round(NewtonReport &report, const NewtonOptions &options, bool goes_on = false);
     NewtonReport
-    solve_from(const Vector &velocity, const Vector &pressure);
+    solve_from(const Vector        &velocity,
+               const Vector        &pressure,
+               const NewtonOptions &options,
+               bool                 has_tangent = false);
     void
     end(SolidReport<dim> &report);
     Vector
@@ -109,7 +114,8 @@ namespace undine
     const FollowerPressure<dim>             follower;
     PressureEquations<dim>                  pressures;
     CoupledEquations<dim>                   problem;
-    BlockSystem::BlockVector                x;         ///< u^{n+1}, p
+    BlockSystem::BlockVector                x; ///< u^{n+1}, p
+    Vector                                  last_pressure;
     Velocity<dim>                           predicted; ///< v*
     std::optional<Velocity<dim>>            fluid_by_contact;
     typename SurfaceExchange<dim>::Vectors  pressure_forces_by_contact;

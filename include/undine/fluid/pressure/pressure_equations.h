@@ -67,6 +67,13 @@ namespace undine
       return cells;
     }
 
+    /// Is there an outflow, or another opening with a given pressure, on any rank?
+    bool
+    has_openings() const
+    {
+      return opens;
+    }
+
     /// D v* of every pressure, with what openings do [m^dim/s].
     const Vector &
     predicted_flux() const
@@ -118,6 +125,7 @@ namespace undine
     const ClosedRegions<dim>               regions;
     dealii::TrilinosWrappers::SparseMatrix L, hL;
     Vector                                 flux;
+    bool                                   opens = false;
     std::vector<OpenFace<dim>> openings, closed_openings; ///< with pressures and without
   };
 } // namespace undine

@@ -18,7 +18,7 @@ namespace undine
   /// symmetric. Where the iteration does not converge, as when the tangent is
   /// not positive definite, a factorisation takes its place, with `auto` for the rest of the stage.
   /// The analysis of the sparsity pattern is reused from one system to the next, the multigrid
-  /// hierarchy within a stage until the number of iterations has grown by half.
+  /// hierarchy within a stage until the number of iterations a decade has grown by half.
   template <int dim>
   class TangentSolver
   {
@@ -29,11 +29,15 @@ namespace undine
     /// `model` must outlive it.
     explicit TangentSolver(const SolidModel<dim> &model);
 
-    /// A^{-1} b, or if A is solved iteratively, up to a residual |A x - b| that is `negligible`
-    /// [N]. `displacement` [m] says where the bodies are. Collective. Throws SolveError on all
-    /// ranks if A is singular or not a number.
+    /// Systems with A follow, which must outlive them. `displacement` [m] says where the bodies
+    /// are.
+    void
+    initialize(const Matrix &A, const Vector &displacement);
+
+    /// A^{-1} b, or if A is solved iteratively, up to `reduction` of |b|, at least `Linear
+    /// tolerance`. Collective. Throws SolveError on all ranks if A is singular or not a number.
     Vector
-    solve(const Matrix &A, const Vector &b, const Vector &displacement, double negligible = 0);
+    solve(const Vector &b, double reduction = 0);
 
     /// Forget iterations(), note() and the hierarchy: what is solved follows from the state alone,
     /// whether a run was resumed or not. Systems that follow have a `symmetry`.
@@ -53,16 +57,19 @@ namespace undine
     is_direct() const;
     /// Improve x. False, on all ranks, if the iteration does not converge.
     bool
-    iterate(Vector &x, const Matrix &A, const Vector &b, double negligible);
+    iterate(Vector &x, const Vector &b, double reduction);
 
     const SolidModel<dim>            &model;
     const bool                        direct;
     Symmetry                          symmetry = Symmetry::symmetric;
+    const Matrix                     *matrix   = nullptr;
+    Vector                            places; ///< of the bodies with this matrix
     Factorisation                     factorisation;
+    bool                              is_factorised = false; ///< the matrix
     std::unique_ptr<TangentMultigrid> multigrid;
-    unsigned int first_iterations = 0;     ///< with that hierarchy when it was new; 0: it is new
-    bool         gave_up          = false; ///< the iteration did not converge once
-    unsigned int all_iterations   = 0;
+    double       first_rate     = 0;     ///< iterations a decade when that was new; 0: it is new
+    bool         gave_up        = false; ///< the iteration did not converge once
+    unsigned int all_iterations = 0;
     std::string  all_notes;
   };
 } // namespace undine

@@ -22,8 +22,8 @@ namespace undine
       {
         const auto system = equations.motion_predictor();
         const auto timed  = timing.section("solve linear system");
-        velocity.add(
-          1., solver.solve(system.matrix, system.right_side, equations.displacement(velocity)));
+        solver.initialize(system.matrix, equations.displacement(velocity));
+        velocity.add(1., solver.solve(system.right_side));
       }
     return velocity;
   }

@@ -39,11 +39,16 @@ namespace undine
       system          = &new_system;
       schur           = &new_schur;
       tangent_inverse = new_tangent_inverse;
-      n_calls         = 0;
       if (is_corrected)
         corrected.initialize(*system, *schur, tangent_inverse);
       else
         triangular.initialize(*system, *schur, tangent_inverse);
+    }
+
+    void
+    start_solve() override
+    {
+      n_calls = 0;
     }
 
     void

@@ -35,6 +35,10 @@ namespace
   }
 
 
+  /// Linear systems are solved as far as the linear tolerance says.
+  const std::string exact = "\nset Inexact Newton = false";
+
+
   struct StepResult
   {
     double force, position, iterations;
@@ -43,7 +47,7 @@ namespace
 
   template <int dim>
   StepResult
-  after_steps(const std::string &coupling, const std::string &numerics = "")
+  after_steps(const std::string &coupling, const std::string &numerics = exact)
   {
     CoupledRun<dim> run(jet_on_sheet<dim>(coupling, numerics));
     double          most = 0;
@@ -81,9 +85,13 @@ namespace
         INFO(name);
         const auto bound = most.count(name) > 0 ? most.at(name) : 20;
         compare(after_steps<dim>("set Preconditioner = " + name), bound);
-        compare(after_steps<dim>("set Preconditioner = " + name, "set Linear solver = multigrid"),
-                bound);
+        compare(
+          after_steps<dim>("set Preconditioner = " + name, "set Linear solver = multigrid" + exact),
+          bound);
+        // Where corrections keep the tangent and solve no further than they gain.
+        compare(after_steps<dim>("set Preconditioner = " + name, ""), bound);
       }
+    compare(after_steps<dim>("", "set Linear solver = multigrid"), 20);
     for (const auto &name : Registry<CellPreconditioner>::instance().names())
       {
         INFO(name);
@@ -131,7 +139,7 @@ TEST_CASE("A soft thin plate in water takes few iterations, by the band around i
                    "Cells = 7, 1, 7\nset Density = 100\nset Young's modulus = 6e4\nset Poisson's "
                    "ratio = .35\nset Load = 0; 1000; 0",
                    clamp("rim", "max(-x, x-1)"))) +
-      section("Coupling", coupling));
+      section("Coupling", coupling) + section("Solid numerics", exact));
     run.step();
     CHECK(run.report.warnings.empty());
     return run.column("Most iterations of a solve");
