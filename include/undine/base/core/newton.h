@@ -99,7 +99,8 @@ namespace undine
   private:
     using Unknown = typename Problem::Unknown;
 
-    static constexpr double enough_to_keep_a_tangent = 0.1; ///< reduction of the residual [1]
+    static constexpr double enough_to_keep_a_tangent = 0.1;  ///< reduction of the residual [1]
+    static constexpr double first_gain               = 1e-3; ///< that a correction is asked for [1]
 
     /// The best point so far, to go back to.
     struct Best
@@ -112,6 +113,10 @@ namespace undine
     /// How the correction of an x with this residual is to be computed.
     CorrectionRequest
     request(double residual) const;
+
+    /// How the next one is to be computed follows from what a correction has made of the residual.
+    void
+    learn_from(const CorrectionRequest &asked, double residual, double before);
 
     /// Infinite where x is inadmissible.
     double
@@ -137,7 +142,7 @@ namespace undine
     Best                 best;
     unsigned int         relaxed       = 0; ///< corrections since the best point
     bool                 keeps_tangent = false;
-    double               reduction     = 1; ///< of the residual by the last correction [1]
+    double               gain          = first_gain; ///< part of the residual that may be left [1]
     std::string          last_refusal;
   };
 
@@ -155,7 +160,7 @@ namespace undine
   Newton<Problem>::solve(Unknown &x, const bool has_tangent)
   {
     report          = NewtonReport();
-    reduction       = 1;
+    gain            = first_gain;
     keeps_tangent   = has_tangent && options.is_inexact();
     double residual = problem.evaluate(x);
     if (!std::isfinite(residual))
@@ -178,12 +183,8 @@ namespace undine
           }
         const double before = residual;
         residual            = take_correction(x, correction);
-        ++report.iterations;
-        report.tangents += asked.new_tangent ? 1 : 0;
-        reduction = residual / before;
-        keeps_tangent =
-          options.is_inexact() && reduction <= enough_to_keep_a_tangent && residual < best.residual;
-        if (!asked.new_tangent && !(reduction < 1))
+        learn_from(asked, residual, before);
+        if (!asked.new_tangent && !(residual < before))
           {
             x        = best.x; // from which this correction went
             residual = problem.evaluate(x);
@@ -221,8 +222,22 @@ namespace undine
   {
     // A hundredth of what is tolerated in the end.
     const double least = 0.01 * options.relative_tolerance * problem.scale() / residual;
-    const double gain  = options.is_inexact() ? std::min(0.1 * reduction, 1e-3) : 0.;
-    return {!keeps_tangent, std::min(std::max(least, gain), 1.)};
+    return {!keeps_tangent, std::min(std::max(least, options.is_inexact() ? gain : 0.), 1.)};
+  }
+
+
+  template <class Problem>
+  void
+  Newton<Problem>::learn_from(const CorrectionRequest &asked,
+                              const double             residual,
+                              const double             before)
+  {
+    ++report.iterations;
+    report.tangents += asked.new_tangent ? 1 : 0;
+    const double reduction = residual / before;
+    keeps_tangent =
+      options.is_inexact() && reduction <= enough_to_keep_a_tangent && residual < best.residual;
+    gain = std::min(0.1 * reduction, first_gain);
   }
 
 
