@@ -53,8 +53,12 @@ namespace undine
   void
   add(Field<dim> &field, const double factor, const Field<dim> &change)
   {
-    for_each(field.owned(),
-             [&](const GridIndex<dim> &index) { field(index) += factor * change(index); });
+    for_each_row(field.owned(), [&](const GridIndex<dim> &first, const int n) {
+      double       *values = field.data(first);
+      const double *more   = change.data(first);
+      for (int i = 0; i < n; ++i)
+        values[i] += factor * more[i];
+    });
     for (std::size_t k = 0; k < field.parts().size(); ++k)
       field.parts()[k] += factor * change.parts()[k];
   }

@@ -103,10 +103,16 @@ namespace undine
     const auto &polynomial = polynomials[begin];
     const auto  at         = std::clamp(place, points.front(), points.back());
     Stencil     result{points_of(begin, periods), polynomial.factors};
-    for (unsigned int k = 0; k < result.n_points; ++k)
-      for (unsigned int l = 0; l < result.n_points; ++l)
-        if (l != k)
-          result.weights[k] *= at - polynomial.places[l];
+    const auto  weigh = [&](const unsigned int n) {
+      for (unsigned int k = 0; k < n; ++k)
+        for (unsigned int l = 0; l < n; ++l)
+          if (l != k)
+            result.weights[k] *= at - polynomial.places[l];
+    };
+    if (result.n_points == 4) // of a known number the compiler makes far better code
+      weigh(4);
+    else
+      weigh(result.n_points);
     return result;
   }
 } // namespace undine

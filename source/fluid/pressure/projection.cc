@@ -118,7 +118,7 @@ namespace undine
     Field<dim> swept(model.grid().cells(), velocity[0].topology());
     std::copy(body_fluxes.begin(), body_fluxes.end(), swept.parts().begin());
     const double         tolerance   = model.pressure_solver().divergence_tolerance;
-    const double         body_speed  = largest_divergence(model, swept);
+    const double         body_speed  = swept.topology() ? largest_divergence(model, swept) : 0.;
     const double         first_speed = largest_components(model, velocity).norm() + body_speed;
     Field<dim>           increment   = impulse;
     Report               report;
@@ -133,7 +133,8 @@ namespace undine
         exchange(velocity);
 
         auto fluxes = divergence(model, velocity);
-        add(fluxes, 1., swept);
+        if (swept.topology())
+          add(fluxes, 1., swept);
         const double divergence = largest_divergence(model, fluxes);
         const double speed      = largest_components(model, velocity).norm() + body_speed;
         report.divergence       = relative(divergence, speed);
