@@ -181,6 +181,8 @@ namespace undine
       void
       copy_ghosts(const Vector &x) const;
 
+      static constexpr float omega = n == 3 ? 1.2f : 1.05f;
+
       BoxInArray<n>                                  box;
       std::array<std::vector<float>, n>              above; ///< entries to the next unknown
       StencilEntries<n, float>                       entries;
@@ -291,9 +293,9 @@ namespace undine
       box.for_each_row([&](const Position row, const int parity) {
         for (int i = 0; i < box.lengths[0]; ++i)
           values[row + i] =
-            (parity + i) % 2 == 0 ? inverse_diagonal[row + i] * right_side[row + i] : 0.f;
+            (parity + i) % 2 == 0 ? omega * inverse_diagonal[row + i] * right_side[row + i] : 0.f;
       });
-      relax(values.data(), right_side.data(), inverse_diagonal.data(), entries, box, 1, 1.f);
+      relax(values.data(), right_side.data(), inverse_diagonal.data(), entries, box, 1, omega);
       copy_from_box(x, values);
     }
 
@@ -327,7 +329,8 @@ namespace undine
       copy_to_box(values, x);
       copy_ghosts(x);
       for (const int parity : {1, 0})
-        relax(values.data(), right_side.data(), inverse_diagonal.data(), entries, box, parity, 1.f);
+        relax(
+          values.data(), right_side.data(), inverse_diagonal.data(), entries, box, parity, omega);
       copy_from_box(x, values);
     }
 

@@ -75,6 +75,23 @@ namespace undine
 
   template <int dim>
   void
+  scale(Velocity<dim> &velocity, const double factor)
+  {
+    for (auto &component : velocity.components)
+      {
+        for_each_row(component.owned(), [&](const GridIndex<dim> &first, const int n) {
+          double *values = component.data(first);
+          for (int i = 0; i < n; ++i)
+            values[i] *= factor;
+        });
+        for (double &value : component.parts())
+          value *= factor;
+      }
+  }
+
+
+  template <int dim>
+  void
   exchange(Velocity<dim> &velocity)
   {
     for (auto &component : velocity.components)
@@ -88,6 +105,7 @@ namespace undine
   template void set_volumes(Field<dim> &, const MacGrid<dim> &);           \
   template void add(Field<dim> &, const double, const Field<dim> &);       \
   template void add(Velocity<dim> &, const double, const Velocity<dim> &); \
+  template void scale(Velocity<dim> &, const double);                      \
   template void exchange(Velocity<dim> &);
 
   INSTANTIATE(2)

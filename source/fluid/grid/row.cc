@@ -21,6 +21,8 @@ namespace undine
     for (int i = 0; i + 1 < n; ++i)
       uniform = uniform && std::abs(begin[i + 1] - begin[i] - spacing) < 1e-6 * spacing;
     inverse_spacing = uniform ? 1 / spacing : 0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      inverse_gaps.push_back(1 / (points[i + 1] - points[i]));
     set_up_polynomials();
   }
 
