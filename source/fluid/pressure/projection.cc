@@ -104,7 +104,27 @@ namespace undine
                       dim,
                       tolerance));
       }
+    if (!closed_regions->exist())
+      balance_openings(impulse, right_side, stabilised);
     return control.last_step();
+  }
+
+
+  /// What flows through all openings together is the sum of the equations, and that of a small
+  /// residual of very many need not be small. A shift of all pressures, which only equations beside
+  /// openings notice, takes it away: the matrix is symmetric, so that its rows' sums tell by how
+  /// much.
+  template <int dim>
+  void
+  Projection<dim>::balance_openings(Vector               &impulse,
+                                    const Vector         &right_side,
+                                    const BackflowMatrix &stabilised) const
+  {
+    Vector row_sums(right_side), ones(right_side);
+    ones = 1;
+    stabilised.vmult(row_sums, ones);
+    const double missing = right_side * ones - row_sums * impulse;
+    impulse.add(missing / (row_sums * ones));
   }
 
 
