@@ -43,9 +43,8 @@ namespace undine
     difference(Velocity<dim> after, const Velocity<dim> &before, const double length)
     {
       add(after, -1., before);
-      Velocity<dim> result = after;
-      add(result, 1 / length - 1, after);
-      return result;
+      scale(after, 1 / length);
+      return after;
     }
   } // namespace
 

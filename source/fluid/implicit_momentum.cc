@@ -5,6 +5,8 @@
 #include <undine/fluid/implicit_momentum.h>
 #include <undine/fluid/pressure/pressure_gradient.h>
 
+#include <utility>
+
 namespace undine
 {
   template <int dim>
@@ -40,6 +42,30 @@ namespace undine
                                                    step.viscosity / step.model.density());
       }
     return *diffusions[axis];
+  }
+
+
+  /// With convection, where nothing is cut and nothing moves. False, and nothing has changed, where
+  /// that is not so or relaxation would take long.
+  template <int dim>
+  bool
+  ImplicitMomentum<dim>::relax(FluidStage<dim> &step)
+  {
+    if (step.carrying->topology() || step.carrying->start())
+      return false;
+    auto         velocity = step.state.velocity;
+    unsigned int n_sweeps = 0;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        const auto sweeps =
+          diffusion(step, axis).relax(velocity[axis], step.end, step.dt, &*step.carrying);
+        if (!sweeps)
+          return false;
+        n_sweeps += *sweeps;
+      }
+    step.state.velocity = std::move(velocity);
+    step.linear_iterations += n_sweeps;
+    return true;
   }
 
 
@@ -119,9 +145,9 @@ namespace undine
       open_faces(step.model, step.tracer.velocity(), velocity.topology(), step.time));
     add(velocity, step.dt, gradient);
     set_boundary_velocity(velocity, step.model.boundaries(), step.end);
-    if (step.tracer.bodies().walls || step.carrying)
+    if (step.tracer.bodies().walls || (step.carrying && !relax(step)))
       solve_among_surfaces(step);
-    else
+    else if (!step.carrying)
       for (unsigned int axis = 0; axis < dim; ++axis)
         step.linear_iterations += diffusion(step, axis).step(velocity[axis], step.end, step.dt);
     use_w(velocity);

@@ -38,6 +38,8 @@ namespace undine
     memory_consumption() const;
 
   private:
+    bool
+    relax(FluidStage<dim> &step);
     void
     solve_among_surfaces(FluidStage<dim> &step);
     void
@@ -48,7 +50,7 @@ namespace undine
     ImmersedViscousTerm<dim> &
     equation(const FluidStage<dim> &step, unsigned int axis);
 
-    /// Friction alone, without surfaces. @{
+    /// Without surfaces. @{
     std::array<std::unique_ptr<VelocityCondition<dim>>, dim> conditions;
     std::array<std::unique_ptr<ImplicitDiffusion<dim>>, dim> diffusions;
     /// @}

@@ -17,17 +17,6 @@ namespace undine
   constexpr int count_closed = -2;
   /// @}
 
-  /// Call action(index of the first point, number of points) for every row of points of a box along
-  /// the first direction: within it, the values of fields lie side by side.
-  template <int dim, class Action>
-  void
-  for_each_row(IndexBox<dim> box, const Action &action)
-  {
-    const int n  = box.upper[0] - box.lower[0];
-    box.upper[0] = box.lower[0] + std::min(1, n);
-    for_each(box, [&](const GridIndex<dim> &first) { action(first, n); });
-  }
-
   /// The sub-cells or sub-faces of a lattice's points, from those of the points that each rank
   /// owns: their `counts`, and part(index, number in its point). At images of points they are
   /// shifted along. Collective.

@@ -103,9 +103,8 @@ namespace undine
   void
   GeometricMultigrid::add_level(const CellEquations &equations, std::vector<int> aggregates)
   {
-    MultigridLevel matrix(equations);
-    auto           vector = matrix.vector();
-    levels.push_back({std::move(matrix), std::move(aggregates), vector, vector});
+    const MultigridLevel::Vector vector(equations.partitioner);
+    levels.push_back({make_multigrid_level(equations), std::move(aggregates), vector, vector});
   }
 
 
@@ -149,8 +148,8 @@ namespace undine
   {
     if (coarsest.m() == 0)
       {
-        level.matrix.relax_from_zero(level.x, level.b);
-        level.matrix.relax_backward(level.x, level.b);
+        level.matrix->relax_from_zero(level.x, level.b);
+        level.matrix->relax_backward(level.x, level.b);
         return;
       }
     dealii::Vector<double> solution(coarsest.m());
@@ -173,11 +172,11 @@ namespace undine
         return;
       }
     const Level &coarser = levels[number + 1];
-    level.matrix.relax_from_zero(level.x, level.b);
-    level.matrix.restrict_residual(coarser.b, level.x, level.aggregates);
+    level.matrix->relax_from_zero(level.x, level.b);
+    level.matrix->restrict_residual(coarser.b, level.x, level.aggregates);
     cycle(number + 1);
-    level.matrix.prolongate(level.x, coarser.x, level.aggregates);
-    level.matrix.relax_backward(level.x, level.b);
+    level.matrix->prolongate(level.x, coarser.x, level.aggregates);
+    level.matrix->relax_backward(level.x, level.b);
   }
 
 
@@ -215,7 +214,7 @@ namespace undine
   {
     std::size_t result = 0;
     for (const auto &level : levels)
-      result += level.matrix.memory_consumption() + level.aggregates.capacity() * sizeof(int) +
+      result += level.matrix->memory_consumption() + level.aggregates.capacity() * sizeof(int) +
                 level.x.memory_consumption() + level.b.memory_consumption();
     return result;
   }

@@ -56,22 +56,23 @@ namespace undine
 
 
     /// How far fluid can go in one step along each axis [m]: as fast as the fastest face or
-    /// boundary point, such as a lid.
+    /// boundary point, such as a lid. One ghost layer of the velocity is filled.
     template <int dim>
     dealii::Tensor<1, dim>
     longest_path(const FluidModel<dim> &model,
-                 const Velocity<dim>   &velocity,
+                 Velocity<dim>         &velocity,
                  const double           time,
                  const double           dt)
     {
-      auto result            = largest_components(model, velocity); // asserts that they are finite
-      auto complete_velocity = velocity;
-      complete(complete_velocity, model, 1, time);
+      auto result = largest_components(model, velocity); // asserts that they are finite
+      complete(velocity, model, 1, time);
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
-          const auto &component = complete_velocity[axis];
-          for_each(component.stored(), [&](const GridIndex<dim> &index) {
-            result[axis] = std::max(result[axis], std::abs(component(index)));
+          const auto &component = velocity[axis];
+          for_each_row(component.stored(), [&](const GridIndex<dim> &first, const int n) {
+            const double *values = component.data(first);
+            for (int i = 0; i < n; ++i)
+              result[axis] = std::max(result[axis], std::abs(values[i]));
           });
           result[axis] = dealii::Utilities::MPI::max(result[axis], model.grid().communicator());
         }
@@ -91,7 +92,7 @@ namespace undine
     , frozen_velocity(velocity)
     , start_time(time)
     , step(dt)
-    , ghost_width(layers_within(model, longest_path(model, velocity, time, dt), dt))
+    , ghost_width(layers_within(model, longest_path(model, frozen_velocity, time, dt), dt))
     , body_vicinity(
         model.grid(), velocity[0].topology(), bodies.topology, bodies.obstruction, ghost_width)
   {

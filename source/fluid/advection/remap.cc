@@ -71,6 +71,8 @@ namespace undine
            const Field<dim>                &field,
            const BoundaryCondition<dim>    &condition)
   {
+    if (!field.topology() && !tracer.bodies().topology)
+      return field;
     const auto            source = completed(tracer, field, condition);
     const NearBodies<dim> near(tracer, source);
     Field<dim>            kept(source.shared_lattice(), tracer.bodies().topology);

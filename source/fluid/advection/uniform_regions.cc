@@ -13,16 +13,6 @@ namespace undine
 {
   namespace
   {
-    /// Call `action(row)` with the first point of every row of a box along the first direction.
-    template <int dim, class Action>
-    void
-    for_each_row(IndexBox<dim> box, Action &&action)
-    {
-      box.upper[0] = std::min(box.upper[0], box.lower[0] + 1);
-      for_each(box, action);
-    }
-
-
     /// Compared to the bit, which is fast: most rows of a field hold one value.
     bool
     are_the_same(const double *values, const double *others, const int n)
@@ -38,8 +28,7 @@ namespace undine
     {
       constexpr double infinity    = std::numeric_limits<double>::infinity();
       double           extremes[2] = {-infinity, -infinity};
-      const int        points      = field.owned().upper[0] - field.owned().lower[0];
-      for_each_row(field.owned(), [&](const GridIndex<dim> &row) {
+      for_each_row(field.owned(), [&](const GridIndex<dim> &row, const int points) {
         const double *values = field.data(row);
         const int     others = are_the_same(values, values + 1, points - 1) ? 1 : points;
         for (int i = 0; i < others; ++i)
@@ -85,9 +74,8 @@ namespace undine
           {
             auto pairs = box;
             pairs.upper[d] -= 1;
-            const int  points = pairs.upper[0] - pairs.lower[0];
-            const auto next   = field.stride(d);
-            for_each_row(pairs, [&](const GridIndex<dim> &row) {
+            const auto next = field.stride(d);
+            for_each_row(pairs, [&](const GridIndex<dim> &row, const int points) {
               const double *values = field.data(row);
               char         *mark   = at(row);
               if (are_the_same(values, values + next, points))
@@ -160,8 +148,7 @@ namespace undine
             *varying.at(index) = 1;
         });
     varying.spread(reach);
-    const int points = owned.upper[0] - owned.lower[0];
-    for_each_row(owned, [&](const GridIndex<dim> &row) {
+    for_each_row(owned, [&](const GridIndex<dim> &row, const int points) {
       const char *marks   = varying.at(row);
       char       *uniform = is_uniform.data() + owned.position(row);
       for (int i = 0; i < points; ++i)

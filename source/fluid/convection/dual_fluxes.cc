@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/boundary/boundary_condition.h>
+#include <undine/fluid/boundary/side_faces.h>
 #include <undine/fluid/convection/dual_fluxes.h>
 #include <undine/fluid/grid/field_algebra.h>
 
@@ -17,6 +18,7 @@ namespace undine
     , time(time)
   {
     exchange(flow);
+    set_widths();
     collect_pieces();
   }
 
@@ -33,6 +35,18 @@ namespace undine
     exchange(motion->start);
     unfitted = unfitted_;
     exchange(unfitted);
+  }
+
+
+  template <int dim>
+  void
+  DualFluxes<dim>::set_widths()
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      for (int cell = -1; cell <= grid.cells_along()[d]; ++cell)
+        widths[d].push_back(grid.periodic(d) || (cell >= 0 && cell < grid.cells_along()[d])
+                              ? grid.cell_width(d, cell)
+                              : 0.);
   }
 
 
@@ -219,6 +233,36 @@ namespace undine
 
   template <int dim>
   void
+  DualFluxes<dim>::rates_to_next(const unsigned int    axis,
+                                 const unsigned int    direction,
+                                 const GridIndex<dim> &first,
+                                 std::vector<double>  &rates) const
+  {
+    // Half of the sum of the fluxes through two faces: those themselves, or those between the two
+    // cells around the one face and the two around the other.
+    const bool                    within  = direction == axis;
+    const auto                   &through = flow[direction];
+    const GridIndex<dim>          one     = moved<dim>(first, direction, within ? 0 : 1);
+    const GridIndex<dim>          other   = moved<dim>(one, axis, within ? 1 : -1);
+    std::array<double, 2>         factors{{0.5, 0.5}};
+    std::array<const double *, 2> along{}, values{};
+    const std::vector<double>     no_widths(rates.size(), 1.);
+    for (const unsigned int k : {0, 1})
+      {
+        const auto &face = k == 0 ? one : other;
+        for (unsigned int d = 1; d < dim; ++d)
+          if (d != direction)
+            factors[k] *= widths[d][face[d] + 1];
+        along[k]  = direction == 0 ? no_widths.data() : widths[0].data() + face[0] + 1;
+        values[k] = through.data(face);
+      }
+    for (std::size_t i = 0; i < rates.size(); ++i)
+      rates[i] = factors[0] * along[0][i] * values[0][i] + factors[1] * along[1][i] * values[1][i];
+  }
+
+
+  template <int dim>
+  void
   DualFluxes<dim>::for_each_between(const unsigned int axis, const Between &action) const
   {
     const auto *open = flow.topology();
@@ -255,36 +299,30 @@ namespace undine
   void
   DualFluxes<dim>::for_each_entering(const unsigned int axis, const Entering &action) const
   {
-    for (unsigned int d = 0; d < dim; ++d)
-      if (!grid.periodic(d))
-        undine::for_each(grid.faces(d)->owned(), [&](const GridIndex<dim> &face) {
-          if (!grid.at_boundary(d, face))
-            return;
-          const unsigned int end = face[d] == 0 ? 0 : 1;
-          const auto        &boundary =
-            model.boundaries().at({d, end}, moved<dim>(face, d, end == 0 ? 0 : -1));
-          if (d == axis && boundary.prescribes_normal_velocity())
-            return;
-          undine::for_each_place(flow[d].divided(), face, [&](const FacePlace<dim> &place) {
-            const double entering = (end == 0 ? 1 : -1) * flux(d, place);
-            if (entering <= 0)
-              return;
-            const double genuine = boundary.is_open() ? genuine_share(d, place, entering) : 1;
-            const auto   bring = [&](const FacePlace<dim> &to, const double rate, double brought) {
-              if (genuine < 1)
-                brought = genuine * brought + (1 - genuine) * value_at(motion->start[axis], to);
-              action(to, rate, brought);
-            };
-            if (d == axis)
-              {
-                bring(place, entering, value_at((motion ? unfitted : flow)[d], place));
-                return;
-              }
-            const double brought = entering_velocity(boundary, d, face, axis);
-            for (const auto &one : shares(beside(d, place, 1 - end), axis))
-              bring(one.place, one.share * entering, brought);
-          });
-        });
+    for_each_side_face(grid, flow.topology(), [&](const SideFace<dim> &at, const auto &) {
+      const unsigned int d        = at.side.axis;
+      const auto        &boundary = model.boundaries().at(at.side, at.cell);
+      if (d == axis && boundary.prescribes_normal_velocity())
+        return;
+      const FacePlace<dim> place{at.face, at.piece};
+      const double         entering = -at.side.sign() * flux(d, place);
+      if (entering <= 0)
+        return;
+      const double genuine = boundary.is_open() ? genuine_share(d, place, entering) : 1;
+      const auto   bring   = [&](const FacePlace<dim> &to, const double rate, double brought) {
+        if (genuine < 1)
+          brought = genuine * brought + (1 - genuine) * value_at(motion->start[axis], to);
+        action(to, rate, brought);
+      };
+      if (d == axis)
+        {
+          bring(place, entering, value_at((motion ? unfitted : flow)[d], place));
+          return;
+        }
+      const double brought = entering_velocity(boundary, d, at.face, axis);
+      for (const auto &one : shares(beside(d, place, 1 - at.side.end), axis))
+        bring(one.place, one.share * entering, brought);
+    });
   }
 
 
@@ -323,21 +361,16 @@ namespace undine
   void
   DualFluxes<dim>::for_each_leaving(const unsigned int axis, const Leaving &action) const
   {
-    for (unsigned int d = 0; d < dim; ++d)
-      if (!grid.periodic(d))
-        undine::for_each(grid.faces(d)->owned(), [&](const GridIndex<dim> &face) {
-          if (!grid.at_boundary(d, face))
-            return;
-          const unsigned int end = face[d] == 0 ? 0 : 1;
-          undine::for_each_place(flow[d].divided(), face, [&](const FacePlace<dim> &place) {
-            const double leaving = (end == 0 ? -1 : 1) * flux(d, place);
-            if (d == axis)
-              action(place, leaving);
-            else
-              for (const auto &one : shares(beside(d, place, 1 - end), axis))
-                action(one.place, one.share * leaving);
-          });
-        });
+    for_each_side_face(grid, flow.topology(), [&](const SideFace<dim> &at, const auto &) {
+      const unsigned int   d = at.side.axis;
+      const FacePlace<dim> place{at.face, at.piece};
+      const double         leaving = at.side.sign() * flux(d, place);
+      if (d == axis)
+        action(place, leaving);
+      else
+        for (const auto &one : shares(beside(d, place, 1 - at.side.end), axis))
+          action(one.place, one.share * leaving);
+    });
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/grid/field.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace undine
@@ -29,11 +30,11 @@ namespace undine
       strides[d] = strides[d - 1] * (box.upper[d - 1] - box.lower[d - 1]);
     values.assign(box.size(), 0.);
     if (!old_values.empty())
-      for_each(old_box.intersection(box), [&](const GridIndex<dim> &index) {
+      for_each_row(old_box.intersection(box), [&](const GridIndex<dim> &first, const int n) {
         std::ptrdiff_t old = 0;
         for (unsigned int d = 0; d < dim; ++d)
-          old += (index[d] - old_box.lower[d]) * old_strides[d];
-        (*this)(index) = old_values[old];
+          old += (first[d] - old_box.lower[d]) * old_strides[d];
+        std::copy_n(old_values.data() + old, n, data(first));
       });
   }
 
@@ -59,7 +60,7 @@ namespace undine
           store(points->with_ghosts(points->blocks().rank(), width));
           break;
         }
-    points->ghost_layers(layers, width).update(values);
+    points->ghost_layers(layers, width).update(dealii::make_array_view(values));
   }
 
 
@@ -69,7 +70,9 @@ namespace undine
   {
     std::vector<double> result;
     result.reserve(owned().size());
-    for_each(owned(), [&](const GridIndex<dim> &index) { result.push_back((*this)(index)); });
+    for_each_row(owned(), [&](const GridIndex<dim> &first, const int n) {
+      result.insert(result.end(), data(first), data(first) + n);
+    });
     return result;
   }
 
@@ -78,8 +81,11 @@ namespace undine
   void
   Field<dim>::set_owned_values(const std::vector<double> &owned_values)
   {
-    std::size_t k = 0;
-    for_each(owned(), [&](const GridIndex<dim> &index) { (*this)(index) = owned_values[k++]; });
+    auto next = owned_values.begin();
+    for_each_row(owned(), [&](const GridIndex<dim> &first, const int n) {
+      std::copy_n(next, n, data(first));
+      next += n;
+    });
   }
 
 

@@ -53,8 +53,12 @@ namespace undine
   void
   add(Field<dim> &field, const double factor, const Field<dim> &change)
   {
-    for_each(field.owned(),
-             [&](const GridIndex<dim> &index) { field(index) += factor * change(index); });
+    for_each_row(field.owned(), [&](const GridIndex<dim> &first, const int n) {
+      double       *values = field.data(first);
+      const double *more   = change.data(first);
+      for (int i = 0; i < n; ++i)
+        values[i] += factor * more[i];
+    });
     for (std::size_t k = 0; k < field.parts().size(); ++k)
       field.parts()[k] += factor * change.parts()[k];
   }
@@ -66,6 +70,23 @@ namespace undine
   {
     for (unsigned int axis = 0; axis < dim; ++axis)
       add(velocity[axis], factor, acceleration[axis]);
+  }
+
+
+  template <int dim>
+  void
+  scale(Velocity<dim> &velocity, const double factor)
+  {
+    for (auto &component : velocity.components)
+      {
+        for_each_row(component.owned(), [&](const GridIndex<dim> &first, const int n) {
+          double *values = component.data(first);
+          for (int i = 0; i < n; ++i)
+            values[i] *= factor;
+        });
+        for (double &value : component.parts())
+          value *= factor;
+      }
   }
 
 
@@ -84,6 +105,7 @@ namespace undine
   template void set_volumes(Field<dim> &, const MacGrid<dim> &);           \
   template void add(Field<dim> &, const double, const Field<dim> &);       \
   template void add(Velocity<dim> &, const double, const Velocity<dim> &); \
+  template void scale(Velocity<dim> &, const double);                      \
   template void exchange(Velocity<dim> &);
 
   INSTANTIATE(2)

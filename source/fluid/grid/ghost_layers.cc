@@ -47,17 +47,23 @@ namespace undine
 
 
   template <int dim>
+  template <typename Number>
   void
-  GhostLayers<dim>::update(std::vector<double> &values) const
+  GhostLayers<dim>::update(const dealii::ArrayView<Number> &values) const
   {
     partitioner.export_to_ghosted_array(
-      dealii::ArrayView<const double>(values.data(), values.size()),
-      dealii::make_array_view(values));
+      dealii::ArrayView<const Number>(values.data(), values.size()), values);
     for (const auto &[from, to] : images)
       values[to] = values[from];
   }
 
 
-  template class GhostLayers<2>;
-  template class GhostLayers<3>;
+#define INSTANTIATE(dim)                                                           \
+  template class GhostLayers<dim>;                                                 \
+  template void GhostLayers<dim>::update(const dealii::ArrayView<double> &) const; \
+  template void GhostLayers<dim>::update(const dealii::ArrayView<float> &) const;
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace undine

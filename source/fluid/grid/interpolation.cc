@@ -101,40 +101,69 @@ namespace undine
   }
 
 
-  template <int dim>
-  double
-  interpolate_cubic(const Field<dim>         &field,
-                    const dealii::Point<dim> &place,
-                    const Overshoot           overshoot)
+  namespace
   {
-    std::array<Row::Stencil, dim> stencils;
-    GridIndex<dim>                begin;
-    unsigned int                  n_lines = 1;
+    /// The weighted sum of the samples from `first` on; n_points(d): how many in a direction. Lines
+    /// along the first direction are summed first, side by side.
+    template <int dim, class Points>
+    inline double
+    weighted_sum(const Field<dim>                    &field,
+                 const double                        *first,
+                 const std::array<Row::Stencil, dim> &stencils,
+                 const Points                        &n_points)
+    {
+      unsigned int n_lines = 1;
+      for (unsigned int d = 1; d < dim; ++d)
+        n_lines *= n_points(d);
+      std::array<double, 4> along{};
+      for (unsigned int line = 0; line < n_lines; ++line)
+        {
+          const double *sample = first;
+          double        weight = 1;
+          unsigned int  rest   = line;
+          for (unsigned int d = 1; d < dim; ++d)
+            {
+              const unsigned int k = rest % n_points(d);
+              rest /= n_points(d);
+              sample += k * field.stride(d);
+              weight *= stencils[d].weights[k];
+            }
+          for (unsigned int k = 0; k < n_points(0); ++k)
+            along[k] += weight * sample[k];
+        }
+      double sum = 0;
+      for (unsigned int k = 0; k < n_points(0); ++k)
+        sum += stencils[0].weights[k] * along[k];
+      return sum;
+    }
+  } // namespace
+
+
+  template <int dim>
+  CubicInterpolation<dim>::CubicInterpolation(const Field<dim>         &like,
+                                              const dealii::Point<dim> &place)
+    : place(place)
+    , is_complete(true)
+  {
     for (unsigned int d = 0; d < dim; ++d)
       {
-        stencils[d] = field.lattice().row(d).stencil(place[d]);
+        stencils[d] = like.lattice().row(d).stencil(place[d]);
         begin[d]    = stencils[d].first;
-        n_lines *= d == 0 ? 1 : stencils[d].n_points;
+        is_complete = is_complete && stencils[d].n_points == 4;
       }
-    const double *const first = field.data(begin);
-    double              sum   = 0;
-    for (unsigned int line = 0; line < n_lines; ++line)
-      {
-        const double *sample = first;
-        double        weight = 1;
-        unsigned int  rest   = line;
-        for (unsigned int d = 1; d < dim; ++d)
-          {
-            const unsigned int k = rest % stencils[d].n_points;
-            rest /= stencils[d].n_points;
-            sample += k * field.stride(d);
-            weight *= stencils[d].weights[k];
-          }
-        double along = 0;
-        for (unsigned int k = 0; k < stencils[0].n_points; ++k)
-          along += stencils[0].weights[k] * sample[k];
-        sum += weight * along;
-      }
+  }
+
+
+  template <int dim>
+  double
+  CubicInterpolation<dim>::value(const Field<dim> &field, const Overshoot overshoot) const
+  {
+    const double *first = field.data(begin);
+    const double  sum =
+      is_complete ? weighted_sum<dim>(field, first, stencils, [](unsigned int) { return 4u; })
+                   : weighted_sum<dim>(field, first, stencils, [&](const unsigned int d) {
+                      return stencils[d].n_points;
+                    });
     if (overshoot == Overshoot::kept)
       return sum;
     const auto samples = samples_around(field, place);
@@ -143,6 +172,18 @@ namespace undine
   }
 
 
+  template <int dim>
+  double
+  interpolate_cubic(const Field<dim>         &field,
+                    const dealii::Point<dim> &place,
+                    const Overshoot           overshoot)
+  {
+    return CubicInterpolation<dim>(field, place).value(field, overshoot);
+  }
+
+
+  template class CubicInterpolation<2>;
+  template class CubicInterpolation<3>;
   template double
   interpolate(const Field<2> &, const dealii::Point<2> &);
   template double

@@ -165,6 +165,39 @@ namespace undine
 
 
   template <int dim>
+  std::vector<double>
+  MacGrid<dim>::cell_widths(const int first, const int n) const
+  {
+    std::vector<double> result;
+    for (int cell = first; cell < first + n; ++cell)
+      result.push_back(cell_width(0, cell));
+    return result;
+  }
+
+
+  template <int dim>
+  void
+  MacGrid<dim>::set_face_areas(std::vector<double>       &areas,
+                               const unsigned int         axis,
+                               const GridIndex<dim>      &first,
+                               const std::vector<double> &widths) const
+  {
+    double across = 1;
+    for (unsigned int d = 1; d < dim; ++d)
+      if (d != axis)
+        across *= cell_width(d, first[d]);
+    if (axis == 0)
+      areas.assign(widths.size(), across);
+    else
+      {
+        areas.resize(widths.size());
+        for (std::size_t i = 0; i < widths.size(); ++i)
+          areas[i] = widths[i] * across;
+      }
+  }
+
+
+  template <int dim>
   double
   MacGrid<dim>::dual_volume(const unsigned int axis, const GridIndex<dim> &face) const
   {

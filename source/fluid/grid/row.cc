@@ -21,6 +21,8 @@ namespace undine
     for (int i = 0; i + 1 < n; ++i)
       uniform = uniform && std::abs(begin[i + 1] - begin[i] - spacing) < 1e-6 * spacing;
     inverse_spacing = uniform ? 1 / spacing : 0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      inverse_gaps.push_back(1 / (points[i + 1] - points[i]));
     set_up_polynomials();
   }
 
@@ -103,10 +105,16 @@ namespace undine
     const auto &polynomial = polynomials[begin];
     const auto  at         = std::clamp(place, points.front(), points.back());
     Stencil     result{points_of(begin, periods), polynomial.factors};
-    for (unsigned int k = 0; k < result.n_points; ++k)
-      for (unsigned int l = 0; l < result.n_points; ++l)
-        if (l != k)
-          result.weights[k] *= at - polynomial.places[l];
+    const auto  weigh = [&](const unsigned int n) {
+      for (unsigned int k = 0; k < n; ++k)
+        for (unsigned int l = 0; l < n; ++l)
+          if (l != k)
+            result.weights[k] *= at - polynomial.places[l];
+    };
+    if (result.n_points == 4) // of a known number the compiler makes far better code
+      weigh(4);
+    else
+      weigh(result.n_points);
     return result;
   }
 } // namespace undine

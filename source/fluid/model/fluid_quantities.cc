@@ -138,8 +138,10 @@ namespace undine
           finite  = finite && std::isfinite(value);
           largest = std::max(largest, std::abs(value));
         };
-        for_each(velocity[axis].owned(),
-                 [&](const GridIndex<dim> &face) { include(velocity[axis](face)); });
+        for_each_row(velocity[axis].owned(), [&](const GridIndex<dim> &first, const int n) {
+          const double *values = velocity[axis].data(first);
+          std::for_each(values, values + n, include);
+        });
         for (const double value : velocity[axis].parts())
           include(value);
         result[axis] = dealii::Utilities::MPI::max(largest, model.grid().communicator());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/grid/face_place.h>
 #include <undine/fluid/grid/field_algebra.h>
 #include <undine/fluid/model/fluid_quantities.h>
 #include <undine/fluid/pressure/divergence.h>
@@ -7,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace undine
 {
@@ -14,12 +17,21 @@ namespace undine
   Field<dim>
   divergence(const FluidModel<dim> &model, const Velocity<dim> &velocity)
   {
-    const auto &grid = model.grid();
-    Field<dim>  result(grid.cells(), velocity[0].topology());
-    for_each(result.owned(), [&](const GridIndex<dim> &cell) {
+    const auto         &grid = model.grid();
+    Field<dim>          result(grid.cells(), velocity[0].topology());
+    const auto         &mine   = result.owned();
+    const auto          widths = grid.cell_widths(mine.lower[0], mine.upper[0] - mine.lower[0]);
+    std::vector<double> areas;
+    for_each_row(mine, [&](const GridIndex<dim> &first, const int n) {
+      double *const fluxes = result.data(first);
       for (unsigned int axis = 0; axis < dim; ++axis)
-        result(cell) += grid.face_area(axis, cell) *
-                        (velocity[axis](moved<dim>(cell, axis, 1)) - velocity[axis](cell));
+        {
+          const double *below = velocity[axis].data(first);
+          const double *above = below + velocity[axis].stride(axis);
+          grid.set_face_areas(areas, axis, first, widths);
+          for (int i = 0; i < n; ++i)
+            fluxes[i] += areas[i] * (above[i] - below[i]);
+        }
     });
     if (const auto *open = velocity.topology())
       for (unsigned int axis = 0; axis < dim; ++axis)
@@ -48,11 +60,29 @@ namespace undine
   double
   largest_divergence(const FluidModel<dim> &model, const Field<dim> &fluxes)
   {
-    double largest = 0;
-    bool   finite  = true;
-    for_each_value(fluxes, [&](const double flux, const auto &, const GridIndex<dim> &cell) {
+    double     largest = 0;
+    bool       finite  = true;
+    const auto include = [&](const double flux, const double area) {
       finite  = finite && std::isfinite(flux);
-      largest = std::max(largest, std::abs(flux) / flux_area(model.grid(), cell));
+      largest = std::max(largest, std::abs(flux) / area);
+    };
+    const auto         &grid    = model.grid();
+    const auto         &mine    = fluxes.owned();
+    const auto         *divided = fluxes.divided();
+    const auto          widths  = grid.cell_widths(mine.lower[0], mine.upper[0] - mine.lower[0]);
+    std::vector<double> areas;
+    for_each_row(mine, [&](const GridIndex<dim> &first, const int n) {
+      const double *flux     = fluxes.data(first);
+      double        shortest = std::numeric_limits<double>::infinity();
+      for (unsigned int d = 1; d < dim; ++d)
+        shortest = std::min(shortest, grid.cell_width(d, first[d]));
+      grid.set_face_areas(areas, 0, first, widths);
+      for (int i = 0; i < n; ++i)
+        if (is_whole(divided, moved<dim>(first, 0, i)))
+          include(flux[i], areas[i] * widths[i] / std::min(widths[i], shortest));
+    });
+    for_each_part(fluxes, [&](const double flux, const auto &, const GridIndex<dim> &cell) {
+      include(flux, flux_area(grid, cell));
     });
     throw_unless_finite(finite, model.grid().communicator());
     return dealii::Utilities::MPI::max(largest, model.grid().communicator());

@@ -10,8 +10,36 @@ namespace undine
 {
   namespace
   {
+    /// (rho V)^-1 a times the difference of pressures, where V = a times their distance, on all
+    /// faces between two cells; those of divided faces mean nothing.
     template <int dim>
-    using Kind = typename SubLattice<dim>::Kind;
+    void
+    add_differences(Field<dim>            &acceleration,
+                    const Field<dim>      &pressure,
+                    const FluidModel<dim> &model)
+    {
+      const auto        &grid = model.grid();
+      const unsigned int axis = acceleration.lattice().normal_axis();
+      auto               box  = acceleration.owned();
+      if (!grid.periodic(axis))
+        {
+          box.lower[axis] = std::max(box.lower[axis], 1);
+          box.upper[axis] = std::min(box.upper[axis], grid.cells_along()[axis]);
+        }
+      std::vector<double> masses; // per area
+      for (int i = box.lower[0]; i < box.upper[0]; ++i)
+        masses.push_back(model.density() * grid.dual_width(0, i));
+      for_each_row(box, [&](const GridIndex<dim> &first, const int n) {
+        if (axis > 0)
+          std::fill(
+            masses.begin(), masses.end(), model.density() * grid.dual_width(axis, first[axis]));
+        const double *above  = pressure.data(first);
+        const double *below  = above - pressure.stride(axis);
+        double       *result = acceleration.data(first);
+        for (int i = 0; i < n; ++i)
+          result[i] = (below[i] - above[i]) / masses[i];
+      });
+    }
   } // namespace
 
 
@@ -51,13 +79,7 @@ namespace undine
         auto &component     = acceleration[axis];
         component           = Field<dim>(grid.faces(axis), open);
         const auto *divided = component.divided();
-        for_each(component.owned(), [&](const GridIndex<dim> &face) {
-          // (rho V)^-1 a, where V = a times the distance of the pressures.
-          if (!grid.at_boundary(axis, face) &&
-              (!divided || divided->kind(face) == Kind<dim>::whole))
-            component(face) = (pressure(moved<dim>(face, axis, -1)) - pressure(face)) /
-                              (model.density() * grid.dual_width(axis, face[axis]));
-        });
+        add_differences(component, pressure, model);
         for (std::size_t k = 0; k < component.parts().size(); ++k)
           if (const auto &part = divided->all()[k];
               divided->owns(k) && !grid.at_boundary(axis, part.index))

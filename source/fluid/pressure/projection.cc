@@ -104,7 +104,27 @@ namespace undine
                       dim,
                       tolerance));
       }
+    if (!closed_regions->exist())
+      balance_openings(impulse, right_side, stabilised);
     return control.last_step();
+  }
+
+
+  /// What flows through all openings together is the sum of the equations, and that of a small
+  /// residual of very many need not be small. A shift of all pressures, which only equations beside
+  /// openings notice, takes it away: the matrix is symmetric, so that its rows' sums tell by how
+  /// much.
+  template <int dim>
+  void
+  Projection<dim>::balance_openings(Vector               &impulse,
+                                    const Vector         &right_side,
+                                    const BackflowMatrix &stabilised) const
+  {
+    Vector row_sums(right_side), ones(right_side);
+    ones = 1;
+    stabilised.vmult(row_sums, ones);
+    const double missing = right_side * ones - row_sums * impulse;
+    impulse.add(missing / (row_sums * ones));
   }
 
 
@@ -118,7 +138,7 @@ namespace undine
     Field<dim> swept(model.grid().cells(), velocity[0].topology());
     std::copy(body_fluxes.begin(), body_fluxes.end(), swept.parts().begin());
     const double         tolerance   = model.pressure_solver().divergence_tolerance;
-    const double         body_speed  = largest_divergence(model, swept);
+    const double         body_speed  = swept.topology() ? largest_divergence(model, swept) : 0.;
     const double         first_speed = largest_components(model, velocity).norm() + body_speed;
     Field<dim>           increment   = impulse;
     Report               report;
@@ -133,7 +153,8 @@ namespace undine
         exchange(velocity);
 
         auto fluxes = divergence(model, velocity);
-        add(fluxes, 1., swept);
+        if (swept.topology())
+          add(fluxes, 1., swept);
         const double divergence = largest_divergence(model, fluxes);
         const double speed      = largest_components(model, velocity).norm() + body_speed;
         report.divergence       = relative(divergence, speed);

@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace undine
 {
   void
@@ -17,7 +15,7 @@ namespace undine
   {
     namespace Trilinos = dealii::TrilinosWrappers;
     matrices           = of;
-    if (matrices == Matrices::with_convection && diffusion_number < 30)
+    if (matrices == Matrices::with_convection && diffusion_number < far)
       {
         auto factors = std::make_unique<Trilinos::PreconditionILU>();
         factors->initialize(matrix);
@@ -25,7 +23,7 @@ namespace undine
         return;
       }
     // Friction that reaches over a few cells in a step is cheaper to solve for without a hierarchy.
-    if (diffusion_number < 30)
+    if (diffusion_number < far)
       {
         auto relaxation = std::make_unique<Trilinos::PreconditionSSOR>();
         relaxation->initialize(matrix);
@@ -40,14 +38,6 @@ namespace undine
 
   namespace
   {
-    /// Tight, so that rank counts agree; a load of zero has the solution zero.
-    double
-    tolerance(const DiffusionSolver::Vector &load)
-    {
-      return std::max(1e-12 * load.l2_norm(), 1e-300);
-    }
-
-
     /// Short recurrences break down where convection, a skew-symmetric matrix, dominates. Returns
     /// the number of iterations. Throws NoConvergence.
     template <class Preconditioner>
@@ -59,7 +49,7 @@ namespace undine
                    const unsigned int                            most_iterations)
     {
       using Gmres = dealii::SolverGMRES<DiffusionSolver::Vector>;
-      dealii::SolverControl control(most_iterations, tolerance(load));
+      dealii::SolverControl control(most_iterations, DiffusionSolver::tolerance(load.l2_norm()));
       Gmres(control, Gmres::AdditionalData(120, true))
         .solve(matrix, solution, load, preconditioner);
       return control.last_step();
@@ -105,7 +95,7 @@ namespace undine
       {
         if (matrices == Matrices::with_convection)
           return solve_with_convection(solution, load);
-        dealii::SolverControl control(1000, tolerance(load));
+        dealii::SolverControl control(1000, tolerance(load.l2_norm()));
         dealii::SolverCG<Vector>(control).solve(matrix, solution, load, *preconditioner);
         return control.last_step();
       }

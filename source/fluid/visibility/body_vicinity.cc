@@ -150,19 +150,9 @@ namespace undine
 
 
   template <int dim>
-  typename BodyVicinity<dim>::Place
-  BodyVicinity<dim>::place(const dealii::Point<dim> &point) const
-  {
-    return {point, grid == nullptr ? GridIndex<dim>{} : cell_or_image_at(point)};
-  }
-
-
-  template <int dim>
   bool
-  BodyVicinity<dim>::is_near(const Place &from, const Place &to) const
+  BodyVicinity<dim>::passes_near(const Place &from, const Place &to) const
   {
-    if (grid == nullptr)
-      return false;
     int longest = 0;
     for (unsigned int d = 0; d < dim; ++d)
       longest = std::max(longest, std::abs(to.cell[d] - from.cell[d]));
@@ -177,14 +167,6 @@ namespace undine
       if (counts(cell_or_image_at(from.point + double(s) / n_steps * (to.point - from.point))))
         return true;
     return false;
-  }
-
-
-  template <int dim>
-  bool
-  BodyVicinity<dim>::is_next_to_body(const Place &place) const
-  {
-    return grid != nullptr && (!box.contains(place.cell) || layers[box.position(place.cell)] <= 1);
   }
 
 
@@ -249,13 +231,11 @@ namespace undine
 
   template <int dim>
   double
-  BodyVicinity<dim>::first_hit(const Place &from, const Place &to) const
+  BodyVicinity<dim>::hit_of_facets(const Place &from, const Place &to) const
   {
     constexpr std::size_t few_cells = 27; // cells; through more of them a tree is faster
     double                result    = std::numeric_limits<double>::infinity();
-    if (surfaces == nullptr || is_clear(from.cell, to.cell))
-      return result;
-    const auto cells = cells_between(from.cell, to.cell);
+    const auto            cells     = cells_between(from.cell, to.cell);
     if (cells.size() > few_cells || !facets.know(cells))
       return surfaces->first_hit(from.point, to.point);
     facets.until_facet(cells, from.point, to.point, [&](const auto &facet) {

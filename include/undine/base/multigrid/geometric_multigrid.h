@@ -37,9 +37,9 @@ namespace undine
   private:
     struct Level
     {
-      MultigridLevel                 matrix;
-      std::vector<int>               aggregates; ///< empty: the coarsest
-      mutable MultigridLevel::Vector x, b;
+      std::unique_ptr<const MultigridLevel> matrix;
+      std::vector<int>                      aggregates; ///< empty: the coarsest
+      mutable MultigridLevel::Vector        x, b;
     };
 
     void

@@ -112,10 +112,10 @@ namespace undine
     std::unique_ptr<const VisibleSamples<dim>> samples;
   };
 
-  /// Fields at t + h on the present topology of the fluid. `far(trace, index, k)` is the value of
-  /// field k for a path that stays away from bodies; near them all methods are alike, see
-  /// NearBodies; uniform regions keep their values. `sources` are what completed() returned with
-  /// the same condition; `far` takes no points further than `reach` away. Collective.
+  /// Fields at t + h on the present topology of the fluid. `far(trace, index)`, for a path that
+  /// stays away from bodies, is a function of k, the value of field k; near them all methods are
+  /// alike, see NearBodies; uniform regions keep their values. `sources` are what completed()
+  /// returned with the same condition; `far` takes no points further than `reach` away. Collective.
   template <int dim, class Far>
   std::vector<Field<dim>>
   advect_along_paths(const CharacteristicTracer<dim> &tracer,
@@ -144,9 +144,15 @@ namespace undine
         return;
       const auto place = lattice.point(index);
       const auto trace = tracer.trace(place, -tracer.dt());
-      for (std::size_t k = 0; k < sources.size(); ++k)
-        advected[k](index) = trace.near_body ? near[k].value_at(near[k].whole(index), trace.foot)
-                                              : far(trace, index, k);
+      if (trace.near_body)
+        for (std::size_t k = 0; k < sources.size(); ++k)
+          advected[k](index) = near[k].value_at(near[k].whole(index), trace.foot);
+      else
+        {
+          const auto value_of = far(trace, index);
+          for (std::size_t k = 0; k < sources.size(); ++k)
+            advected[k](index) = value_of(k);
+        }
     };
     if (condition.neglected_variation() == 0)
       for_each(lattice.owned(), advect_one);

@@ -56,6 +56,14 @@ namespace undine
     void
     for_each_between(const unsigned int axis, const Between &action) const;
 
+    /// The same volume rates where nothing is cut and nothing moves, from the faces normal to
+    /// `axis` that follow `first` along the first direction to those next to them in `direction`.
+    void
+    rates_to_next(unsigned int          axis,
+                  unsigned int          direction,
+                  const GridIndex<dim> &first,
+                  std::vector<double>  &rates) const;
+
     /// action(place, volume rate that enters it through a side of the domain [m^dim/s], velocity
     /// along the axis that it brings [m/s]) unless the place itself has a given velocity. What
     /// enters through an opening does so at right angles, as fast as the flow. (If it brought the
@@ -103,6 +111,8 @@ namespace undine
     };
 
     void
+    set_widths();
+    void
     collect_pieces();
     Shares
     shares(const CellPlace &place, unsigned int axis) const;
@@ -140,8 +150,10 @@ namespace undine
     const MacGrid<dim>    &grid;
     Velocity<dim>          flow;
     const double           time;
-    std::optional<Motion>  motion;   ///< none: nothing moves
-    Velocity<dim>          unfitted; ///< if anything moves
+    /// Of cells in each direction, from the one before the first on [m]; 0: there is none.
+    std::array<std::vector<double>, dim> widths;
+    std::optional<Motion>                motion;   ///< none: nothing moves
+    Velocity<dim>                        unfitted; ///< if anything moves
     /// Pieces of faces around each component, [axis][component][end].
     std::array<std::vector<std::array<std::vector<int>, 2>>, dim> pieces;
   };

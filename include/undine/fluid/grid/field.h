@@ -121,6 +121,12 @@ namespace undine
       return values.data() + position(index);
     }
 
+    double *
+    data(const GridIndex<dim> &index)
+    {
+      return values.data() + position(index);
+    }
+
     std::ptrdiff_t
     stride(const unsigned int direction) const
     {
@@ -217,6 +223,24 @@ namespace undine
         action(field(index), field.lattice().point(index), index);
     });
     for_each_part(field, action);
+  }
+
+
+  /// Call `action(value)` for the same values in the same order.
+  template <class FieldType, class Action>
+  void
+  for_each_unplaced_value(FieldType &field, Action &&action)
+  {
+    constexpr int dim     = FieldType::dimension;
+    const auto   *divided = field.divided();
+    for_each_row(field.owned(), [&](const GridIndex<dim> &first, const int n) {
+      auto *const values = field.data(first);
+      for (int i = 0; i < n; ++i)
+        if (!divided || divided->kind(moved<dim>(first, 0, i)) == SubLattice<dim>::Kind::whole)
+          action(values[i]);
+    });
+    for_each_owned_part(divided,
+                        [&](const unsigned int k, const auto &) { action(field.parts()[k]); });
   }
 } // namespace undine
 

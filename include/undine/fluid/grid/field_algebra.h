@@ -34,6 +34,11 @@ namespace undine
   void
   add(Velocity<dim> &velocity, const double factor, const Velocity<dim> &acceleration);
 
+  /// velocity *= factor on owned faces and all pieces.
+  template <int dim>
+  void
+  scale(Velocity<dim> &velocity, const double factor);
+
   /// Exchange one ghost layer of each component. Collective.
   template <int dim>
   void

@@ -31,8 +31,9 @@ namespace undine
 
     /// Fill the ghost points of `values`: those of Lattice::with_ghosts(rank, stored), the first
     /// direction running fastest. Collective.
+    template <typename Number>
     void
-    update(std::vector<double> &values) const;
+    update(const dealii::ArrayView<Number> &values) const;
 
   private:
     dealii::Utilities::MPI::NoncontiguousPartitioner partitioner;

@@ -7,6 +7,8 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <array>
+
 namespace undine
 {
   /// A value and the bounds of the samples around its place.
@@ -41,7 +43,25 @@ namespace undine
     clipped ///< to the bounds of the 2^dim samples around the place
   };
 
-  /// Interpolation by the cubic polynomials through four points in each direction.
+  /// Interpolation by the cubic polynomials through four points in each direction: the weights for
+  /// one place [m], which serve all fields with the same lattice and the same stored points.
+  template <int dim>
+  class CubicInterpolation
+  {
+  public:
+    CubicInterpolation(const Field<dim> &like, const dealii::Point<dim> &place);
+
+    double
+    value(const Field<dim> &field, const Overshoot overshoot) const;
+
+  private:
+    dealii::Point<dim>            place;
+    std::array<Row::Stencil, dim> stencils;
+    GridIndex<dim>                begin;
+    bool                          is_complete; ///< with four points in each direction
+  };
+
+  /// The same for one field.
   template <int dim>
   double
   interpolate_cubic(const Field<dim>         &field,

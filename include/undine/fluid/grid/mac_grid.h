@@ -80,6 +80,18 @@ namespace undine
     double
     face_area(const unsigned int axis, const GridIndex<dim> &face) const;
 
+    /// The widths along the first direction of the cells that follow each other from `first` on,
+    /// and the areas of `n` faces [m^(dim-1)]. @{
+    std::vector<double>
+    cell_widths(const int first, const int n) const;
+
+    void
+    set_face_areas(std::vector<double>       &areas,
+                   const unsigned int         axis,
+                   const GridIndex<dim>      &first,
+                   const std::vector<double> &widths) const;
+    /// @}
+
     /// Volume V_f = a_f times dual_width() of a face [m^dim].
     double
     dual_volume(const unsigned int axis, const GridIndex<dim> &face) const;

@@ -102,7 +102,7 @@ namespace undine
   copy_to_vector(Vector &vector, const Field<dim> &field)
   {
     auto next = vector.begin();
-    for_each_value(field, [&](const double value, const auto &, const auto &) { *next++ = value; });
+    for_each_unplaced_value(field, [&](const double value) { *next++ = value; });
   }
 
   template <int dim, class Vector>
@@ -110,7 +110,7 @@ namespace undine
   copy_from_vector(Field<dim> &field, const Vector &vector)
   {
     auto next = vector.begin();
-    for_each_value(field, [&](double &value, const auto &, const auto &) { value = *next++; });
+    for_each_unplaced_value(field, [&](double &value) { value = *next++; });
   }
   /// @}
 } // namespace undine

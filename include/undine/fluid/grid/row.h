@@ -96,7 +96,7 @@ namespace undine
     {
       const int    periods = move_into_period(place);
       const int    i       = find(place);
-      const double weight  = (place - points[i]) / (points[i + 1] - points[i]);
+      const double weight  = (place - points[i]) * inverse_gaps[i];
       return {i + first + periods * n, std::clamp(weight, 0., 1.)};
     }
 
@@ -148,7 +148,8 @@ namespace undine
           const auto above = std::upper_bound(points.begin(), points.end(), place);
           return std::clamp(int(above - points.begin()) - 1, 0, last);
         }
-      int guess = std::clamp(int((place - points[0]) * inverse_spacing), 0, last);
+      // The distance from a boundary point to the next point is another one.
+      int guess = std::clamp(int((place - points[-first]) * inverse_spacing) - first, 0, last);
       while (guess > 0 && place < points[guess])
         --guess;
       while (guess < last && place >= points[guess + 1])
@@ -167,8 +168,9 @@ namespace undine
       return periods;
     }
 
-    std::vector<double>     points;      ///< from index `first`; periodic: up to index n
-    std::vector<Polynomial> polynomials; ///< by position of the first point; periodic: less one
+    std::vector<double>     points;       ///< from index `first`; periodic: up to index n
+    std::vector<double>     inverse_gaps; ///< 1 / distance from each point to the next [1/m]
+    std::vector<Polynomial> polynomials;  ///< by position of the first point; periodic: less one
     int                     first           = 0; ///< -1 if there are boundary points
     int                     n               = 0;
     double                  length          = 0; ///< period [m]; 0: not periodic

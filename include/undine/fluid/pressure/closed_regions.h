@@ -38,6 +38,13 @@ namespace undine
                   const PressureNumbers<dim> &numbers,
                   const std::vector<Number>  &compliant = {});
 
+    /// Are there any, on whatever rank?
+    bool
+    exist() const
+    {
+      return !region_volumes.empty();
+    }
+
     /// The lowest pressure number of every closed region, as far as this rank owns them.
     const std::vector<Number> &
     pinned() const

@@ -97,6 +97,11 @@ namespace undine
           const BackflowMatrix &stabilised,
           const double          tolerance) const;
 
+    void
+    balance_openings(Vector               &impulse,
+                     const Vector         &right_side,
+                     const BackflowMatrix &stabilised) const;
+
     /// Add impulses h p to the velocity until its divergence vanishes, beginning with those in
     /// `impulse`, which becomes the sum of all [Pa s]. The openings hold impulses in the place of
     /// pressures; they are used up.

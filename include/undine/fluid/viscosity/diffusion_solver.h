@@ -5,6 +5,7 @@
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace undine
@@ -16,11 +17,22 @@ namespace undine
   public:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
+    /// From this h nu / dx^2 on a step reaches over so many cells that a hierarchy of grids pays.
+    static constexpr double far = 30;
+
     enum class Matrices
     {
       symmetric,
       with_convection
     };
+
+    /// The residual at which iterations end, for a right side of the norm `load`: tight, so that
+    /// rank counts agree; a load of zero has the solution zero.
+    static double
+    tolerance(const double load)
+    {
+      return std::max(1e-12 * load, 1e-300);
+    }
 
     /// To be filled; then call set_up().
     dealii::TrilinosWrappers::SparseMatrix matrix;

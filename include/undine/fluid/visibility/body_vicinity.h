@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -45,18 +46,28 @@ namespace undine
 
     /// In no cell if there are no bodies.
     Place
-    place(const dealii::Point<dim> &point) const;
+    place(const dealii::Point<dim> &point) const
+    {
+      return {point, grid == nullptr ? GridIndex<dim>{} : cell_or_image_at(point)};
+    }
 
     /// True unless all cells on the segment between two places and `margin` cells around them are
     /// fluid, before, now and in between.
     bool
-    is_near(const Place &from, const Place &to) const;
+    is_near(const Place &from, const Place &to) const
+    {
+      return grid != nullptr && passes_near(from, to);
+    }
 
     /// True unless the cell at a place and those around it are fluid: then all samples of
     /// multilinear interpolation are visible from there. (All around: a face between a whole cell
     /// and a body that ends in its plane has no sample, wherever in the cell the place is.)
     bool
-    is_next_to_body(const Place &place) const;
+    is_next_to_body(const Place &place) const
+    {
+      return grid != nullptr &&
+             (!box.contains(place.cell) || layers[box.position(place.cell)] <= 1);
+    }
 
     /// True if all cells of the box with two corners in these cells are fluid all over: no surface
     /// can lie between two places in it.
@@ -77,7 +88,12 @@ namespace undine
     /// The share of the segment at which a surface is met first [1]; infinity if none is, see
     /// Obstruction::first_hit().
     double
-    first_hit(const Place &from, const Place &to) const;
+    first_hit(const Place &from, const Place &to) const
+    {
+      return surfaces == nullptr || is_clear(from.cell, to.cell)
+               ? std::numeric_limits<double>::infinity()
+               : hit_of_facets(from, to);
+    }
 
     /// Has a surface passed over the place in its last motion?
     bool
@@ -99,6 +115,12 @@ namespace undine
 
     void
     measure_layers();
+
+    bool
+    passes_near(const Place &from, const Place &to) const;
+
+    double
+    hit_of_facets(const Place &from, const Place &to) const;
 
     /// The cell at a place; beyond a periodic side the image there, which this rank may know though
     /// it does not know the cell.

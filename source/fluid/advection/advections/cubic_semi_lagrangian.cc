@@ -37,8 +37,9 @@ namespace undine
         sources,
         condition,
         tracer.reach(1),
-        [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
-          return interpolate_cubic(sources[k], trace.foot.point, overshoot);
+        [&](const auto &trace, const GridIndex<dim> &) {
+          return [&, at = CubicInterpolation<dim>(sources.front(), trace.foot.point)](
+                   const std::size_t k) { return at.value(sources[k], overshoot); };
         });
     }
   };

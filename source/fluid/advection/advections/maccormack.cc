@@ -37,18 +37,15 @@ namespace undine
     {
       const auto  sources = completed(tracer, std::move(fields), condition);
       Predictions predictions(sources.size());
-      auto        corrected =
-        advect_along_paths(tracer,
-                           sources,
-                           condition,
-                           tracer.width(),
-                           [&](const auto &trace, const auto &index, const std::size_t k) {
-                             const auto found =
-                               interpolate_with_bounds(sources[k], trace.foot.point);
-                             if (!trace.left_domain)
-                               predictions[k].push_back({index, found});
-                             return found.value;
-                           });
+      auto        corrected = advect_along_paths(
+        tracer, sources, condition, tracer.width(), [&](const auto &trace, const auto &index) {
+          return [&](const std::size_t k) {
+            const auto found = interpolate_with_bounds(sources[k], trace.foot.point);
+            if (!trace.left_domain)
+              predictions[k].push_back({index, found});
+            return found.value;
+          };
+        });
 
       auto predicted = corrected;
       for (auto &field : predicted)

@@ -29,14 +29,15 @@ namespace undine
            const BoundaryCondition<dim>    &condition) const override
     {
       const auto sources = completed(tracer, std::move(fields), condition);
-      return advect_along_paths(
-        tracer,
-        sources,
-        condition,
-        tracer.reach(0),
-        [&](const auto &trace, const GridIndex<dim> &, const std::size_t k) {
-          return interpolate(sources[k], trace.foot.point);
-        });
+      return advect_along_paths(tracer,
+                                sources,
+                                condition,
+                                tracer.reach(0),
+                                [&](const auto &trace, const GridIndex<dim> &) {
+                                  return [&](const std::size_t k) {
+                                    return interpolate(sources[k], trace.foot.point);
+                                  };
+                                });
     }
   };
 
