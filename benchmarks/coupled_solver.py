@@ -192,14 +192,9 @@ def bars(scenes):
             parts = collections.Counter()
             for name, seconds in step_costs.parts({name: value for (name, unit), value in values.items()
                                                    if unit == SECONDS}).items():
-                parts[part_name(name)] += seconds
+                parts[name.split(" / ")[-1]] += seconds
             result.setdefault(scene, {})[f"{program}\n{setting}" if several else setting] = parts
     return result
-
-
-def part_name(name):
-    levels = name.split(" / ")
-    return "transport" if levels[0] == "transport" or levels[-1].startswith("transport") else levels[-1]
 
 
 def main():

@@ -16,12 +16,14 @@ import shlex
 import statistics
 import sys
 import tempfile
+import textwrap
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, ROOT)
 from study import columns, runs  # noqa: E402
 
 FIRST = 2  # steps that do not count
+COMPOSED = ("couple", "solid", "fluid")  # phases whose parts are told apart
 NOT_OF_STEPS = ("initialise", "output", "report")
 MONITORING = ["--mca", "pml_monitoring_enable", "2", "--mca", "pml_monitoring_enable_output", "3",
               "--mca", "pml_monitoring_filename"]  # 2: messages of collective operations apart; 3: a file for each rank
@@ -61,7 +63,7 @@ def reason(result):
     """Why a run has failed, in a few words."""
     if "there is no such key here" in result["failure"]:
         return "does not know this key"
-    return re.sub(r"\s+", " ", runs.reason(result))[:160]
+    return textwrap.shorten(runs.reason(result), 160, placeholder=" ...")
 
 
 @contextlib.contextmanager
@@ -146,16 +148,15 @@ def messages(program, scene, settings, ranks, steps):
 
 
 def parts(phases):
-    """{part: seconds} that add up to a step: phases without others in them, as far as the second level, and what is left of
-    those that have some."""
+    """{part: seconds} that add up to a step: phases, those of others that consist of such, and what is left of these."""
     result = {}
     for name, seconds in phases.items():
         if " / " in name or name == STEP:
             continue
-        inner = {other: value for other, value in phases.items() if re.fullmatch(re.escape(name) + r" / [^/]+", other)}
-        whole = sum(inner.values())
+        inner = {other: value for other, value in phases.items()
+                 if name in COMPOSED and re.fullmatch(re.escape(name) + r" / [^/]+", other)}
         result.update(inner)
-        result[f"{name}: the rest" if inner else name] = max(0.0, seconds - whole)
+        result[f"{name}: the rest" if inner else name] = max(0.0, seconds - sum(inner.values()))
     return result
 
 
