@@ -7,6 +7,8 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot, ticker  # noqa: E402
 
+from study.plots import minor_labels  # noqa: E402
+
 LEAST_SHARE = 0.03  # of a bar, of a part that has a colour of its own
 
 
@@ -41,6 +43,7 @@ def scaling(kind, lines, path):
     right.axhline(100, linestyle="--", color="grey", linewidth=0.9, label="ideal")
     left.set_yscale("log")
     left.yaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+    left.yaxis.set_minor_formatter(minor_labels(left.yaxis, lambda value: f"{value:g}"))
     left.set_ylabel("wall time of a step [s]")
     right.set_ylim(0, max(110, right.get_ylim()[1]))
     right.set_ylabel("parallel efficiency [%]")
@@ -48,8 +51,8 @@ def scaling(kind, lines, path):
         axis_of_ranks(axes, ranks)
     size = "the same cells on all ranks together" if kind == "strong" else "the same cells on each rank"
     figure.suptitle(f"{kind.capitalize()} scaling: {size}", fontsize=12)
-    figure.tight_layout(rect=(0, 0.08, 1, 1))
-    figure.legend(*left.get_legend_handles_labels(), loc="lower center", ncol=6, fontsize=9)
+    figure.tight_layout(rect=(0, 0.1, 1, 1))
+    figure.legend(*left.get_legend_handles_labels(), loc="lower center", ncol=4, fontsize=9)
     save(figure, path)
 
 

@@ -33,7 +33,6 @@ SCENES = {
     "box": Scene("studies/scenes/lid_driven_box.prm", (100, 100, 100), (), 0.02, (40, 40, 40), ()),
 }
 GROUPS = {"jet": ("jet_28k", "jet_221k", "jet_1m")}
-WEAK = {"jet": "jet_28k"}  # the sizes of a group differ in strong scaling only
 RUN = ("kind", "scene", "ranks", "cells", "elements", "steps")
 FAILURE = ("failure", "")
 
@@ -94,15 +93,21 @@ def measured(program, options, kind, name, ranks):
 
 
 def by_scene(found):
-    """{(kind, scene): {ranks: (cells, numbers)}} of the runs that have some, and [(run, failure)]."""
+    """{(kind, scene, cells if they are the same on all ranks): {ranks: (cells, numbers)}} of the runs that have some, and
+    [(run, failure)]."""
     groups, failures = {}, []
     for run, values in found.items():
         if FAILURE in values:
             failures.append((run, values[FAILURE]))
         else:
-            groups.setdefault(run[:2], {})[int(run[2])] = int(run[3]), values
-    order = sorted(groups, key=lambda key: (key[0], [*SCENES].index(key[1])))
+            groups.setdefault((*run[:2], run[3] if run[0] == "strong" else ""), {})[int(run[2])] = int(run[3]), values
+    order = sorted(groups, key=lambda key: (key[0], [*SCENES].index(key[1]), len(key[2]), key[2]))
     return {key: dict(sorted(groups[key].items())) for key in order}, failures
+
+
+def title(key):
+    _, scene, cells = key
+    return scene.split("_")[0] + (f", {cells} cells" if cells else "")
 
 
 def efficiencies(group):
@@ -165,8 +170,8 @@ def report(found):
              "those of the first rank, with its waiting for others. Efficiency: cells that a rank does in a second, over those with the "
              "fewest ranks. Memory: sum over ranks of the largest of each. Unknowns: cells of the fluid and velocities of bodies. "
              "Messages: of all ranks, those between pairs and those that collective operations consist of.", ""]
-    for (kind, name), group in groups.items():
-        lines += [f"## {kind.capitalize()} scaling: {name}", "", *summary_table(group), *phase_table(group), *model_lines(group)]
+    for key, group in groups.items():
+        lines += [f"## {key[0].capitalize()} scaling: {title(key)}", "", *summary_table(group), *phase_table(group), *model_lines(group)]
         if max(group) > 1 and not any(("messages of pairs", STEP) in values for _, values in group.values()):
             lines += ["Messages were not counted: switched off, or this `mpirun` has no monitoring.", ""]
     if failures:
@@ -174,10 +179,12 @@ def report(found):
     return "\n".join(lines)
 
 
-def chosen(names, kind):
+def chosen(names, one_size):
+    """Scenes; those of a group differ in their size only."""
     result = []
     for name in names.split(","):
-        result += [WEAK[name]] if kind == "weak" and name in WEAK else GROUPS.get(name, (name,))
+        members = GROUPS.get(name, next((group for group in GROUPS.values() if one_size and name in group), (name,)))
+        result += members[:1] if one_size else members
     return list(dict.fromkeys(result))
 
 
@@ -186,7 +193,7 @@ def make_runs(options, path):
     kinds = {None: ("strong",), "too": ("strong", "weak"), "only": ("weak",)}[options.weak]
     listing = step_costs.Listing(path, RUN)
     for kind in kinds:
-        for name in chosen(options.scenes, kind):
+        for name in chosen(options.scenes, kind == "weak" or options.cells):
             for ranks in options.ranks:
                 listing.add(*measured(program, options, kind, name, ranks))
     listing.close()
@@ -225,9 +232,9 @@ def main():
     found = step_costs.read_listing(options.plot)
     step_costs.write_report(report(found), os.path.join(options.output, "scaling.md"))
     groups, _ = by_scene(found)
-    for kind in dict.fromkeys(kind for kind, _ in groups):
-        lines = {name: {ranks: (values[STEP, SECONDS], efficiencies(group)[ranks]) for ranks, (_, values) in group.items()}
-                 for (of_kind, name), group in groups.items() if of_kind == kind}
+    for kind in dict.fromkeys(key[0] for key in groups):
+        lines = {title(key): {ranks: (values[STEP, SECONDS], efficiencies(group)[ranks]) for ranks, (_, values) in group.items()}
+                 for key, group in groups.items() if key[0] == kind}
         step_costs.draw("scaling", kind, lines, os.path.join(options.output, f"scaling_{kind}"))
 
 

@@ -67,7 +67,7 @@ class Scaling(unittest.TestCase):
 
     def test_runs_of_one_and_two_ranks(self):
         with tempfile.TemporaryDirectory() as folder:
-            text, said = benchmark("scaling.py", PROGRAM, "--ranks", "1,2", "--scenes", "jet", "--weak", "only", "--cells", "1500",
+            text, said = benchmark("scaling.py", PROGRAM, "--ranks", "1,2", "--scenes", "jet", "--weak", "only", "--cells", "600",
                                    "--steps", "1", "--output", folder, path=without_matplotlib(folder))
             self.assertIn("no plot", said)
             found = step_costs.read_listing([os.path.join(folder, "scaling.csv")])
