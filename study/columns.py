@@ -39,8 +39,8 @@ def column(columns, name):
     return columns[name]
 
 
-def phases(path):
-    """{phase: seconds} of a file `timing`, names of nested phases joined by ' / '; nothing without the file."""
+def timing(path):
+    """{phase: (calls, seconds)} of a file `timing`, names of nested phases joined by ' / '; nothing without the file."""
     result, above = {}, []
     try:
         with open(path) as file:
@@ -51,5 +51,10 @@ def phases(path):
         row = re.match(r"( *)(\S.*?) +(\d+) +([\d.]+) +([\d.]+)$", line.rstrip())
         if row:
             above = above[:len(row[1]) // 2] + [row[2]]
-            result[" / ".join(above)] = float(row[4])
+            result[" / ".join(above)] = int(row[3]), float(row[4])
     return result
+
+
+def phases(path):
+    """{phase: seconds} of a file `timing`."""
+    return {name: seconds for name, (_, seconds) in timing(path).items()}

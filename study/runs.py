@@ -48,6 +48,15 @@ def message_of(text):
     return error[1].strip() if error else (text.strip().splitlines() or ["no message"])[-1]
 
 
+def reason(result):
+    """Why a run has failed, without which step it was and what else is said of it."""
+    step = re.match(r"step \d+, which begins at \S+ s: (?:a step of \S+ s (?:and \d+ shorter one\(s\) )?failed, the last one of \S+ s: )?"
+                    r"(?:\S+\.prm: at \S+ s )?(?:body .*?the point that rests at .*?: )?(.*)", result["failure"], re.S)
+    if step:
+        return re.split(r"[:;] |\.(?: |$)", step[1])[0]
+    return re.sub(r"\S*/(?=\S+\.prm:)", "", result["failure"])  # whose folder the scene lies in does not matter
+
+
 def scene_without(study, keys, folder):
     """The path of a copy of the scene without some keys, and what it needs to find other files."""
     path = os.path.join(folder, os.path.basename(study.scene))

@@ -4,12 +4,12 @@ import csv
 import io
 import math
 import os
-import re
 
 import numpy
 
 from study import columns, convergence
 from study.cases import variant, variant_name
+from study.runs import reason
 
 
 MOST_COLUMNS = 12  # of runs, in a table of phases
@@ -67,15 +67,6 @@ def errors(found, result):
     unit = f" [{result.quantity.unit}]" if result.quantity.unit else ""
     measures = ["value" + unit, "error"] if result.is_scalar() else ["error", "largest difference"]
     return table([variation.name for variation in found.study.variations] + measures + [found.study.cost], rows)
-
-
-def reason(result):
-    """Why a run has failed, without which step it was and what else is said of it."""
-    step = re.match(r"step \d+, which begins at \S+ s: (?:a step of \S+ s failed, the last one of \S+ s: )?"
-                    r"(?:\S+\.prm: at \S+ s )?(?:body .*?the point that rests at .*?: )?(.*)", result["failure"], re.S)
-    if step:
-        return re.split(r"[:;] |\.(?: |$)", step[1])[0]
-    return re.sub(r"\S*/(?=\S+\.prm:)", "", result["failure"])  # whose folder the scene lies in does not matter
 
 
 def brief(result):

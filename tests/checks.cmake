@@ -79,6 +79,11 @@ foreach(ranks 1 2)
   set_tests_properties(runs/iterations.mpirun=${ranks} PROPERTIES PROCESSORS ${ranks} TIMEOUT 300)
 endforeach()
 
+# What measures steps: over ranks, and by their parts.
+add_test(NAME runs/cost_benchmarks
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_cost_benchmarks.py $<TARGET_FILE:undine>)
+set_tests_properties(runs/cost_benchmarks PROPERTIES PROCESSORS 2 TIMEOUT 300)
+
 add_test(NAME runs/summary
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/checks/check_summary.py $<TARGET_FILE:undine>
                  ${PROJECT_SOURCE_DIR}/prm)

@@ -249,11 +249,15 @@ class Cases(unittest.TestCase):
             with open(path, "w") as file:
                 file.write("phase  calls  seconds  share\nsolid         3   1.50  75.0\n  solve it    6   0.50  25.0\n")
             self.assertEqual(columns.phases(path), {"solid": 1.5, "solid / solve it": 0.5})
+            self.assertEqual(columns.timing(path), {"solid": (3, 1.5), "solid / solve it": (6, 0.5)})
 
     def test_reasons_are_told_without_the_step(self):
         step = "step 6, which begins at 0.01 s: a step of 0.002 s failed, the last one of 0.002 s: "
         self.assertEqual(tables.reason({"failure": step + "Newton's method does not converge. Norms: 1 2"}),
                          "Newton's method does not converge")
+        several = step.replace("s failed", "s and 6 shorter one(s) failed")
+        self.assertEqual(tables.reason({"failure": several + "folder/scene.prm: at 1e-05 s too much flows out: see there"}),
+                         "too much flows out")
         self.assertEqual(tables.brief({"failure": step + "it is wrong", "reached": 0.01}), "stops at 0.01 s")
         self.assertEqual(tables.brief({"failure": "no such key. Did you mean another?"}),
                          "no such key. Did you mean another?")
