@@ -168,7 +168,7 @@ namespace undine
     const auto from = [&](const Vector &velocity) {
       return solve_from(velocity, last_pressure, options);
     };
-    report.append(goes_on ? solve_from(x.block(0), x.block(1), options, true)
+    report.append(goes_on ? solve_from(x.block(0), x.block(1), options, problem.has_tangent())
                           : solve_from_guesses(equations, options, rest, from));
     pressures.accelerate(state.fluid.velocity, x.block(1));
     return pressures.update_backflow(state.fluid.velocity);

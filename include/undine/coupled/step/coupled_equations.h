@@ -64,6 +64,13 @@ namespace undine
     Unknown
     correction(const Unknown &x, const CorrectionRequest &request);
 
+    /// Has a correction been computed before?
+    bool
+    has_tangent() const
+    {
+      return system != nullptr;
+    }
+
     /// 1: norms are relative already.
     double
     scale() const;
