@@ -165,7 +165,7 @@ TEST_CASE("Newton's method asks linear solvers for what its corrections can gain
   Number x{0.5};
   solve_newton(problem, x, NewtonOptions());
   CHECK(std::abs(problem.f(x.value)) <= 1e-10);
-  CHECK(problem.most_left <= 1e-2);
+  CHECK(problem.most_left <= 0.1);    // of a residual that is a tenth of the tolerance
   CHECK(problem.least_left >= 1e-12); // a hundredth of the tolerance
   CHECK(problem.most_left > 1e-6);
   NewtonOptions two;

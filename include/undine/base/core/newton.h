@@ -69,7 +69,7 @@ namespace undine
   /// any more: every correction that does not bring it below its best is halved.
   ///
   /// It may be inexact: as long as corrections reduce the residual tenfold, those that follow keep
-  /// the tangent (the chord method), and the linear solver is never asked for much more than a
+  /// the tangent (the chord method), and the linear solver is not asked for much more than such a
   /// correction can gain [Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995,
   /// sections 5.4 and 6.1]. When it ends is decided by the residual alone, as with a new tangent
   /// and a full solution for every correction.
@@ -133,6 +133,10 @@ namespace undine
     bool
     converged(double residual) const;
 
+    /// With a tangent that serves a tenth of what is tolerated is cheap.
+    bool
+    is_done(double residual) const;
+
     std::string
     history() const;
 
@@ -172,7 +176,7 @@ namespace undine
 
     const unsigned int limit =
       options.fixed_iterations > 0 ? options.fixed_iterations : options.maximum_iterations;
-    while (report.iterations < limit && (options.fixed_iterations > 0 || !converged(residual)))
+    while (report.iterations < limit && (options.fixed_iterations > 0 || !is_done(residual)))
       {
         const auto    asked      = request(residual);
         const Unknown correction = problem.correction(x, asked);
@@ -220,9 +224,11 @@ namespace undine
   CorrectionRequest
   Newton<Problem>::request(const double residual) const
   {
-    // A hundredth of what is tolerated in the end.
-    const double least = 0.01 * options.relative_tolerance * problem.scale() / residual;
-    return {!keeps_tangent, std::min(std::max(least, options.is_inexact() ? gain : 0.), 1.)};
+    // The last correction leaves a hundredth of what is tolerated: a residual that is hidden by
+    // another one would show in balances.
+    const double tolerated = options.relative_tolerance * problem.scale() / residual;
+    const bool   is_last   = !options.is_inexact() || gain <= 10 * tolerated;
+    return {!keeps_tangent, std::min(is_last ? 0.01 * tolerated : gain, 1.)};
   }
 
 
@@ -237,7 +243,7 @@ namespace undine
     const double reduction = residual / before;
     keeps_tangent =
       options.is_inexact() && reduction <= enough_to_keep_a_tangent && residual < best.residual;
-    gain = std::min(0.1 * reduction, first_gain);
+    gain = keeps_tangent ? std::min(0.1 * reduction, first_gain) : 0;
   }
 
 
@@ -304,6 +310,14 @@ namespace undine
   {
     return residual <= options.relative_tolerance * problem.scale() ||
            residual <= problem.rounding();
+  }
+
+
+  template <class Problem>
+  bool
+  Newton<Problem>::is_done(const double residual) const
+  {
+    return converged(residual) && (!keeps_tangent || converged(10 * residual));
   }
 
 
