@@ -2,6 +2,8 @@
 #include <undine/base/core/disjoint_sets.h>
 #include <undine/coupled/immersed/follower_pressure.h>
 
+#include <deal.II/base/bounding_box.h>
+
 namespace undine
 {
   namespace
@@ -68,7 +70,7 @@ namespace undine
 
 
   /// An area vector is an affine function of the place of each single node, so that differences
-  /// are derivatives.
+  /// over any length are derivatives, of facets without an area, too.
   template <int dim>
   void
   FollowerPressure<dim>::subtract_stiffness(Matrix       &tangent,
@@ -80,13 +82,14 @@ namespace undine
     const auto &bodies    = *surface.bodies();
     const auto &facets    = bodies.surface();
     auto        positions = bodies.positions(displacement);
+    const auto  corners   = dealii::BoundingBox<dim>(positions).get_boundary_points();
+    const auto  length    = corners.first.distance(corners.second);
     for (unsigned int facet = 0; facet < facets.facets().size(); ++facet)
       for (const unsigned int moved : facets.facets()[facet])
         for (unsigned int axis = 0; axis < dim && surface.moves(moved); ++axis)
           {
-            const auto   place  = positions[moved];
-            const auto   before = area_vector(facets, facet, positions);
-            const double length = std::pow(before.norm(), 1. / (dim - 1));
+            const auto place  = positions[moved];
+            const auto before = area_vector(facets, facet, positions);
             positions[moved][axis] += length;
             const auto change = (area_vector(facets, facet, positions) - before) / length;
             positions[moved]  = place;
