@@ -188,7 +188,7 @@ namespace undine
   {
     if (step_error)
       return state.clock.land(state.history.in_use() ? state.history.step : shortest_step());
-    return state.clock.land(std::min(asked_step, state.clock.longest_step));
+    return state.clock.land(std::min(asked_step, state.clock.limit.longest));
   }
 
 
@@ -216,7 +216,10 @@ namespace undine
           check_passages(saved, state, report.dt);
           if (steadiness)
             report.steady = steadiness->observe(state, state.clock.time + report.dt);
-          state.clock.longest_step = report.halvings > 0 ? report.dt : 2 * state.clock.longest_step;
+          if (report.halvings > 0)
+            state.clock.limit.accept_cut(report.dt);
+          else
+            state.clock.limit.accept(report.dt);
           report.warn("step cuts", cause);
           return report;
         }

@@ -22,7 +22,7 @@ namespace undine
     namespace fs = std::filesystem;
 
     // Version 1 has no geometry and no digest of statistics.
-    constexpr std::uint64_t format_version = 3;
+    constexpr std::uint64_t format_version = 4;
 
 
     std::array<fs::path, 2>
@@ -128,7 +128,10 @@ namespace undine
       file.add_attribute("dimension", std::uint64_t(dim));
       file.add_attribute("step", std::uint64_t(clock.step));
       file.add_attribute("time", clock.time);
-      file.add_attribute("longest step", clock.longest_step);
+      file.add_attribute("longest step", clock.limit.longest);
+      file.add_attribute("steps before a longer one", std::uint64_t(clock.limit.patience));
+      file.add_attribute("steps of the longest", std::uint64_t(clock.limit.served));
+      file.add_attribute("longest step is doubled", std::uint64_t(clock.limit.is_doubled));
       file.add_attribute("statistics digest",
                          dealii::Utilities::MPI::broadcast(communicator, statistics_digest));
       for (const auto &array : arrays)
@@ -193,7 +196,13 @@ namespace undine
       state.clock.time   = file.attribute<double>("time");
       const auto version = file.attribute<std::uint64_t>("format");
       if (version >= 3)
-        state.clock.longest_step = file.attribute<double>("longest step");
+        state.clock.limit.longest = file.attribute<double>("longest step");
+      if (version >= 4)
+        {
+          state.clock.limit.patience   = file.attribute<std::uint64_t>("steps before a longer one");
+          state.clock.limit.served     = file.attribute<std::uint64_t>("steps of the longest");
+          state.clock.limit.is_doubled = file.attribute<std::uint64_t>("longest step is doubled");
+        }
       if (version >= 2)
         assert_same_geometry(models, state.clock.time, file, slot);
 

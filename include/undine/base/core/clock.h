@@ -2,6 +2,8 @@
 #ifndef undine_base_core_clock_h
 #define undine_base_core_clock_h
 
+#include <undine/base/core/step_limit.h>
+
 #include <limits>
 
 namespace undine
@@ -16,8 +18,7 @@ namespace undine
     unsigned int maximum_steps    = std::numeric_limits<unsigned int>::max(); ///< stop after these
     double       landing_interval = 0; ///< [s]; 0: only the end is landed on
 
-    /// The next step is to be no longer, after one that had to be cut [s].
-    double longest_step = std::numeric_limits<double>::infinity();
+    StepLimit limit; ///< of the next step, after some that had to be cut
 
     bool
     ended() const;

@@ -58,7 +58,7 @@ namespace undine
     {
     }
 
-    /// Advance fluid and bodies (of the clock only Clock::longest_step) by at most `dt` [s]. Throws
+    /// Advance fluid and bodies (of the clock only Clock::limit) by at most `dt` [s]. Throws
     /// SolveError if no step can be accepted; the state is then the one before the step.
     /// Collective.
     virtual Report

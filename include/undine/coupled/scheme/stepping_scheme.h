@@ -22,10 +22,11 @@ namespace undine
   ///
   /// A step that fails is redone from the saved state with half its length, as long as that is not
   /// below the shortest one, Time/Step halved `Maximum cuts` times. The next step has the length
-  /// that went well, and those after it double it up to the length asked for. The limit is one of
-  /// lengths, not of cuts of each step: short of a time that no step gets past, every accepted step
-  /// would allow yet shorter ones. Wrong input fails at once, and so does a body that passes a wall
-  /// or enters an obstacle from which no contact keeps it.
+  /// that went well, and those after it double it up to the length asked for, the later the more
+  /// often that failed (StepLimit). The shortest length is a bound of lengths, not of cuts of each
+  /// step: short of a time that no step gets past, every accepted step would allow yet shorter
+  /// ones. Wrong input fails at once, and so does a body that passes a wall or enters an obstacle
+  /// from which no contact keeps it.
   ///
   /// A step that creates energy is redone like one that fails (EnergyMonitor), but accepted, with a
   /// warning, where shorter ones are not better.
