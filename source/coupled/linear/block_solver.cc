@@ -169,6 +169,7 @@ namespace undine
         factors = std::make_unique<JointFactorisation>();
         factors->factorise(*system, system->pressure().locally_owned_range_indices());
       }
+    left = 0;
     return factors->solve(right_side);
   }
 
@@ -197,6 +198,7 @@ namespace undine
       {
         failed = true;
       }
+    left = control.last_value() / control.initial_value();
     all_iterations += control.last_step();
     largest_iterations = std::max(largest_iterations, control.last_step());
     return !failed;
@@ -216,6 +218,14 @@ namespace undine
   BlockSolver<dim>::most_iterations() const
   {
     return largest_iterations;
+  }
+
+
+  template <int dim>
+  double
+  BlockSolver<dim>::part_left() const
+  {
+    return left;
   }
 
 

@@ -154,6 +154,14 @@ namespace undine
 
   template <int dim>
   double
+  CoupledEquations<dim>::part_left() const
+  {
+    return solver.part_left();
+  }
+
+
+  template <int dim>
+  double
   CoupledEquations<dim>::scale() const
   {
     return 1;

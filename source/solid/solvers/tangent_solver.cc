@@ -58,6 +58,7 @@ namespace undine
     if (!is_factorised)
       factorisation.factorise(*matrix);
     is_factorised = true;
+    left          = 0;
     return factorisation.solve(b);
   }
 
@@ -83,6 +84,7 @@ namespace undine
       {
         failed = true;
       }
+    left = control.last_value() / control.initial_value();
     all_iterations += control.last_step();
     if (dealii::Utilities::MPI::logical_or(failed, model.communicator()))
       return false;
@@ -93,6 +95,14 @@ namespace undine
     else if (rate > 1.5 * first_rate + 2 / decades)
       multigrid.reset();
     return true;
+  }
+
+
+  template <int dim>
+  double
+  TangentSolver<dim>::part_left() const
+  {
+    return left;
   }
 
 

@@ -64,6 +64,12 @@ namespace undine
       }
 
       double
+      part_left() const
+      {
+        return solver.part_left();
+      }
+
+      double
       scale() const
       {
         return equations.scale();

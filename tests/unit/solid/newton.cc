@@ -26,7 +26,7 @@ namespace
   };
 
 
-  /// One equation with one unknown. The linear solver leaves as much as it may.
+  /// One equation with one unknown. The linear solver leaves as much as it may, or a part of that.
   struct Scalar
   {
     using Unknown = Number;
@@ -34,6 +34,8 @@ namespace
     std::function<double(double)> f, derivative;
     double                        last      = 0;
     double                        tangent   = 0;
+    double                        leaves    = 1; ///< of what it may [1]
+    double                        left      = 0;
     double                        most_left = 0, least_left = 1; ///< that was asked for
 
     double
@@ -48,9 +50,16 @@ namespace
     {
       if (request.new_tangent)
         tangent = derivative(x.value);
+      left       = leaves * request.reduction;
       most_left  = std::max(most_left, request.reduction);
       least_left = std::min(least_left, request.reduction);
-      return {-(1 - request.reduction) * last / tangent};
+      return {-(1 - left) * last / tangent};
+    }
+
+    double
+    part_left() const
+    {
+      return left;
     }
 
     double
@@ -135,6 +144,25 @@ TEST_CASE("Newton's method keeps a tangent as long as it serves", "[newton]")
   four.fixed_iterations = 4;
   x.value               = 0;
   CHECK(solve_newton(weak, x, four).tangents == 4);
+}
+
+
+TEST_CASE("Newton's method keeps a new tangent where equations look linear", "[newton]")
+{
+  Scalar     problem{[](double x) { return x + 0.005 * x * x - 1; },
+                 [](double x) { return 1 + 0.01 * x; }};
+  const auto tangents = [&](const double leaves) {
+    problem.leaves = leaves;
+    Number     x;
+    const auto report = solve_newton(problem, x, NewtonOptions());
+    CHECK(std::abs(problem.f(x.value)) <= 1e-10);
+    return report.tangents;
+  };
+  // The first correction leaves 0.005: as much as the linear solver does, or far more, or all of
+  // it.
+  CHECK(tangents(1) == 1);
+  CHECK(tangents(0.01) > 1);
+  CHECK(tangents(0) == 1);
 }
 
 

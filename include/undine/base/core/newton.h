@@ -71,8 +71,10 @@ namespace undine
   /// It may be inexact: as long as corrections reduce the residual tenfold, those that follow keep
   /// the tangent (the chord method), and the linear solver is not asked for much more than such a
   /// correction can gain [Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995,
-  /// sections 5.4 and 6.1]. When it ends is decided by the residual alone, as with a new tangent
-  /// and a full solution for every correction.
+  /// sections 5.4 and 6.1]. A new tangent is kept where the equations look linear, the residual
+  /// being about what the linear solver has left, and where that solves exactly, so that tangents
+  /// are dear. When it ends is decided by the residual alone, as with a new tangent and a full
+  /// solution for every correction.
   template <class Problem>
   class Newton
   {
@@ -82,6 +84,7 @@ namespace undine
     ///     using Unknown          with add(double, const Unknown &)
     ///     double evaluate(x)     norm of r(x), which it keeps; SolveError where r makes no sense
     ///     Unknown correction(x, const CorrectionRequest &)  -A^{-1} r(x) for the x evaluated last
+    ///     double part_left()     of |r|, that the linear solver has left; 0: next to nothing
     ///     double scale()         size of the terms whose sum is r
     ///     double rounding()      the norm that rounding alone gives r
     ///     unsigned int linear_iterations()  so far
@@ -101,6 +104,7 @@ namespace undine
 
     static constexpr double enough_to_keep_a_tangent = 0.1;  ///< reduction of the residual [1]
     static constexpr double first_gain               = 1e-3; ///< that a correction is asked for [1]
+    static constexpr double beyond_linear = 5; ///< times what the linear solver leaves [1]
 
     /// The best point so far, to go back to.
     struct Best
@@ -241,9 +245,12 @@ namespace undine
     ++report.iterations;
     report.tangents += asked.new_tangent ? 1 : 0;
     const double reduction = residual / before;
-    keeps_tangent =
+    const bool   serves =
       options.is_inexact() && reduction <= enough_to_keep_a_tangent && residual < best.residual;
-    gain = keeps_tangent ? std::min(0.1 * reduction, first_gain) : 0;
+    const double left      = problem.part_left();
+    const bool   is_linear = reduction <= beyond_linear * left;
+    keeps_tangent          = serves && (!asked.new_tangent || left == 0 || is_linear);
+    gain                   = serves ? std::min(0.1 * reduction, first_gain) : 0;
   }
 
 

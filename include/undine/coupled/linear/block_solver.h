@@ -62,6 +62,11 @@ namespace undine
     most_iterations() const;
     /// @}
 
+    /// What the last solve() has left of the right side, as GMRES measures it [1]; 0: factors
+    /// solved.
+    double
+    part_left() const;
+
     /// Memory of the approximation of the Schur complement on this rank [bytes]. Trilinos does not
     /// tell the size of its factors and hierarchies.
     std::size_t
@@ -84,6 +89,7 @@ namespace undine
     BlockVector                            weights; ///< W, by which residuals are measured
     std::unique_ptr<JointFactorisation>    factors; ///< of the system, if it was solved with them
     unsigned int                           all_iterations = 0, largest_iterations = 0;
+    double                                 left = 0; ///< part_left()
     std::string                            all_notes;
   };
 } // namespace undine

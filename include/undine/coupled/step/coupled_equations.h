@@ -71,6 +71,10 @@ namespace undine
       return system != nullptr;
     }
 
+    /// Of the last correction's linear system [1].
+    double
+    part_left() const;
+
     /// 1: norms are relative already.
     double
     scale() const;

@@ -39,6 +39,10 @@ namespace undine
     Vector
     solve(const Vector &b, double reduction = 0);
 
+    /// What the last solve() has left of |b| [1]; 0 if factors have solved.
+    double
+    part_left() const;
+
     /// Forget iterations(), note() and the hierarchy: what is solved follows from the state alone,
     /// whether a run was resumed or not. Systems that follow have a `symmetry`.
     void
@@ -70,6 +74,7 @@ namespace undine
     double       first_rate     = 0;     ///< iterations a decade when that was new; 0: it is new
     bool         gave_up        = false; ///< the iteration did not converge once
     unsigned int all_iterations = 0;
+    double       left           = 0; ///< part_left()
     std::string  all_notes;
   };
 } // namespace undine
