@@ -61,9 +61,9 @@ namespace undine
     /// Start the program in a process group of its own, with errors going into the pipe. Returns
     /// the number of its process, or minus the number of the error.
     pid_t
-    start(const std::vector<std::string> &words,
-          const std::vector<std::string> &environment,
-          const std::array<int, 2>       &pipe)
+    start_process(const std::vector<std::string> &words,
+                  const std::vector<std::string> &environment,
+                  const std::array<int, 2>       &pipe)
     {
       posix_spawn_file_actions_t files;
       posix_spawnattr_t          attributes;
@@ -136,7 +136,7 @@ namespace undine
     std::array<int, 2> pipe{};
     if (::pipe2(pipe.data(), O_CLOEXEC) != 0)
       return reason_of(errno);
-    const pid_t process = start(words, environment, pipe);
+    const pid_t process = start_process(words, environment, pipe);
     ::close(pipe[1]);
     if (process < 0)
       {

@@ -121,8 +121,30 @@ def check_file(root, file):
             yield number, "function", f"a function of {length} lines, more than {FUNCTION_LINES}"
 
 
+def local_functions(text):
+    """Names of functions in unnamed namespaces, as contrib/indent lays them out."""
+    for block in re.finditer(r"^( *)namespace\n\1\{\n(.*?)^\1\} // namespace$", text, re.S | re.M):
+        margin = " " * (len(block[1]) + 2)
+        for function in re.finditer(rf"^{margin}(\w+)\([^;{{}}]*?\)[^;{{}}]*?\n{margin}\{{", block[2], re.M | re.S):
+            yield function[1]
+
+
+def shared_names(root):
+    """Pairs (file, reason): `./undine` compiles several sources of a module as one, in which another function of the same name
+    would be an overload, and could be taken for the one that is meant."""
+    known = {}
+    for file in sorted((root / "source").rglob("*.cc")):
+        module = file.relative_to(root / "source").parts[0]
+        for name in sorted(set(local_functions(file.read_text()))):
+            other = known.setdefault((module, name), file)
+            if other != file:
+                yield file, f"function '{name}' in an unnamed namespace has the name of one in {other.relative_to(root).as_posix()}"
+
+
 def remarks(root):
     """Pairs (rule, FILE:LINE: REASON)."""
+    for file, why in shared_names(root):
+        yield "shared name", f"{file.relative_to(root).as_posix()}: {why}"
     for file in tracked(root):
         if is_code(file):
             name = file.relative_to(root).as_posix()

@@ -157,6 +157,16 @@ class Style(Tree):
         self.expect(self.style(), "dim")
 
 
+    def test_shared_names(self):
+        text = LICENCE + ("namespace undine\n{\n  namespace\n  {\n    template <class T>\n    double\n    sum(const T &terms)\n"
+                          "    {\n      return total(terms);\n    }\n  } // namespace\n} // namespace undine\n")
+        self.write("source/solid/mesh/beam.cc", text)
+        self.write("source/fluid/grid/lattice.cc", text)  # of another module
+        self.assertEqual(self.style(), [])
+        self.write("source/solid/material/rubber.cc", text.replace("const T &terms", "const double *terms"))
+        self.expect(self.style(), "source/solid/mesh/beam.cc", "'sum'", "source/solid/material/rubber.cc")
+
+
 class Differences(unittest.TestCase):
     """Of files `statistics`."""
     HEAD = "# 1: Step [1]\n# 2: speed [m/s]\n"

@@ -14,7 +14,7 @@ namespace undine
   namespace
   {
     std::string
-    join(const std::vector<std::string> &sections)
+    path_of(const std::vector<std::string> &sections)
     {
       std::string path;
       for (const auto &section : sections)
@@ -205,7 +205,7 @@ namespace undine
       {
         sections.push_back(section);
         if (section.find('/') == std::string::npos)
-          mention(join(sections));
+          mention(path_of(sections));
         else
           line_mistakes.push_back(place + ": the name of subsection '" + section +
                                   "' must not contain '/'.");
@@ -221,7 +221,7 @@ namespace undine
                               "' must not contain '/'.\n  Try: 'subsection NAME', 'set KEY = "
                               "VALUE' and 'end', each on a line of its own.");
     else
-      assign(join(sections) + key,
+      assign(path_of(sections) + key,
              {unescaped(dealii::Utilities::trim(setting.substr(equals + 1))), file, place});
   }
 

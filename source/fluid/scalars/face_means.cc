@@ -21,9 +21,9 @@ namespace undine
     /// How many cells there are between the ends of a path.
     template <int dim>
     double
-    cells_between(const MacGrid<dim>       &grid,
-                  const dealii::Point<dim> &place,
-                  const dealii::Point<dim> &foot)
+    distance_in_cells(const MacGrid<dim>       &grid,
+                      const dealii::Point<dim> &place,
+                      const dealii::Point<dim> &foot)
     {
       const auto cell   = grid.cell_at(place);
       double     result = 0;
@@ -41,7 +41,7 @@ namespace undine
             const dealii::Point<dim>        &place)
     {
       const auto   middle = tracer.trace(place, -tracer.dt() / 2);
-      const double cells  = 2 * cells_between(tracer.model().grid(), place, middle.foot.point);
+      const double cells  = 2 * distance_in_cells(tracer.model().grid(), place, middle.foot.point);
       const int    n      = std::max(1, static_cast<int>(std::ceil(cells - cells_rounding)));
       double       sum    = 0;
       for (int k = 0; k < n; ++k)
