@@ -92,6 +92,9 @@ namespace undine
   FluidStage<dim>::move_pressure_and_acceleration()
   {
     const auto &now = tracer.bodies().topology;
+    if (state.contact_pressure.has_lattice())
+      add(state.pressure, stage.contact_weight() - 1, state.contact_pressure);
+    state.contact_pressure = {}; // the end of the stage has another one
     if (state.pressure.topology() != now)
       {
         pressure_before = std::move(state.pressure);

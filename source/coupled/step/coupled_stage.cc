@@ -205,10 +205,10 @@ namespace undine
     report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
     divergence_left           = pressures.divergence(state.fluid.velocity, surface->fluxes());
     state.fluid.pressure      = pressure;
+    bodies_by_contact         = respond_to_contact();
     pressures.closed_regions().remove_means(state.fluid.pressure);
     set_means(state.fluid.pressure, parts.models.fluid->grid());
-    bodies_by_contact = respond_to_contact();
-    state.solid       = equations.end_state(velocity, bodies_by_contact);
+    state.solid = equations.end_state(velocity, bodies_by_contact);
   }
 
 
@@ -236,10 +236,27 @@ namespace undine
     fluid_by_contact    = state.fluid.velocity;
     add(*fluid_by_contact, -1., state.fluid.velocity);
     pressures.accelerate(*fluid_by_contact, response.block(1));
+    const auto pressure = pressures.field(response.block(1));
     if (state.impulses)
-      pressure_forces_by_contact =
-        parts.geometry.pressure_forces(pressures.field(response.block(1)));
+      pressure_forces_by_contact = parts.geometry.pressure_forces(pressure);
+    if (fluid.stage.keeps_rates())
+      hand_over(pressure);
     return response.block(0);
+  }
+
+
+  /// `by_contact`: the share of forces of contact in the stage's pressure [Pa]. They count for the
+  /// whole stage there, but a pressure is a force per area and time.
+  template <int dim>
+  void
+  CoupledStage<dim>::hand_over(const Field<dim> &by_contact)
+  {
+    const double weight = fluid.stage.contact_weight();
+    auto        &share  = state.fluid.contact_pressure;
+    share               = Field<dim>(by_contact.shared_lattice(), by_contact.topology());
+    add(share, 1 / weight, by_contact);
+    set_means(share, parts.models.fluid->grid());
+    add(state.fluid.pressure, 1 / weight - 1, by_contact);
   }
 
 

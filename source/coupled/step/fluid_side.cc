@@ -69,7 +69,8 @@ namespace undine
   /// Where the bodies of the surface flux are in this stage, at `time` [s], and how they move. With
   /// contact they get there only as far as they do not run into each other or into walls, with the
   /// velocity that leads there: that at which the stage starts is one that contact has yet to stop,
-  /// and may be a hundred times as large.
+  /// and may be a hundred times as large. What touches goes on with the velocity that contact has
+  /// stopped.
   template <int dim>
   SolidState
   FluidSide<dim>::expected_bodies(const State<dim> &state,
@@ -82,6 +83,11 @@ namespace undine
     const auto &contact = state.contact;
     if (!environment.contact || contact.displacement.size() == 0)
       return bodies;
+    if (contact.velocity.size() > 0)
+      {
+        bodies.displacement = contact.displacement;
+        bodies.displacement.add(stage.duration(), contact.velocity);
+      }
     const double part = environment.contact->collision_free_fraction(
       {contact.displacement, contact.time}, {bodies.displacement, time});
     if (part < 1)
@@ -153,6 +159,8 @@ namespace undine
       for (auto &component : velocity->components)
         component.share(parts);
     state.pressure.share(parts);
+    if (state.contact_pressure.has_lattice())
+      state.contact_pressure.share(parts);
     if (is_in_use(state.volume_rates))
       for (auto &half : state.volume_rates.halves)
         for (auto &component : half.components)
@@ -382,6 +390,8 @@ namespace undine
       {
         const auto phase = timing.section("measure");
         pressures        = pressures_on_surfaces(state, fluid.end);
+        if (fluid.stage.keeps_rates()) // in the step, where those of contact count for the stage
+          pressures = sum(pressures, fluid.forces_by_contact, 1 - 1 / fluid.stage.contact_weight());
       }
     fluid.finish();
     if (fluid.friction)

@@ -2,9 +2,11 @@
 #include <undine/coupled/step/physics.h>
 #include <undine/coupled/step/solid_side.h>
 #include <undine/solid/assembly/loads.h>
+#include <undine/solid/assembly/sums_by_body.h>
 #include <undine/solid/step/solid_columns.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace undine
 {
@@ -29,7 +31,35 @@ namespace undine
   }
 
 
-  /// The bodies of `state` are those at the begin of the stage.
+  /// How the bodies that `forces` of contact act on are expected to go on from the begin of the
+  /// stage: with the velocity there, without what other forces have changed since and contact has
+  /// yet to stop. All others as they would without contact.
+  template <int dim>
+  typename SolidSide<dim>::Vector
+  SolidSide<dim>::expected_velocity(const State<dim> &state,
+                                    const Stage      &stage,
+                                    const Vector     &forces) const
+  {
+    auto velocity = state.solid.displacement;
+    velocity -= state.stage_begin.displacement;
+    velocity.add(stage.length, state.solid.velocity);
+    velocity *= 1 / stage.duration();
+    auto sizes = forces;
+    for (auto &size : sizes)
+      size = std::abs(size);
+    const auto  of_bodies = sums_by_body(model, sizes);
+    const auto &geometry  = model.geometry();
+    for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
+      if (of_bodies[geometry.body(cell)].norm() > 0)
+        for (const auto dof : geometry.dofs(cell))
+          if (velocity.in_local_range(dof))
+            velocity(dof) = state.stage_begin.velocity(dof);
+    velocity.compress(dealii::VectorOperation::insert);
+    return velocity;
+  }
+
+
+  /// The bodies of `state` are those from which the stage starts.
   template <int dim>
   void
   SolidSide<dim>::start_contact(State<dim> &state, const Stage &stage) const
@@ -37,10 +67,13 @@ namespace undine
     if (!surroundings.contact)
       return;
     auto &contact        = state.contact;
-    contact.displacement = state.solid.displacement;
+    contact.displacement = state.stage_begin.displacement;
     contact.time         = state.clock.time + stage.begin;
-    contact.weight       = stage.duration() / stage.length;
+    contact.weight       = stage.contact_weight();
     contact.keeps_rates  = true;
+    const auto forces    = surroundings.contact->forces(contact.displacement, contact.time);
+    if (forces.size() > 0)
+      contact.velocity = expected_velocity(state, stage, forces);
   }
 
 
@@ -50,7 +83,6 @@ namespace undine
   {
     if (!stage.keeps_rates())
       return;
-    start_contact(state, stage);
     state.stage_begin = state.solid;
     if (stage.is_first)
       state.mean_velocity = state.solid.velocity;
@@ -59,6 +91,7 @@ namespace undine
         state.solid.displacement.add(stage.going_on(), state.mean_velocity);
         state.solid.velocity.add(stage.going_on(), state.stage_begin.acceleration);
       }
+    start_contact(state, stage);
     if (!budget.is_on())
       return;
     Vector jump = state.solid.velocity, momenta = model.vector();
@@ -114,6 +147,7 @@ namespace undine
       }
     state.stage_begin = {};
     state.contact.displacement.clear();
+    state.contact.velocity.clear();
     if (!stage.is_last)
       return;
     state.mean_velocity.clear();

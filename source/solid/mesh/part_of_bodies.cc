@@ -102,10 +102,14 @@ namespace undine
   SolidState
   PartOfBodies<dim>::taken_from(const SolidState &of_all) const
   {
+    const auto if_known = [&](const Vector &vector) {
+      return vector.size() > 0 ? taken_from(vector) : Vector();
+    };
     return {taken_from(of_all.displacement),
             taken_from(of_all.velocity),
             taken_from(of_all.acceleration),
-            of_all.fluid_loads.size() > 0 ? taken_from(of_all.fluid_loads) : Vector()};
+            if_known(of_all.fluid_loads),
+            if_known(of_all.contact_loads)};
   }
 
 
@@ -116,11 +120,16 @@ namespace undine
     put_into(of_all.displacement, of_part.displacement);
     put_into(of_all.velocity, of_part.velocity);
     put_into(of_all.acceleration, of_part.acceleration);
-    if (of_part.fluid_loads.size() == 0)
-      return;
-    if (of_all.fluid_loads.size() == 0)
-      of_all.fluid_loads = all.vector();
-    put_into(of_all.fluid_loads, of_part.fluid_loads);
+    const auto if_known = [&](Vector &vector, const Vector &of_these) {
+      if (of_these.size() == 0)
+        return;
+      if (vector.size() == 0)
+        vector = all.vector();
+      put_into(vector, of_these);
+    };
+    if_known(of_all.fluid_loads, of_part.fluid_loads);
+    of_all.contact_loads = {}; // those of bodies that sleep change no more
+    if_known(of_all.contact_loads, of_part.contact_loads);
   }
 
 

@@ -71,6 +71,41 @@ namespace undine
 
   template <int dim>
   typename StepContact<dim>::Vector
+  StepContact<dim>::guess(const StepMotion<dim> &motion) const
+  {
+    if (start.velocity.size() == 0)
+      return motion.guess();
+    Vector result = leading_to_last_displacement(motion);
+    result.add(start.weight, start.velocity);
+    take_fixed(result, motion.guess());
+    return result;
+  }
+
+
+  template <int dim>
+  typename StepContact<dim>::Vector
+  StepContact<dim>::leading_to_last_displacement(const StepMotion<dim> &motion) const
+  {
+    Vector result = motion.guess_at_rest();
+    result.add(1 / motion.coefficients().displacement, last_displacement());
+    result.add(-1 / motion.coefficients().displacement, old_state.displacement);
+    return result;
+  }
+
+
+  /// Entries of `velocity` at fixed degrees of freedom become those of `known`.
+  template <int dim>
+  void
+  StepContact<dim>::take_fixed(Vector &velocity, const Vector &known) const
+  {
+    for (const auto &fixed : model.fixed())
+      velocity(fixed.dof) = known(fixed.dof);
+    velocity.compress(dealii::VectorOperation::insert);
+  }
+
+
+  template <int dim>
+  typename StepContact<dim>::Vector
   StepContact<dim>::kept_apart(const Vector &guess, const StepMotion<dim> &motion) const
   {
     if (!contact)
@@ -79,11 +114,8 @@ namespace undine
     if (contact->collision_free_fraction({last_displacement(), last_time()},
                                          {motion.displacement(guess), time + dt}) == 1)
       return guess;
-    // The velocity that leads to the last position, except at supports, which are where they are
-    // prescribed to be.
-    Vector still = motion.guess_at_rest();
-    still.add(1 / motion.coefficients().displacement, last_displacement());
-    still.add(-1 / motion.coefficients().displacement, old_state.displacement);
+    // Except at supports, which are where they are prescribed to be.
+    Vector       still = leading_to_last_displacement(motion);
     const Vector begin = motion.displacement(still);
     const double free =
       contact->collision_free_fraction({last_displacement(), last_time()}, {begin, time + dt});
@@ -100,9 +132,7 @@ namespace undine
       return guess;
     displacement_increment.add(-1., still);
     still.add(part, displacement_increment);
-    for (const auto &fixed : model.fixed()) // where the guess is no guess
-      still(fixed.dof) = guess(fixed.dof);
-    still.compress(dealii::VectorOperation::insert);
+    take_fixed(still, guess); // where it is no guess
     return still;
   }
 

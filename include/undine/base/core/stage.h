@@ -70,6 +70,13 @@ namespace undine
       return end - begin;
     }
 
+    /// How often what contact does in the whole stage counts in its implicit step.
+    double
+    contact_weight() const
+    {
+      return keeps_rates() ? duration() / length : 1;
+    }
+
     /// From its start to the time at which the surfaces of the surface flux are taken [s].
     double
     ahead() const

@@ -96,6 +96,8 @@ namespace undine
     end(SolidReport<dim> &report);
     Vector
     respond_to_contact();
+    void
+    hand_over(const Field<dim> &by_contact);
     Vector
     loads_besides_pressure();
     FollowerPressure<dim>

@@ -82,6 +82,8 @@ namespace undine
              const SolidReport<dim> &solid) const;
     double
     work_of_kept_rate(const State<dim> &state) const;
+    Vector
+    expected_velocity(const State<dim> &state, const Stage &stage, const Vector &forces) const;
     void
     start_contact(State<dim> &state, const Stage &stage) const;
 

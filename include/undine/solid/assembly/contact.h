@@ -74,9 +74,14 @@ namespace undine
   {
     /// The last displacement at which no gap was closed [m]; empty: that at which the stage starts.
     dealii::TrilinosWrappers::MPI::Vector displacement;
-    double                                time   = 0; ///< of that [s]
-    double                                weight = 1; ///< duration over length of the stage [1]
-    bool                                  keeps_rates = false;
+    double                                time = 0; ///< of that [s]
+
+    /// With which bodies are expected to go on from there [m/s]; empty: nothing touches there, and
+    /// the velocity at which the stage starts tells.
+    dealii::TrilinosWrappers::MPI::Vector velocity;
+
+    double weight      = 1; ///< duration over length of the stage [1]
+    bool   keeps_rates = false;
   };
 } // namespace undine
 

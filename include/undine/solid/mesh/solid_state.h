@@ -16,6 +16,9 @@ namespace undine
     /// Of a fluid around the bodies but for its friction, at the end of the last stage [N]; empty:
     /// there is none with friction, or nothing is known of them.
     dealii::TrilinosWrappers::MPI::Vector fluid_loads;
+
+    /// The share in them of FluidState::contact_pressure [N]; empty: none.
+    dealii::TrilinosWrappers::MPI::Vector contact_loads;
   };
 } // namespace undine
 

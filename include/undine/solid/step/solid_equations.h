@@ -38,11 +38,12 @@ namespace undine
                    const ContactStart          &contact      = {},
                    const StageBegin            &begin        = {});
 
-    /// A first u [m/s]: u^n with prescribed velocities in place.
+    /// A first u [m/s]: u^n, or where bodies touch the one that leads where they are expected
+    /// (ContactStart), with prescribed velocities in place.
     Vector
     guess() const
     {
-      return motion.guess();
+      return contact.guess(motion);
     }
 
     /// A first u [m/s] that keeps d^{n+1} = d^n, the point at which one Newton correction is a

@@ -40,6 +40,10 @@ namespace undine
     void
     add_stiffness(Matrix &A, double factor, const Vector &end_displacement) const;
 
+    /// SolidEquations::guess().
+    Vector
+    guess(const StepMotion<dim> &motion) const;
+
     /// SolidEquations::kept_apart().
     Vector
     kept_apart(const Vector &guess, const StepMotion<dim> &motion) const;
@@ -63,6 +67,10 @@ namespace undine
   private:
     double
     last_time() const;
+    Vector
+    leading_to_last_displacement(const StepMotion<dim> &motion) const;
+    void
+    take_fixed(Vector &velocity, const Vector &known) const;
 
     const Contact<dim> *const contact; ///< nullptr: none
     const ContactStart        start;
