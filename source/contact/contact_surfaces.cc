@@ -69,6 +69,25 @@ namespace undine
                     areas[nodes.at(dofs[i])] += values.shape_value(i, q) * values.JxW(q);
             }
     }
+    /// Is the node of a body that no support moves fixed in all directions?
+    template <int dim>
+    bool
+    stays(const SolidModel<dim>  &solid,
+          const BodySurface<dim> &surface,
+          const unsigned int      body,
+          const unsigned int      node)
+    {
+      const auto &boundaries = solid.bodies()[body].boundaries;
+      const auto &dofs       = surface.dofs_of_node(node);
+      return std::none_of(boundaries.begin(),
+                          boundaries.end(),
+                          [](const auto &boundary) {
+                            return boundary.kind == BodyBoundary<dim>::Kind::prescribed_motion;
+                          }) &&
+             std::all_of(dofs.begin(), dofs.end(), [&](const auto dof) {
+               return solid.all_fixed().is_element(dof);
+             });
+    }
   } // namespace
 
 
@@ -104,6 +123,7 @@ namespace undine
     , all_edges(all.all_edges)
     , fixed(all.fixed)
     , reaching(all.reaching)
+    , sliding(all.sliding)
     , grown_together(all.grown_together)
     , least_size(all.least_size)
   {
@@ -142,7 +162,7 @@ namespace undine
   {
     const auto held = fixed_nodes(solid, body_surface);
     fixed.assign(n_bodies(), std::vector<bool>(all_walls.size()));
-    reaching = fixed;
+    reaching = sliding = fixed;
     for (unsigned int wall = 0; wall < all_walls.size(); ++wall)
       {
         for (const unsigned int node : held)
@@ -150,7 +170,12 @@ namespace undine
             fixed[surfaces_of_nodes[node]][wall] = true;
         for (unsigned int node = 0; node < body_surface.n_nodes(); ++node)
           if (rest_gap(node, wall) < -rounding())
-            reaching[surfaces_of_nodes[node]][wall] = true;
+            {
+              const unsigned int body = surfaces_of_nodes[node];
+              reaching[body][wall]    = true;
+              if (!stays(solid, body_surface, body, node))
+                sliding[body][wall] = true;
+            }
       }
     const unsigned int n_surfaces = all_facets.body_names().size();
     grown_together.assign(n_surfaces, std::vector<bool>(n_surfaces));

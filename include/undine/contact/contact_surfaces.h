@@ -119,12 +119,13 @@ namespace undine
     }
 
     /// Is there contact between a body's node and the wall? Not where the body is fixed and the
-    /// node lies on the wall at rest, nor for any node if the body then reaches through the wall.
+    /// node lies on the wall or behind it at rest, nor for any node if the body then may slide
+    /// through the wall, since not all of it that is behind is clamped there.
     bool
     meets_wall(const unsigned int node, const unsigned int wall) const
     {
       const unsigned int body = surfaces_of_nodes[node];
-      return !fixed[body][wall] || (!reaching[body][wall] && rest_gap(node, wall) > rounding());
+      return !fixed[body][wall] || (!sliding[body][wall] && rest_gap(node, wall) > rounding());
     }
 
     /// The distance of the node from the wall at rest [m], negative behind it.
@@ -172,6 +173,7 @@ namespace undine
     std::vector<SharpEdge>         all_edges;
     std::vector<std::vector<bool>> fixed;          ///< [body][wall]
     std::vector<std::vector<bool>> reaching;       ///< through the wall at rest: [body][wall]
+    std::vector<std::vector<bool>> sliding;        ///< not all of that is clamped: [body][wall]
     std::vector<std::vector<bool>> grown_together; ///< [surface][surface]
     double                         least_size = 0;
   };

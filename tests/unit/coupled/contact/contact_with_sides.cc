@@ -134,11 +134,14 @@ TEST_CASE("a body that passes a wall or enters an obstacle without contact is an
 }
 
 
-/// A soft strip that stands in the floor, bent over by `angle`, is thrown down, or slides down
-/// through the floor, with the vertical velocity `thrown` [m/s].
+/// A soft strip that stands in the floor, by `foot` if that is a boundary, bent over by `angle`, is
+/// thrown down, or slides down through the floor, with the vertical velocity `thrown` [m/s].
 template <int dim>
 std::string
-strip_in_floor(const double angle, const std::string &thrown)
+strip_in_floor(const double       angle,
+               const std::string &thrown,
+               const std::string &foot    = "",
+               const std::string &effects = "")
 {
   const double radius = .6 / angle;
   const auto   arc    = [&](const std::string &what) {
@@ -159,7 +162,9 @@ strip_in_floor(const double angle, const std::string &thrown)
                         "\nset Initial displacement = " +
                         arc("({R}-x+.325)*(1-cos(y/{R}))") + "; " +
                         arc("({R}-x+.325)*sin(y/{R})-y") + plane_or_space<dim>("", "; 0") +
-                        "\nset Initial velocity = 0; " + thrown + plane_or_space<dim>("", "; 0")));
+                        "\nset Initial velocity = 0; " + thrown + plane_or_space<dim>("", "; 0"),
+                      foot)) +
+         effects;
 }
 
 
@@ -178,6 +183,53 @@ check_strip_in_floor()
   CHECK_THAT(message(strip_in_floor<dim>(2.6, "if(y>.4, -3, 0)")),
              Contains("body 'strip' passes the wall at side 'bottom'"));
   CHECK(message(strip_in_floor<dim>(1e-3, "-2")) == "no error");
+}
+
+
+/// With contact a strip that is thrown at the floor in which it is clamped bounces off, and one
+/// that a support draws down slides through.
+template <int dim>
+static void
+check_foot_in_floor()
+{
+  const auto             contact = section("Effects", section("contact", ""));
+  const auto             foot    = section("foot", "set Kind = clamp\nset Where = -y");
+  CoupledRun<dim>        thrown(strip_in_floor<dim>(2.6, "if(y>.4, -1, 0)", foot, contact));
+  const BodySurface<dim> surface(*thrown.models.solid);
+  const auto             rest    = surface.positions(thrown.models.solid->vector());
+  double                 touches = 0, least = 1;
+  const auto   in_all = [&] { return energy(thrown) + thrown.column("Fluid kinetic energy"); };
+  const double start  = in_all();
+  for (unsigned int n = 0; n < 20; ++n)
+    {
+      thrown.step();
+      CHECK(in_all() <= start * (1 + 1e-9));
+      touches        = std::max(touches, thrown.column("nodes in contact"));
+      const auto now = surface.positions(thrown.state.solid.displacement);
+      for (unsigned int node = 0; node < rest.size(); ++node)
+        if (rest[node][1] > 1e-9)
+          least = std::min(least, now[node][1]);
+    }
+  CHECK(touches > 0);
+  CHECK(least > 0);
+
+  CoupledRun<dim> drawn(strip_in_floor<dim>(
+    1e-3,
+    "-2",
+    section("foot",
+            "set Kind = prescribed motion\nset Where = -y\nset Displacement = 0; -2*t" +
+              plane_or_space<dim>("", "; 0")),
+    contact));
+  for (unsigned int n = 0; n < 5; ++n)
+    drawn.step();
+  CHECK(drawn.column("centre of mass strip y") == Approx(.25 - 2 * .05).margin(.01));
+}
+
+
+TEST_CASE("a body that is clamped in a wall is in contact with that elsewhere", "[contact]")
+{
+  check_foot_in_floor<2>();
+  check_foot_in_floor<3>();
 }
 
 
