@@ -182,6 +182,22 @@ namespace undine
     }
 
 
+    /// Where the run was. Earlier formats know less.
+    void
+    read_clock(Clock &clock, const HDF5Reader &file, const std::uint64_t version)
+    {
+      clock.step = file.attribute<std::uint64_t>("step");
+      clock.time = file.attribute<double>("time");
+      if (version >= 3)
+        clock.limit.longest = file.attribute<double>("longest step");
+      if (version < 4)
+        return;
+      clock.limit.patience   = file.attribute<std::uint64_t>("steps before a longer one");
+      clock.limit.served     = file.attribute<std::uint64_t>("steps of the longest");
+      clock.limit.is_doubled = file.attribute<std::uint64_t>("longest step is doubled");
+    }
+
+
     /// `state` with the values, the time and the step of a slot.
     template <int dim>
     State<dim>
@@ -192,17 +208,8 @@ namespace undine
       if (file.attribute<std::uint64_t>("dimension") != dim)
         throw FileError("'" + slot.string() + "' is not of " + std::to_string(dim) +
                         " dimensions, as the scene is");
-      state.clock.step   = file.attribute<std::uint64_t>("step");
-      state.clock.time   = file.attribute<double>("time");
       const auto version = file.attribute<std::uint64_t>("format");
-      if (version >= 3)
-        state.clock.limit.longest = file.attribute<double>("longest step");
-      if (version >= 4)
-        {
-          state.clock.limit.patience   = file.attribute<std::uint64_t>("steps before a longer one");
-          state.clock.limit.served     = file.attribute<std::uint64_t>("steps of the longest");
-          state.clock.limit.is_doubled = file.attribute<std::uint64_t>("longest step is doubled");
-        }
+      read_clock(state.clock, file, version);
       if (version >= 2)
         assert_same_geometry(models, state.clock.time, file, slot);
 
