@@ -42,16 +42,27 @@ namespace undine
                   const Action          &action)
     {
       const auto *open = velocity.topology();
+      const auto &grid = model.grid();
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
           const auto &component = velocity[axis];
           const auto *divided   = component.divided();
-          for_each(component.owned(), [&](const GridIndex<dim> &face) {
-            if (!divided || divided->kind(face) == SubLattice<dim>::Kind::whole)
-              action(axis,
-                     model.density() * model.grid().dual_volume(axis, face),
-                     component(face),
-                     other[axis](face));
+          const auto  width     = [&](const unsigned int d, const int i) {
+            return d == axis ? grid.dual_width(d, i) : grid.cell_width(d, i);
+          };
+          std::vector<double> along; // the widths of a row's volumes
+          for (int i = component.owned().lower[0]; i < component.owned().upper[0]; ++i)
+            along.push_back(width(0, i));
+          for_each_row(component.owned(), [&](const GridIndex<dim> &first, const int n) {
+            double across = model.density();
+            for (unsigned int d = 1; d < dim; ++d)
+              across *= width(d, first[d]);
+            const double *v = component.data(first);
+            const double *w = other[axis].data(first);
+            for (int i = 0; i < n; ++i)
+              if (!divided ||
+                  divided->kind(moved<dim>(first, 0, i)) == SubLattice<dim>::Kind::whole)
+                action(axis, across * along[i], v[i], w[i]);
           });
           for (std::size_t k = 0; k < component.parts().size(); ++k)
             if (divided->owns(k))
