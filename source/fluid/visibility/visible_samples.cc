@@ -15,6 +15,9 @@ namespace undine
     /// Share of the segment from a point to the centroid of its sub-cell or sub-face: far less than
     /// is smoothed otherwise, far more than rounding.
     constexpr double side_share = 1e-10;
+
+    /// Of a place that rounding alone takes out of a plane of points, in multilinear weights.
+    constexpr double in_plane = 1e-12;
   } // namespace
 
 
@@ -174,9 +177,55 @@ namespace undine
     if (total > least_weight)
       return sum / total;
     add(~weighted);
+    for_each_neighbouring_cube(lower, weights, [&](const auto &other, const unsigned int corners) {
+      const auto seen = seen_values(other, query, corners);
+      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+        {
+          plain_sum += seen.values[corner];
+          plain_total += seen.corners >> corner & 1;
+        }
+    });
     if (plain_total == 0)
       return {};
     return (sum + least_weight * plain_sum) / (total + least_weight * plain_total);
+  }
+
+
+  /// action(lower, corners) for the cubes that share with the one above `lower` the planes of
+  /// points in which a place with these weights lies, and their corners beyond these planes:
+  /// neither side may count more than the other, or what is symmetric does not stay so.
+  template <int dim>
+  template <class Action>
+  void
+  VisibleSamples<dim>::for_each_neighbouring_cube(const GridIndex<dim>          &lower,
+                                                  const std::array<double, dim> &weights,
+                                                  const Action                  &action) const
+  {
+    constexpr unsigned int all           = (1u << (1 << dim)) - 1;
+    const auto             upper_corners = [](const unsigned int d) {
+      unsigned int result = 0;
+      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+        result |= (corner >> d & 1) << corner;
+      return result;
+    };
+    for (unsigned int across = 1; across < (1u << dim); ++across)
+      {
+        auto         other = lower, farthest = lower;
+        unsigned int corners = all;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (across >> d & 1)
+            {
+              const bool in_lower = weights[d]<in_plane, in_upper = weights[d]> 1 - in_plane;
+              if (in_lower == in_upper)
+                corners = 0;
+              other[d] += in_lower ? -1 : 1;
+              farthest[d] += in_lower ? -1 : 2;
+              corners &= in_lower ? ~upper_corners(d) : upper_corners(d);
+            }
+        if (corners != 0 && points.stored_points().contains(other) &&
+            points.stored_points().contains(farthest) && points.inside(farthest) == farthest)
+          action(other, corners);
+      }
   }
 
 

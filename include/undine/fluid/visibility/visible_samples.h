@@ -66,6 +66,12 @@ namespace undine
     std::optional<double>
     multilinear(const dealii::Point<dim> &place, const QueryPoint &query) const;
 
+    template <class Action>
+    void
+    for_each_neighbouring_cube(const GridIndex<dim>          &lower,
+                               const std::array<double, dim> &weights,
+                               const Action                  &action) const;
+
     /// Those of these corners of the cube above point `lower` that are visible from `query`.
     typename VisibilityStencils<dim>::VisibilityStencil
     seen_values(const GridIndex<dim> &lower,
