@@ -158,10 +158,7 @@ namespace undine
                                    const double      dt) const
   {
     positions(state, time + dt); // obstacles must arrive somewhere
-    auto result = all_obstacles->velocities(time, dt);
-    if (body_surface)
-      result = joined(body_surface->gather(state.velocity), result);
-    return result;
+    return with_bodies_of(state, all_obstacles->velocities(time, dt));
   }
 
 
@@ -172,7 +169,18 @@ namespace undine
                                       const double      dt) const
   {
     const double around = 0.01 * dt;
-    return velocities(state, time - around, 2 * around);
+    positions(state, time + around);
+    return with_bodies_of(state, all_obstacles->velocities_at(time, around));
+  }
+
+
+  /// Velocities of all nodes, from those of the obstacles'.
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  ImmersedSurface<dim>::with_bodies_of(const SolidState                          &state,
+                                       const std::vector<dealii::Tensor<1, dim>> &obstacles) const
+  {
+    return body_surface ? joined(body_surface->gather(state.velocity), obstacles) : obstacles;
   }
 
 

@@ -61,11 +61,12 @@ namespace undine
 
 
     /// Add to the velocities along the normals what makes the flux through each closed surface at
-    /// `before` the rate at which the volume in it grows from `before` to `after`.
+    /// `places` the rate at which the volume in it grows from `before` to `after`, `dt` later.
     template <int dim>
     void
     balance_volumes(std::vector<dealii::Tensor<1, dim>>   &velocities,
                     const Surface<dim>                    &surface,
+                    const std::vector<dealii::Point<dim>> &places,
                     const std::vector<dealii::Point<dim>> &before,
                     const std::vector<dealii::Point<dim>> &after,
                     const double                           dt)
@@ -73,16 +74,16 @@ namespace undine
       const auto          which       = find_closed_surfaces(surface);
       const auto          old_volumes = volumes_inside(surface, which, before);
       const auto          new_volumes = volumes_inside(surface, which, after);
-      const auto          normals     = node_normals(surface, before);
-      std::vector<double> missing(before.size()), areas(before.size(), 0.);
+      const auto          normals     = node_normals(surface, places);
+      std::vector<double> missing(places.size()), areas(places.size(), 0.);
       for (unsigned int s = 0; s < missing.size(); ++s)
         missing[s] = (new_volumes[s] - old_volumes[s]) / dt;
-      for (unsigned int node = 0; node < before.size(); ++node)
+      for (unsigned int node = 0; node < places.size(); ++node)
         {
           missing[which[node]] -= velocities[node] * normals[node];
           areas[which[node]] += normals[node].norm();
         }
-      for (unsigned int node = 0; node < before.size(); ++node)
+      for (unsigned int node = 0; node < places.size(); ++node)
         if (const double area = normals[node].norm(); area > 0)
           velocities[node] += missing[which[node]] / areas[which[node]] / area * normals[node];
     }
@@ -150,12 +151,29 @@ namespace undine
   std::vector<dealii::Tensor<1, dim>>
   Obstacles<dim>::velocities(const double time, const double dt) const
   {
-    const auto                          before = positions(time), after = positions(time + dt);
+    return mean_velocities(time, time, time + dt);
+  }
+
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  Obstacles<dim>::velocities_at(const double time, const double around) const
+  {
+    return mean_velocities(time, time - around, time + around);
+  }
+
+
+  /// From `begin` to `end`, their flux being balanced at the places of `time` [m/s].
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  Obstacles<dim>::mean_velocities(const double time, const double begin, const double end) const
+  {
+    const auto                          before = positions(begin), after = positions(end);
     std::vector<dealii::Tensor<1, dim>> result(before.size());
     for (unsigned int node = 0; node < result.size(); ++node)
-      result[node] = (after[node] - before[node]) / dt;
+      result[node] = (after[node] - before[node]) / (end - begin);
     if (move())
-      balance_volumes(result, *all_facets, before, after, dt);
+      balance_volumes(result, *all_facets, positions(time), before, after, end - begin);
     return result;
   }
 

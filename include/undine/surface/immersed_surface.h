@@ -122,6 +122,9 @@ namespace undine
   private:
     void
     check_motion(const std::vector<dealii::Point<dim>> &positions, const double time) const;
+    std::vector<dealii::Tensor<1, dim>>
+    with_bodies_of(const SolidState                          &state,
+                   const std::vector<dealii::Tensor<1, dim>> &obstacles) const;
 
     const MacGrid<dim>                         &grid;
     const std::string                           file_name;

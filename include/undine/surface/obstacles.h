@@ -50,7 +50,15 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>>
     velocities(const double time, const double dt) const;
 
+    /// Those at `time` itself, by differences over `around` [s] on either side, with that
+    /// correction for the flux through the surface at `time`.
+    std::vector<dealii::Tensor<1, dim>>
+    velocities_at(const double time, const double around) const;
+
   private:
+    std::vector<dealii::Tensor<1, dim>>
+    mean_velocities(const double time, const double begin, const double end) const;
+
     std::vector<dealii::Point<dim>>     rest_positions;
     std::vector<unsigned int>           obstacle_of_node;
     std::vector<Expression<dim, dim>>   displacements; ///< of each obstacle [m]
