@@ -25,9 +25,9 @@ namespace undine
         options,
         "convection",
         "'flux': momentum flows through the faces between volumes of the grid, centrally and "
-        "implicitly: it conserves the momentum of fluid and bodies, and forces on what stands in "
-        "it "
-        "are far more accurate and hardly depend on the step. It smooths nothing: without "
+        "implicitly: it conserves momentum, but for a share of what moving bodies cover and clear "
+        "in a step, and forces on what stands in the fluid are far more accurate and hardly depend "
+        "on the step. It smooths nothing: without "
         "viscosity, layers thinner than a cell oscillate. 'along paths': values are brought along "
         "the paths of the fluid, by 'Method', which smooths such layers. 'automatic': 'flux' with "
         "the effect viscosity, if no 'Method' is given and there is no vorticity confinement, else "

@@ -18,7 +18,7 @@ namespace undine
     if (open == nullptr || open->cells.kind(cell) == Kind::whole)
       return {cell, -1};
     if (open->cells.kind(cell) == Kind::closed)
-      throw SolveError("lies in a body");
+      throw SolveError("lies in a body or in a void region");
     std::vector<int> visible;
     for (int c = open->cells.first(cell); c < open->cells.last(cell); ++c)
       if (obstruction->first_hit(point, open->cells.all()[c].place) > 1)

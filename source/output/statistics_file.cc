@@ -50,13 +50,23 @@ namespace undine
     void
     assert_finite_columns(const Columns &columns)
     {
+      const double step = columns.front().value;
       for (const auto &column : columns)
         if (!std::isfinite(column.value))
-          throw SolveError(fmt::format("after step {:.0f} '{}' is {}, not a number. Try a shorter "
-                                       "Time/Step; 'statistics' ends with the step before.",
-                                       columns.front().value,
-                                       column.name,
-                                       column.value));
+          throw SolveError(
+            step == 0
+              ? fmt::format(
+                  "at the start '{}' is {}, not a number: an expression of the scene from "
+                  "which it follows has no value somewhere. Try: look at initial values, "
+                  "loads and pressures for a division by zero, or a root or logarithm of "
+                  "what may be negative.",
+                  column.name,
+                  column.value)
+              : fmt::format("after step {:.0f} '{}' is {}, not a number. Try a shorter Time/Step; "
+                            "'statistics' ends with the step before.",
+                            step,
+                            column.name,
+                            column.value));
     }
 
 

@@ -182,7 +182,7 @@ namespace undine
       solid_side.end(state, stage);
       fluid->by_contact        = coupled.velocity_by_contact();
       fluid->forces_by_contact = coupled.forces_by_contact();
-      balance(coupled, state, solid);
+      balance(coupled, state);
       fluid_side.finish(*fluid, state, report, coupled.divergence());
       budget.end_stage();
       if (stage.is_last && report.account)
@@ -203,14 +203,14 @@ namespace undine
     }
 
     void
-    balance(const CoupledStage<dim> &step, const State<dim> &state, const SolidReport<dim> &solid)
+    balance(const CoupledStage<dim> &step, const State<dim> &state)
     {
       if (!budget.is_on())
         return;
       const auto measured = timing.section("measure");
       budget.add(step.pressure_balance(), step.velocity_before_pressures(), state.fluid.velocity);
       budget.add(step.exchange());
-      budget.add(step.solid_balance(solid));
+      budget.add(step.solid_balance());
     }
 
     void

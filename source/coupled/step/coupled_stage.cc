@@ -201,11 +201,12 @@ namespace undine
     const auto pressure = pressures.field(x.block(1));
     on_nodes            = problem.nodal_forces(x);
     equations.add_forces(surface->on_bodies(on_nodes));
-    report.reactions          = equations.reactions(velocity);
-    report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
+    reactions                 = equations.reactions(velocity);
+    report.momentum_residuals = equations.momentum_residuals(velocity, reactions);
     divergence_left           = pressures.divergence(state.fluid.velocity, surface->fluxes());
     state.fluid.pressure      = pressure;
     bodies_by_contact         = respond_to_contact();
+    report.reactions          = equations.reactions_at_end(reactions, velocity, bodies_by_contact);
     pressures.closed_regions().remove_means(state.fluid.pressure);
     set_means(state.fluid.pressure, parts.models.fluid->grid());
     state.solid = equations.end_state(velocity, bodies_by_contact);
@@ -213,10 +214,9 @@ namespace undine
 
 
   /// The velocities that forces of contact give to bodies and fluid together, with the inertia of
-  /// both: light bodies move the fluid rather than themselves. Of the fluid's it takes note, those
-  /// of the bodies are returned [m/s]; empty: nothing touches.
+  /// both: light bodies move the fluid rather than themselves. Of the fluid's it takes note.
   template <int dim>
-  typename CoupledStage<dim>::Vector
+  ContactResponse
   CoupledStage<dim>::respond_to_contact()
   {
     const auto forces = equations.contact_forces(x.block(0));
@@ -241,7 +241,7 @@ namespace undine
       pressure_forces_by_contact = parts.geometry.pressure_forces(pressure);
     if (fluid.stage.keeps_rates())
       hand_over(pressure);
-    return response.block(0);
+    return {response.block(0), surface->on_bodies(surface->nodal_forces(pressure))};
   }
 
 
@@ -299,9 +299,9 @@ namespace undine
 
   template <int dim>
   SolidBalance<dim>
-  CoupledStage<dim>::solid_balance(const SolidReport<dim> &report) const
+  CoupledStage<dim>::solid_balance() const
   {
-    return equations.balance(x.block(0), report.reactions, bodies_by_contact);
+    return equations.balance(x.block(0), reactions, bodies_by_contact.velocity);
   }
 
 

@@ -91,16 +91,17 @@ namespace undine
                   Allowed::constant_in_time(),
                   "Only the faces whose centre gives a value > 0; by default all of the sides. "
                   "Where boundaries overlap, the later one counts.");
-      options.add("Velocity",
-                  boundary.velocity,
-                  "m/s",
-                  Allowed::anything(),
-                  "Of inflow and moving wall; of the latter the part along the wall.");
+      options.add(
+        "Velocity",
+        boundary.velocity,
+        "m/s",
+        Allowed::anything(),
+        "Of inflow and moving wall, which need it; of the latter the part along the wall.");
       options.add("Pressure",
                   boundary.pressure,
                   "Pa",
                   Allowed::anything(),
-                  "Reduced pressure p - rho g.x of the kind 'pressure'.");
+                  "Reduced pressure p - rho g.x of the kind 'pressure', which needs it.");
       boundary.has_region = options.given("Region");
       boundary.kind       = kinds().at(kind);
       for (const auto &side : sides)

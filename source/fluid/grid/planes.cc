@@ -20,9 +20,11 @@ namespace undine
       std::vector<double> planes;
       for (unsigned int i = 0; i <= n_cells; ++i)
         planes.push_back(grading.value(dealii::Point<1>(double(i) / n_cells), 0));
+      // What is not a number is not ascending.
       const bool ascending =
-        std::adjacent_find(planes.begin(), planes.end(), std::greater_equal<double>()) ==
-        planes.end();
+        std::adjacent_find(planes.begin(), planes.end(), [](const double a, const double b) {
+          return !(a < b);
+        }) == planes.end();
       if (!ascending || std::abs(planes.front()) > 1e-12 || std::abs(planes.back() - 1) > 1e-12)
         throw domain.error(key,
                            "the expression '" + grading.text() +

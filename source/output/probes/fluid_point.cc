@@ -68,6 +68,7 @@ namespace undine
   namespace
   {
     const RegisterForDimensions<Probe, FluidPoint>
-      fluid_point("fluid point", "velocity, pressure and scalars at a fixed place");
+      fluid_point("fluid point",
+                  "velocity, reduced pressure p - rho g.x and scalars at a fixed place");
   }
 } // namespace undine

@@ -235,7 +235,8 @@ namespace undine
                 const SolidReport<dim>      &report)
   {
     SolidMeasures<dim> result;
-    result.kinetic_energy = kinetic_energy(model, step.mass(), state.velocity);
+    if (model.numerics().integrator->has_inertia())
+      result.kinetic_energy = kinetic_energy(model, step.mass(), state.velocity);
     result.elastic_energy = elastic_energy(model, state.displacement);
     result.load_potential = load_potential(model, environment, state.displacement, time);
     result.momentum       = linear_momentum(model, state.velocity);

@@ -366,22 +366,45 @@ namespace undine
 
 
   template <int dim>
-  typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::contact_velocity(const Vector &velocity) const
+  ContactResponse
+  SolidEquations<dim>::contact_response(const Vector &velocity) const
   {
-    Vector result = contact_forces(velocity);
-    if (result.size() > 0)
+    ContactResponse result;
+    const Vector    forces = contact_forces(velocity);
+    if (forces.size() > 0)
       {
-        result = solve_mass(model, mass, result, model.vector());
-        result *= dt;
+        result.velocity = solve_mass(model, mass, forces, model.vector());
+        result.velocity *= dt;
       }
     return result;
   }
 
 
   template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::reactions_at_end(const Vector          &reactions,
+                                        const Vector          &velocity,
+                                        const ContactResponse &by_contact) const
+  {
+    Vector result = reactions;
+    if (by_contact.velocity.size() == 0 || contact.weight() == 1)
+      return result;
+    Vector share = model.vector(); // M dv/dt less forces: what supports add to these
+    mass.vmult(share, by_contact.velocity);
+    share *= 1 / dt;
+    share.add(-1., contact.forces(displacement(velocity)));
+    if (by_contact.pressures.size() > 0)
+      share.add(-1., by_contact.pressures);
+    for (const auto &fixed : model.fixed())
+      result(fixed.dof) = reactions(fixed.dof) - (1 - 1 / contact.weight()) * share(fixed.dof);
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+
+  template <int dim>
   SolidState
-  SolidEquations<dim>::end_state(const Vector &velocity, const Vector &by_contact) const
+  SolidEquations<dim>::end_state(const Vector &velocity, const ContactResponse &by_contact) const
   {
     SolidState state;
     state.displacement = displacement(velocity);
@@ -389,15 +412,20 @@ namespace undine
     state.acceleration = model.vector();
     state.acceleration.add(
       coefficients.acceleration, velocity, coefficients.acceleration_velocity, old_state.velocity);
-    if (by_contact.size() > 0)
-      state.acceleration.add(-coefficients.acceleration, by_contact);
+    if (by_contact.velocity.size() > 0)
+      state.acceleration.add(-coefficients.acceleration, by_contact.velocity);
     const auto &integrator = *model.numerics().integrator;
     if (integrator.uses_acceleration())
       {
         state.acceleration.add(coefficients.acceleration_acceleration, old_state.acceleration);
         if (nodal_forces.size() > 0)
-          state.acceleration.add(-coefficients.acceleration * dt,
-                                 solve_mass(model, mass, nodal_forces, model.vector()));
+          {
+            Vector others = nodal_forces;
+            if (by_contact.pressures.size() > 0)
+              others.add(-1., by_contact.pressures);
+            state.acceleration.add(-coefficients.acceleration * dt,
+                                   solve_mass(model, mass, others, model.vector()));
+          }
         prescribe_acceleration(
           state.acceleration, model, time + (1 + integrator.acceleration_shift()) * dt, dt);
       }

@@ -271,10 +271,11 @@ namespace undine
     report.reactions          = equations.reactions(velocity);
     report.note               = solver.note();
     report.momentum_residuals = equations.momentum_residuals(velocity, report.reactions);
-    const auto by_contact     = equations.contact_velocity(velocity);
+    const auto by_contact     = equations.contact_response(velocity);
     if (keeps_balance)
-      report.balance = equations.balance(velocity, report.reactions, by_contact);
-    state = equations.end_state(velocity, by_contact);
+      report.balance = equations.balance(velocity, report.reactions, by_contact.velocity);
+    report.reactions = equations.reactions_at_end(report.reactions, velocity, by_contact);
+    state            = equations.end_state(velocity, by_contact);
     return report;
   }
 

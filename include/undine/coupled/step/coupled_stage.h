@@ -81,7 +81,7 @@ namespace undine
     SurfaceExchange<dim>
     exchange() const;
     SolidBalance<dim>
-    solid_balance(const SolidReport<dim> &report) const;
+    solid_balance() const;
     /// @}
 
   private:
@@ -94,7 +94,7 @@ namespace undine
                bool                 has_tangent = false);
     void
     end(SolidReport<dim> &report);
-    Vector
+    ContactResponse
     respond_to_contact();
     void
     hand_over(const Field<dim> &by_contact);
@@ -121,8 +121,9 @@ namespace undine
     Velocity<dim>                           predicted; ///< v*
     std::optional<Velocity<dim>>            fluid_by_contact;
     typename SurfaceExchange<dim>::Vectors  pressure_forces_by_contact;
-    typename SurfaceExchange<dim>::Vectors  on_nodes; ///< forces of pressures on the bodies [N]
-    Vector                                  bodies_by_contact;
+    typename SurfaceExchange<dim>::Vectors  on_nodes;  ///< forces of pressures on the bodies [N]
+    Vector                                  reactions; ///< with which the stage balances [N]
+    ContactResponse                         bodies_by_contact;
     double                                  divergence_left = 0;
   };
 } // namespace undine

@@ -10,6 +10,15 @@
 
 namespace undine
 {
+  /// What forces of contact do in a step, told apart from the rest.
+  struct ContactResponse
+  {
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    Vector velocity;  ///< that they give to bodies, with the fluid's inertia [m/s]; empty: none
+    Vector pressures; ///< forces on the bodies by which a fluid answers them [N]; empty: no fluid
+  };
+
   /// The balance of momentum over one step (T1), with StageCoefficients, as equations for the end
   /// velocity u = u^{n+1}: residual, Jacobian and what u makes of the state. Fixed degrees of
   /// freedom have a zero residual and a diagonal Jacobian; u has to carry the prescribed velocity
@@ -151,16 +160,21 @@ namespace undine
     Vector
     contact_forces(const Vector &velocity) const;
 
-    /// What these contribute to the velocity of bodies without a fluid in the step [m/s]; empty if
-    /// there are none. Collective.
+    /// What these do in the step to bodies without a fluid. Collective.
+    ContactResponse
+    contact_response(const Vector &velocity) const;
+
+    /// The `reactions` at the end of the step: forces of contact, which count kappa times in it,
+    /// are borne once, as by pressures (S21). Collective.
     Vector
-    contact_velocity(const Vector &velocity) const;
+    reactions_at_end(const Vector          &reactions,
+                     const Vector          &velocity,
+                     const ContactResponse &by_contact) const;
 
     /// The state at the end of the step. The acceleration that the integrator or later stages use
-    /// leaves out `by_contact`, the contribution of contact to the velocity [m/s]; empty: none.
-    /// Collective.
+    /// leaves out what is `by_contact`. Collective.
     SolidState
-    end_state(const Vector &velocity, const Vector &by_contact) const;
+    end_state(const Vector &velocity, const ContactResponse &by_contact) const;
 
     /// Of jacobian(): follower pressures and viscosity of bodies make it unsymmetric.
     Symmetry

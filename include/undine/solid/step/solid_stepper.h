@@ -24,7 +24,7 @@ namespace undine
     NewtonReport newton;
 
     /// Forces of supports on the bodies [N] at fixed degrees of freedom, at the time level at which
-    /// the integrator balances forces; zero elsewhere.
+    /// the integrator balances forces, what bears contact at the end of the step; zero elsewhere.
     dealii::TrilinosWrappers::MPI::Vector reactions;
 
     /// For each body the force that the balance of its linear momentum over the step lacks [1], of

@@ -54,6 +54,13 @@ namespace undine
                             const Vector          &correction,
                             const StepMotion<dim> &motion) const;
 
+    /// kappa, with which forces() are multiplied [1].
+    double
+    weight() const
+    {
+      return start.weight;
+    }
+
     /// Do the integrator or later stages need to know which part of the velocity is by contact?
     bool
     is_told_apart() const;

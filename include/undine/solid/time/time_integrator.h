@@ -86,6 +86,13 @@ namespace undine
     virtual StageCoefficients
     coefficients(double dt) const = 0;
 
+    /// False if it leaves out inertia, so that bodies have no kinetic energy.
+    bool
+    has_inertia() const
+    {
+      return coefficients(1.).mass != 0;
+    }
+
     /// Order and constant of the error in time.
     virtual TimeAccuracy
     accuracy() const = 0;

@@ -75,6 +75,73 @@ namespace
 } // namespace
 
 
+namespace
+{
+  /// A block of 20000 kg/m^3 that lies on another one, which is clamped at its floor or all over,
+  /// dry or in water that is open at the top.
+  CoupledRun<2>
+  block_on_a_base(const std::string &integrator, const std::string &fluid, const std::string &held)
+  {
+    const std::string material =
+      "set Density = {}\nset Young's modulus = 1e6\nset Poisson's ratio = .3\n";
+    return CoupledRun<2>(
+      section("Time", "set Step = 1/60\nset Integrator = " + integrator) + fluid +
+      section(
+        "Bodies",
+        body("base",
+             "set Lower corner = .35, 0\nset Upper corner = .65, .1\nset Cells = 3, 4\n" +
+               fmt::format(fmt::runtime(material), 1000),
+             section("support", held)) +
+          body("block",
+               "set Lower corner = .4, .107\nset Upper corner = .6, .307\nset Cells = 2, 2\n" +
+                 fmt::format(fmt::runtime(material), 20000))) +
+      section("Effects",
+              section("contact", "set Activation distance = .008") +
+                section("damping", "set Mass coefficient = 20\nset Stiffness coefficient = .001") +
+                section("gravity", "set Acceleration = 0, -9.81")));
+  }
+
+
+  /// The support bears what the base weighs, feels of the fluid and carries.
+  void
+  check_support(const std::string &integrator, const std::string &fluid, const std::string &held)
+  {
+    INFO(integrator << ", " << fluid << held);
+    auto run = block_on_a_base(integrator, fluid, held);
+    while (run.state.clock.time < 1.5)
+      run.step();
+    const bool   is_dry      = fluid.empty();
+    const double weight      = 9.81 * 1000 * .3 * .1;
+    const double by_block    = run.column("contact force base y");
+    const double by_fluid    = is_dry ? 0. : run.column("pressure force base y");
+    const double water       = is_dry ? 0. : run.column("pressure force block y");
+    const double block_alone = 9.81 * 20000 * .2 * .2;
+    CHECK(run.column("contact force block y") == Approx(block_alone - water).epsilon(2e-3));
+    CHECK(run.column("reaction base/support y") ==
+          Approx(weight - by_block - by_fluid).epsilon(2e-3));
+    CHECK(run.column("contact force base y") == Approx(-run.column("contact force block y")));
+  }
+} // namespace
+
+
+TEST_CASE("a support bears what lies on it once, in a fluid as without", "[contact]")
+{
+  const auto water =
+    section("Domain", "set Cells = 17, 18") +
+    section("Fluid",
+            "set Density = 1000\n" + section("Boundaries",
+                                             section("top",
+                                                     "set Sides = top\nset Kind = pressure\nset "
+                                                     "Pressure = 0")));
+  const std::string all = "set Kind = clamp", floor = "set Kind = clamp\nset Sides = bottom";
+  for (const std::string &integrator : {"trapezoid_bdf2", "theta"})
+    for (const std::string &fluid : {std::string(), water})
+      for (const std::string &held : {all, floor})
+        check_support(integrator, fluid, held);
+  check_support("generalised_alpha", "", floor);
+}
+
+
 TEST_CASE("a body at rest in contact feels the pressure of a fluid at rest", "[contact][mpi]")
 {
   const auto viscous = section("viscosity", "set Dynamic viscosity = 1e-4");
