@@ -396,7 +396,8 @@ namespace undine
       const EffectsReport<dim> effects(scene, timing);
       Adviser<dim>             adviser(scene.models, state);
       effects.print_start(log);
-      write_whole_file(folder, "effects.json", effects.json({}), communicator);
+      if (state.clock.step == 0) // else there is that of the run which goes on
+        write_whole_file(folder, "effects.json", effects.json({}), communicator);
       RunSummary<dim>     summary(scene, options, state.clock, first);
       ReportPage          page(folder, scene.has_report, log, communicator);
       const Findings<dim> findings{effects, adviser, summary, timing};
@@ -424,13 +425,14 @@ namespace undine
         }
       write_checkpoint(folder.path(), scene.models, state, folder.statistics_digest);
       write_timing(folder, timing, log, communicator);
-      const auto advice = adviser.advice();
-      effects.print_end(log, advice);
       if (summary.has_steps())
-        summary.print(log, state.clock.time);
-      write_whole_file(folder, "effects.json", effects.json(advice), communicator);
-      if (summary.has_steps())
-        write_whole_file(folder, "summary.json", summary.json(state.clock, {}), communicator);
+        {
+          const auto advice = adviser.advice();
+          effects.print_end(log, advice);
+          summary.print(log, state.clock.time);
+          write_whole_file(folder, "effects.json", effects.json(advice), communicator);
+          write_whole_file(folder, "summary.json", summary.json(state.clock, {}), communicator);
+        }
       folder.finish();
       page.finish();
     }

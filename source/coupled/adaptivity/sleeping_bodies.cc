@@ -348,7 +348,8 @@ namespace undine
   void
   SleepingBodies<dim>::change_sleep(State<dim> &state, const double dt, const double time) const
   {
-    auto &sleep = state.sleep;
+    auto &sleep   = state.sleep;
+    sleep.changed = false;
     if (!count_quiet_time(state, dt) && !sleep.any_asleep())
       return;
     const auto          loads = loads_on_bodies(state, time);
@@ -364,6 +365,7 @@ namespace undine
         }
       else if (was_asleep[body] && changes[body] > masses[body] * settings.speed / settings.time)
         sleep.wake(body);
+    sleep.changed = contact && was_asleep != sleep.asleep;
     for (unsigned int node = 0; node < loads.size(); ++node)
       if (!was_asleep[body_of_node[node]])
         sleep.loads[node] = loads[node];

@@ -206,7 +206,10 @@ namespace undine
           report.dt = asked / (1u << report.halvings);
           energy_monitor.begin_step(state, report);
           budget->start(state.budget_rates);
-          const auto rates = state.clock.step > 0 ? RatesAtBegin::known : RatesAtBegin::unknown;
+          // Rates of bodies that touch are those without what contact gives: they hold no longer
+          // where some of these have fallen asleep or woken.
+          const auto rates = state.clock.step > 0 && !state.sleep.changed ? RatesAtBegin::known
+                                                                          : RatesAtBegin::unknown;
           physics->advance(state, integrator->stages(report.dt, rates), report);
           append(report.columns, budget->columns());
           state.budget_rates = budget->rates();

@@ -6,6 +6,8 @@
 #include <undine/solid/assembly/sparse.h>
 #include <undine/solid/step/initial_guesses.h>
 
+#include <utility>
+
 namespace undine
 {
   namespace
@@ -204,10 +206,13 @@ namespace undine
     reactions                 = equations.reactions(velocity);
     report.momentum_residuals = equations.momentum_residuals(velocity, reactions);
     divergence_left           = pressures.divergence(state.fluid.velocity, surface->fluxes());
-    state.fluid.pressure      = pressure;
+    const auto before         = std::exchange(state.fluid.pressure, pressure);
     bodies_by_contact         = respond_to_contact();
     report.reactions          = equations.reactions_at_end(reactions, velocity, bodies_by_contact);
-    pressures.closed_regions().remove_means(state.fluid.pressure);
+    if (parts.models.has_sleepers())
+      pressures.closed_regions().keep_means(state.fluid.pressure, before);
+    else
+      pressures.closed_regions().remove_means(state.fluid.pressure);
     set_means(state.fluid.pressure, parts.models.fluid->grid());
     state.solid = equations.end_state(velocity, bodies_by_contact);
   }

@@ -11,6 +11,7 @@ namespace undine
     , timing(timing)
     , fluid_side(models, budget, timing)
     , projection(*models.fluid)
+    , keeps_levels(models.has_sleepers())
   {
   }
 
@@ -34,13 +35,16 @@ namespace undine
 
     typename Projection<dim>::Report projected;
     {
-      const auto phase = timing.section("project");
+      const auto phase  = timing.section("project");
+      const auto before = state.fluid.pressure;
       projected =
         projection.project(state.fluid,
                            fluid->tracer.velocity(),
                            fluid->end,
                            fluid->dt,
                            geometry ? geometry->swept_volume_flux(fluid->dt) : SweptVolumeFlux());
+      if (keeps_levels)
+        projection.keep_levels(state.fluid.pressure, before);
     }
     if (budget.is_on())
       balance(state, projected);

@@ -157,6 +157,18 @@ namespace undine
 
 
   template <int dim>
+  void
+  ClosedRegions<dim>::keep_means(Field<dim> &pressure, const Field<dim> &before) const
+  {
+    auto level = before, shifted = before;
+    remove_means(shifted);
+    add(level, -1., shifted);
+    remove_means(pressure);
+    add(pressure, 1., level);
+  }
+
+
+  template <int dim>
   Field<dim>
   ClosedRegions<dim>::regions_of_pressures() const
   {

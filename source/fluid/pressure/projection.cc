@@ -245,6 +245,15 @@ namespace undine
 
 
   template <int dim>
+  void
+  Projection<dim>::keep_levels(Field<dim> &pressure, const Field<dim> &before) const
+  {
+    closed_regions->keep_means(pressure, before);
+    set_means(pressure, model.grid());
+  }
+
+
+  template <int dim>
   typename Projection<dim>::Report
   Projection<dim>::make_divergence_free(FluidState<dim>       &state,
                                         const double           time,

@@ -54,6 +54,13 @@ namespace undine
       });
     }
 
+    /// Do bodies sleep, whose surfaces stand still?
+    bool
+    has_sleepers() const
+    {
+      return for_awake && for_awake->asleep;
+    }
+
     /// The effects on the bodies, with the contact of all of them. Collective.
     SolidEnvironment<dim>
     environment() const

@@ -35,6 +35,7 @@ namespace undine
     TimingTree            &timing;
     FluidSide<dim>         fluid_side;
     Projection<dim>        projection;
+    const bool             keeps_levels; ///< of pressure in closed regions, between sleeping bodies
   };
 } // namespace undine
 

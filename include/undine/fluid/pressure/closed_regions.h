@@ -76,6 +76,10 @@ namespace undine
     void
     remove_means(Field<dim> &pressure) const;
 
+    /// Make it that of the pressure `before`, on the same topology. Collective.
+    void
+    keep_means(Field<dim> &pressure, const Field<dim> &before) const;
+
     /// Number of closed regions.
     std::size_t
     size() const

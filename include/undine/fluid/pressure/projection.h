@@ -68,6 +68,11 @@ namespace undine
     Report
     project(FluidState<dim> &state, const double time, const double dt);
 
+    /// After project(): the mean pressures of closed regions, which are zero then, become those of
+    /// the pressure `before` [Pa]. Collective.
+    void
+    keep_levels(Field<dim> &pressure, const Field<dim> &before) const;
+
     /// The velocity becomes the nearest divergence-free one, with the velocity on walls and inflows
     /// at `time` [s]; the pressure becomes zero. Throws as project() does. Collective.
     Report
