@@ -94,8 +94,9 @@ namespace undine
   throw_unless_finite(const bool finite, const MPI_Comm communicator)
   {
     if (dealii::Utilities::MPI::min(finite ? 1 : 0, communicator) == 0)
-      throw SolveError("The fluid's velocity is not a finite number any more. Try a smaller step, "
-                       "and check expressions for forces and boundary values.");
+      throw SolveError("The fluid's velocity is not a finite number. Try: look at expressions for "
+                       "initial velocities, forces and boundary values, whether they have a value "
+                       "everywhere at this time; else a smaller step.");
   }
 
 

@@ -197,6 +197,11 @@ namespace undine
           left = failure.last_residual / right_side.l2_norm();
           before += failure.last_step;
         }
+    if (!std::isfinite(left))
+      throw SolveError(
+        "The forces on fluid and bodies are not numbers. Try: look at expressions for "
+        "openings, walls that move and loads, whether they have a value everywhere at "
+        "this time.");
     throw SolveError(
       fmt::format("The fluid's implicit terms and the bodies did not converge in {} iterations: "
                   "{:.1e} of the forces are left. Try a smaller step.",
