@@ -71,7 +71,10 @@ namespace undine
       add_assignments(*parameters, request);
       CLI::App *evaluate = app.add_subcommand(
         "evaluate", "evaluate an expression at each line 'x y z t' of the standard input");
-      evaluate->add_option("expression", request.expression, "in x, y, z, t")->required();
+      evaluate
+        ->add_option(
+          "expression", request.expression, "in x, y, z, t; after -- if it begins with a minus")
+        ->required();
       return {study, parameters, evaluate};
     }
   } // namespace

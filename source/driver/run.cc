@@ -396,7 +396,9 @@ namespace undine
       const EffectsReport<dim> effects(scene, timing);
       Adviser<dim>             adviser(scene.models, state);
       effects.print_start(log);
-      if (state.clock.step == 0) // else there is that of the run which goes on
+      const bool goes_on_here =
+        request.action == Request::Action::resume && scene.directory == request.directory;
+      if (!goes_on_here)
         write_whole_file(folder, "effects.json", effects.json({}), communicator);
       RunSummary<dim>     summary(scene, options, state.clock, first);
       ReportPage          page(folder, scene.has_report, log, communicator);

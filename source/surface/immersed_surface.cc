@@ -169,7 +169,7 @@ namespace undine
                                       const double      dt) const
   {
     const double around = 0.01 * dt;
-    positions(state, time + around);
+    positions(state, time + around); // obstacles must arrive there
     return with_bodies_of(state, all_obstacles->velocities_at(time, around));
   }
 

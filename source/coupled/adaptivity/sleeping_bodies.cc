@@ -69,12 +69,14 @@ namespace undine
   SleepingBodies<dim>::SleepingBodies(const Models<dim> &models,
                                       Budget<dim>       &budget,
                                       TimingTree        &timing,
-                                      Make               make)
+                                      Make               make,
+                                      StartAnew          start_anew)
     : Physics<dim>(models.communicator())
     , all(models)
     , budget(budget)
     , timing(timing)
     , make(std::move(make))
+    , start_anew(std::move(start_anew))
     , environment(models.requests_of_effects())
     , settings(*environment.sleep_settings)
     , contact(models.contact_of_bodies())
@@ -109,12 +111,13 @@ namespace undine
     const auto saved = state;
     const auto empty = report;
     auto       sleep = saved.sleep;
-    for (;;)
+    for (bool is_first = true;; is_first = false)
       {
         state.sleep = sleep;
         try
           {
-            Physics<dim>::advance(state, stages, report);
+            Physics<dim>::advance(
+              state, is_first || !contact ? stages : start_anew(stages.back().end), report);
             if (!sleep.wake_with(state.sleep))
               return;
           }
@@ -343,6 +346,24 @@ namespace undine
   }
 
 
+  template <int dim>
+  bool
+  SleepingBodies<dim>::has_fallen_asleep_in_contact(const State<dim>        &state,
+                                                    const std::vector<bool> &was_asleep,
+                                                    const double             time) const
+  {
+    if (!contact || was_asleep == state.sleep.asleep)
+      return false;
+    const auto of_awake = part ? part->models.for_awake->contact : contact;
+    const auto forces   = of_awake->nodal_forces(state.solid.displacement, time);
+    for (std::size_t node = 0; node < std::min(forces.size(), body_of_node.size()); ++node)
+      if (const auto body = body_of_node[node];
+          forces[node].norm() > 0 && state.sleep.asleep[body] && !was_asleep[body])
+        return true;
+    return false;
+  }
+
+
   /// `state` holds the bodies that are awake.
   template <int dim>
   void
@@ -365,7 +386,7 @@ namespace undine
         }
       else if (was_asleep[body] && changes[body] > masses[body] * settings.speed / settings.time)
         sleep.wake(body);
-    sleep.changed = contact && was_asleep != sleep.asleep;
+    sleep.changed = has_fallen_asleep_in_contact(state, was_asleep, time);
     for (unsigned int node = 0; node < loads.size(); ++node)
       if (!was_asleep[body_of_node[node]])
         sleep.loads[node] = loads[node];

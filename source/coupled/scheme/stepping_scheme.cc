@@ -128,9 +128,11 @@ namespace undine
     budget = std::make_unique<Budget<dim>>(models, keeps_budget ? KeepBudget::yes : KeepBudget::no);
     if (models.solid && models.requests_of_effects().sleep_settings)
       physics = std::make_unique<SleepingBodies<dim>>(
-        models, *budget, timing, [this, &timing](const Models<dim> &awake) {
-          return make_physics(awake, timing);
-        });
+        models,
+        *budget,
+        timing,
+        [this, &timing](const Models<dim> &awake) { return make_physics(awake, timing); },
+        [this](const double dt) { return integrator->stages(dt, RatesAtBegin::unknown); });
     else
       physics = make_physics(models, timing);
 
@@ -206,8 +208,8 @@ namespace undine
           report.dt = asked / (1u << report.halvings);
           energy_monitor.begin_step(state, report);
           budget->start(state.budget_rates);
-          // Rates of bodies that touch are those without what contact gives: they hold no longer
-          // where some of these have fallen asleep or woken.
+          // Rates of bodies in contact leave out what that gives: they hold no longer where some of
+          // these have fallen asleep.
           const auto rates = state.clock.step > 0 && !state.sleep.changed ? RatesAtBegin::known
                                                                           : RatesAtBegin::unknown;
           physics->advance(state, integrator->stages(report.dt, rates), report);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/step/fluid_alone.h>
 
+#include <optional>
+
 namespace undine
 {
   template <int dim>
@@ -36,15 +38,15 @@ namespace undine
     typename Projection<dim>::Report projected;
     {
       const auto phase  = timing.section("project");
-      const auto before = state.fluid.pressure;
+      const auto before = keeps_levels ? std::optional(state.fluid.pressure) : std::nullopt;
       projected =
         projection.project(state.fluid,
                            fluid->tracer.velocity(),
                            fluid->end,
                            fluid->dt,
                            geometry ? geometry->swept_volume_flux(fluid->dt) : SweptVolumeFlux());
-      if (keeps_levels)
-        projection.keep_levels(state.fluid.pressure, before);
+      if (before)
+        projection.keep_levels(state.fluid.pressure, *before);
     }
     if (budget.is_on())
       balance(state, projected);

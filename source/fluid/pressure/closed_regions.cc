@@ -160,6 +160,8 @@ namespace undine
   void
   ClosedRegions<dim>::keep_means(Field<dim> &pressure, const Field<dim> &before) const
   {
+    if (region_volumes.empty())
+      return;
     auto level = before, shifted = before;
     remove_means(shifted);
     add(level, -1., shifted);

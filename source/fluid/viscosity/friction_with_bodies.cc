@@ -197,7 +197,7 @@ namespace undine
           left = failure.last_residual / right_side.l2_norm();
           before += failure.last_step;
         }
-    if (!std::isfinite(left))
+    if (!std::isfinite(right_side.l2_norm()))
       throw SolveError(
         "The forces on fluid and bodies are not numbers. Try: look at expressions for "
         "openings, walls that move and loads, whether they have a value everywhere at "

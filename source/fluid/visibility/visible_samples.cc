@@ -191,6 +191,17 @@ namespace undine
   }
 
 
+  /// Is there a point of the lattice along direction d, or one on the boundary beside it?
+  template <int dim>
+  bool
+  VisibleSamples<dim>::is_point(const GridIndex<dim> &index, const unsigned int d) const
+  {
+    const auto &row = field.lattice().row(d);
+    const int   rim = d == field.lattice().normal_axis() ? 0 : 1;
+    return row.periodic() || (index[d] >= -rim && index[d] < int(row.size()) + rim);
+  }
+
+
   /// action(lower, corners) for the cubes that share with the one above `lower` the planes of
   /// points in which a place with these weights lies, and their corners beyond these planes:
   /// neither side may count more than the other, or what is symmetric does not stay so.
@@ -221,9 +232,11 @@ namespace undine
               other[d] += in_lower ? -1 : 1;
               farthest[d] += in_lower ? -1 : 2;
               corners &= in_lower ? ~upper_corners(d) : upper_corners(d);
+              if (!is_point(farthest, d))
+                corners = 0;
             }
         if (corners != 0 && points.stored_points().contains(other) &&
-            points.stored_points().contains(farthest) && points.inside(farthest) == farthest)
+            points.stored_points().contains(farthest))
           action(other, corners);
       }
   }
@@ -235,9 +248,10 @@ namespace undine
                                    const QueryPoint     &query,
                                    const unsigned int    corners) const
   {
-    if (const auto stencil =
-          stencils->stencil(values, lower, query.place.point, corners, query.own))
-      return *stencil;
+    if (!stencils->is_clear(lower, query.place.point))
+      if (const auto stencil =
+            stencils->stencil(values, lower, query.place.point, corners, query.own))
+        return *stencil;
     typename VisibilityStencils<dim>::VisibilityStencil result{{}, 0};
     for (unsigned int corner = 0; corner < (1u << dim); ++corner)
       {

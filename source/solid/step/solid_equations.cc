@@ -229,16 +229,28 @@ namespace undine
   typename SolidEquations<dim>::Vector
   SolidEquations<dim>::reactions(const Vector &velocity)
   {
-    const Vector forces = full_residual(velocity);
+    const Vector forces = full_residual(velocity), given = not_averaged(velocity);
     Vector       result = model.vector();
-    // Given nodal forces act un-averaged, and so do supports against them.
+    // Supports act against them as they do.
     const double weight = coefficients.sum_of_weights();
     for (const auto &fixed : model.fixed())
-      {
-        const double given = nodal_forces.size() > 0 ? nodal_forces(fixed.dof) : 0.;
-        result(fixed.dof)  = (forces(fixed.dof) + given) / weight - given;
-      }
+      result(fixed.dof) = (forces(fixed.dof) + given(fixed.dof)) / weight - given(fixed.dof);
     result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+
+  /// Forces that act un-averaged, at both ends of the step's levels alike [N].
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::not_averaged(const Vector &velocity) const
+  {
+    Vector result = nodal_forces.size() > 0 ? nodal_forces : model.vector();
+    if (coefficients.sum_of_weights() == 1) // then averages make no difference
+      return result;
+    const Vector repulsion = contact.forces(displacement(velocity));
+    if (repulsion.size() > 0)
+      result.add(1., repulsion);
     return result;
   }
 
@@ -246,15 +258,13 @@ namespace undine
   /// The term of `reactions` in the balance of the step at fixed degrees of freedom [N].
   template <int dim>
   typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::weighted(const Vector &reactions) const
+  SolidEquations<dim>::weighted(const Vector &reactions, const Vector &velocity) const
   {
+    const Vector given  = not_averaged(velocity);
     Vector       result = model.vector();
     const double weight = coefficients.sum_of_weights();
     for (const auto &fixed : model.fixed())
-      {
-        const double given = nodal_forces.size() > 0 ? nodal_forces(fixed.dof) : 0.;
-        result(fixed.dof)  = weight * (reactions(fixed.dof) + given) - given;
-      }
+      result(fixed.dof) = weight * (reactions(fixed.dof) + given(fixed.dof)) - given(fixed.dof);
     result.compress(dealii::VectorOperation::insert);
     return result;
   }
@@ -267,7 +277,7 @@ namespace undine
     Vector defect = inertia(velocity);
     rayleigh_damping.add_drag(defect, velocity);
     defect.add(-1., dead);
-    defect.add(-1., weighted(reactions));
+    defect.add(-1., weighted(reactions, velocity));
     if (has_pressure)
       for (const auto &level : coefficients.levels)
         defect.add(-level.weight,
@@ -318,7 +328,7 @@ namespace undine
                                  time + level.position * dt));
     // Those against given forces act un-averaged, as these do.
     const double weight   = coefficients.sum_of_weights();
-    const Vector averaged = weighted(reactions);
+    const Vector averaged = weighted(reactions, velocity);
     result.supports       = reactions * displacement_increment;
     result.supports_force = resultant(model, reactions);
     if (coefficients.mass != 0)

@@ -35,16 +35,24 @@ namespace undine
     /// Makes the equations for a choice of models.
     using Make = std::function<std::unique_ptr<Physics<dim>>(const Models<dim> &)>;
 
+    /// The stages of a step of this length [s] that begins without rates.
+    using StartAnew = std::function<Stages(double)>;
+
     /// `models` are those of all bodies, of which there are some. The references must outlive it.
     /// Collective.
-    SleepingBodies(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing, Make make);
+    SleepingBodies(const Models<dim> &models,
+                   Budget<dim>       &budget,
+                   TimingTree        &timing,
+                   Make               make,
+                   StartAnew          start_anew);
 
     void
     initialize(State<dim> &state, double dt, Report &report) override;
 
     /// Repeats the step until no body wakes in it, with those that woke awake from its begin. Where
     /// sleeping bodies leave the step without a solution, as in a region that only they close, all
-    /// wake.
+    /// wake. With contact the step then begins without rates: those of bodies that touch leave out
+    /// what contact gives, and bodies that slept have none.
     void
     advance(State<dim> &state, const Stages &stages, Report &report) override;
 
@@ -78,6 +86,10 @@ namespace undine
     void
     change_sleep(State<dim> &state, double dt, double time) const;
     bool
+    has_fallen_asleep_in_contact(const State<dim>        &state,
+                                 const std::vector<bool> &was_asleep,
+                                 double                   time) const;
+    bool
     count_quiet_time(State<dim> &state, double dt) const;
     void
     complete(Report &report, const State<dim> &state, double time) const;
@@ -88,6 +100,7 @@ namespace undine
     Budget<dim>                                     &budget;
     TimingTree                                      &timing;
     const Make                                       make;
+    const StartAnew                                  start_anew;
     const SolidEnvironment<dim>                      environment; ///< of all bodies, but no contact
     const SleepSettings                              settings;
     const std::shared_ptr<const Contact<dim>>        contact;      ///< of all bodies; nullptr: none

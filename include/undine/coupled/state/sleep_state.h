@@ -57,10 +57,10 @@ namespace undine
       return any;
     }
 
-    bool              settled = true;  ///< false: some that sleep still have a velocity
-    bool              changed = false; ///< some that touched fell asleep or awoke in the last step
-    std::vector<bool> asleep;          ///< [body]
-    std::vector<double> slow_time;     ///< [body] for how long it has been slow without a break [s]
+    bool                settled = true;  ///< false: some that sleep still have a velocity
+    bool                changed = false; ///< some in contact fell asleep in the last step
+    std::vector<bool>   asleep;          ///< [body]
+    std::vector<double> slow_time; ///< [body] for how long it has been slow without a break [s]
 
     /// Loads of fluid and contact in the nodes of the bodies' surfaces, of those that sleep when
     /// they fell asleep [N]; empty where nothing acts on surfaces.

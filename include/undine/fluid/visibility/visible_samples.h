@@ -66,6 +66,9 @@ namespace undine
     std::optional<double>
     multilinear(const dealii::Point<dim> &place, const QueryPoint &query) const;
 
+    bool
+    is_point(const GridIndex<dim> &index, const unsigned int d) const;
+
     template <class Action>
     void
     for_each_neighbouring_cube(const GridIndex<dim>          &lower,

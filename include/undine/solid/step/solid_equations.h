@@ -112,7 +112,8 @@ namespace undine
 
     /// Forces of the supports on the bodies at fixed degrees of freedom [N], zero elsewhere: the
     /// left side of the balance there, divided by the sum of the stages' weights, except given
-    /// nodal forces, which are not averaged. Throws as residual() does. Collective.
+    /// nodal forces and those of contact, which are not averaged. Throws as residual() does.
+    /// Collective.
     Vector
     reactions(const Vector &velocity);
 
@@ -165,7 +166,7 @@ namespace undine
     contact_response(const Vector &velocity) const;
 
     /// The `reactions` at the end of the step: forces of contact, which count kappa times in it,
-    /// are borne once, as by pressures (S21). Collective.
+    /// are borne once (S22). Collective.
     Vector
     reactions_at_end(const Vector          &reactions,
                      const Vector          &velocity,
@@ -208,7 +209,9 @@ namespace undine
     Vector
     full_residual(const Vector &velocity);
     Vector
-    weighted(const Vector &reactions) const;
+    weighted(const Vector &reactions, const Vector &velocity) const;
+    Vector
+    not_averaged(const Vector &velocity) const;
     Vector
     inertia(const Vector &velocity) const;
     void

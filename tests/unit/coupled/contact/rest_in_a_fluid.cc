@@ -138,7 +138,8 @@ TEST_CASE("a support bears what lies on it once, in a fluid as without", "[conta
     for (const std::string &fluid : {std::string(), water})
       for (const std::string &held : {all, floor})
         check_support(integrator, fluid, held);
-  check_support("generalised_alpha", "", floor);
+  for (const std::string &held : {all, floor})
+    check_support("generalised_alpha", "", held);
 }
 
 

@@ -44,6 +44,21 @@ namespace
   }
 
 
+  /// What wakes where nothing has happened does not move.
+  void
+  check_waking(CoupledRun<2> &run)
+  {
+    for (auto &load : run.state.sleep.loads)
+      load = {};
+    for (unsigned int n = 0; n < 3; ++n)
+      {
+        run.step();
+        CHECK(run.column("asleep a") == 0);
+        CHECK(run.column("max speed a") < 5e-4);
+      }
+  }
+
+
   /// In the end all bodies sleep, none wakes, and nothing moves.
   void
   check_sleep(const std::string &integrator, const bool is_open, const std::string &bodies)
@@ -69,6 +84,7 @@ namespace
     auto way = run.state.solid.displacement;
     way -= where;
     CHECK(way.linfty_norm() == 0);
+    check_waking(run);
   }
 } // namespace
 
