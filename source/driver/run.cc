@@ -218,6 +218,26 @@ namespace undine
     }
 
 
+    /// The same about one that has come to its end. One that went no step further keeps the files
+    /// that it has.
+    template <int dim>
+    void
+    conclude(const Findings<dim> &findings,
+             ResultFolder        &folder,
+             const Clock         &clock,
+             Log                 &log,
+             const MPI_Comm       communicator)
+    {
+      if (!findings.summary.has_steps())
+        return;
+      const auto advice = findings.adviser.advice();
+      findings.effects.print_end(log, advice);
+      findings.summary.print(log, clock.time);
+      write_whole_file(folder, "effects.json", findings.effects.json(advice), communicator);
+      write_whole_file(folder, "summary.json", findings.summary.json(clock, {}), communicator);
+    }
+
+
     /// Write the page about a run that goes on, if it is time for that, and what it is made of.
     template <int dim>
     void
@@ -427,14 +447,7 @@ namespace undine
         }
       write_checkpoint(folder.path(), scene.models, state, folder.statistics_digest);
       write_timing(folder, timing, log, communicator);
-      if (summary.has_steps())
-        {
-          const auto advice = adviser.advice();
-          effects.print_end(log, advice);
-          summary.print(log, state.clock.time);
-          write_whole_file(folder, "effects.json", effects.json(advice), communicator);
-          write_whole_file(folder, "summary.json", summary.json(state.clock, {}), communicator);
-        }
+      conclude(findings, folder, state.clock, log, communicator);
       folder.finish();
       page.finish();
     }
