@@ -252,7 +252,8 @@ namespace undine
   BodyContact<dim>::add_stiffness(Matrix       &A,
                                   const double  factor,
                                   const Vector &displacement,
-                                  const double  time) const
+                                  const double  time,
+                                  const Tangent kind) const
   {
     const auto places = surfaces.positions(displacement, time);
     const auto found  = terms(places);
@@ -262,7 +263,8 @@ namespace undine
     for (const auto &term : found)
       add_to_rows(A,
                   factor,
-                  potential().second_derivatives(term, places),
+                  kind == Tangent::exact ? potential().second_derivatives(term, places)
+                                         : potential().convex_part(term, places),
                   term,
                   surfaces,
                   solid.locally_owned());

@@ -179,6 +179,17 @@ namespace undine
   }
 
 
+  template <int dim>
+  NodeMatrices<dim>
+  ContactPotential<dim>::convex_part(const Term &term, const Positions &places) const
+  {
+    const double s    = term.distance / term.activation_distance;
+    const double size = stiffness * term.area * Crossing<dim>(term, places).value;
+    return by_distance<dim>(
+      term, places, 0, size / term.activation_distance * barrier_curvature(s));
+  }
+
+
   template class ContactPotential<2>;
   template class ContactPotential<3>;
 } // namespace undine

@@ -58,7 +58,8 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>>
     nodal_forces(const Vector &displacement, double time) const override;
     void
-    add_stiffness(Matrix &A, double factor, const Vector &displacement, double time) const override;
+    add_stiffness(Matrix &A, double factor, const Vector &displacement, double time, Tangent kind)
+      const override;
     void
     begin_stage() const override;
     double

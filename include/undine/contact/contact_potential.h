@@ -42,6 +42,12 @@ namespace undine
     NodeMatrices<dim>
     second_derivatives(const Term &term, const Positions &places) const;
 
+    /// Of these the part E''(d) dd/dx_i dd/dx_j, by which normal motions are resisted: without that
+    /// which lets surfaces that press on each other slip. Not less than zero in the sum of terms of
+    /// flat and convex surfaces (Gauss and Newton's approximation) [N/m].
+    NodeMatrices<dim>
+    convex_part(const Term &term, const Positions &places) const;
+
   private:
     double stiffness;
   };

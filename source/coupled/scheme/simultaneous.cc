@@ -35,6 +35,8 @@ namespace undine
   class SimultaneousPhysics : public Physics<dim>
   {
   public:
+    using SolidVector = typename SolidModel<dim>::Vector;
+
     SimultaneousPhysics(const Models<dim>      &models,
                         Budget<dim>            &budget,
                         TimingTree             &timing,
@@ -67,9 +69,10 @@ namespace undine
     {
       if (stage.is_first)
         report.stages_again = 0;
+      SolidVector found; // velocities of bodies in the last solution
       if (!stage.keeps_rates() && !models.has_friction())
         {
-          solve_once(state, stage, report);
+          solve_once(state, stage, report, found);
           return;
         }
       State<dim>            begin         = state;
@@ -85,7 +88,7 @@ namespace undine
       };
       while (true)
         {
-          if (!is_solved(state, stage, report, placement))
+          if (!is_solved(state, stage, report, placement, found))
             {
               fluid_side.expect(placement.retreat());
               go_back();
@@ -134,11 +137,12 @@ namespace undine
     is_solved(State<dim>                  &state,
               const Stage                 &stage,
               Report                      &report,
-              const SurfacePlacement<dim> &placement)
+              const SurfacePlacement<dim> &placement,
+              SolidVector                 &found)
     {
       try
         {
-          solve_once(state, stage, report);
+          solve_once(state, stage, report, found);
           return true;
         }
       catch (const SolveError &)
@@ -161,8 +165,10 @@ namespace undine
       report.stages_again      = again + 1;
     }
 
+    /// Begins with the velocities of bodies `found` before, unless these are empty, and leaves its
+    /// own there.
     void
-    solve_once(State<dim> &state, const Stage &stage, Report &report)
+    solve_once(State<dim> &state, const Stage &stage, Report &report, SolidVector &found)
     {
       budget.begin_stage(stage);
       solid_side.start(state, stage);
@@ -178,7 +184,8 @@ namespace undine
                                 *fluid,
                                 state,
                                 settings.boundary_flux);
-      const auto        solid = coupled.solve();
+      const auto        solid = coupled.solve(found);
+      found                   = coupled.velocity_of_bodies();
       solid_side.end(state, stage);
       fluid->by_contact        = coupled.velocity_by_contact();
       fluid->forces_by_contact = coupled.forces_by_contact();

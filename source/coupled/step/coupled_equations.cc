@@ -115,10 +115,10 @@ namespace undine
 
   template <int dim>
   void
-  CoupledEquations<dim>::linearise(const Vector &velocity)
+  CoupledEquations<dim>::linearise(const Vector &velocity, const Tangent kind)
   {
     const auto displacement = solid.displacement(velocity);
-    tangent                 = std::make_unique<BlockSystem::Matrix>(solid.jacobian(velocity));
+    tangent                 = std::make_unique<BlockSystem::Matrix>(solid.jacobian(velocity, kind));
     if (follower.is_on())
       {
         follower.subtract_stiffness(*tangent, solid.displacement_factor(), displacement);
@@ -138,10 +138,10 @@ namespace undine
     reference = here;
     throw_if_interrupted(model.communicator());
     if (request.new_tangent)
-      linearise(x.block(0));
-    const auto timed = timing.section("solve linear system");
-    residual *= -1.;
-    auto result = solver.solve(residual, request.reduction);
+      linearise(x.block(0), request.tangent);
+    const auto timed  = timing.section("solve linear system");
+    auto       result = solver.solve(residual, request.reduction);
+    result *= -1.;
     timing.memory.hold_briefly("two-way coupling",
                                surface.matrix().memory_consumption() +
                                  fluid.matrix().memory_consumption() + solver.memory_consumption());
@@ -149,6 +149,14 @@ namespace undine
     if (part < 1)
       result *= part;
     return result;
+  }
+
+
+  template <int dim>
+  double
+  CoupledEquations<dim>::slope(const Unknown &correction) const
+  {
+    return residual.block(0) * correction.block(0);
   }
 
 

@@ -129,14 +129,15 @@ namespace undine
   /// stabilise_backflow()).
   template <int dim>
   SolidReport<dim>
-  CoupledStage<dim>::solve()
+  CoupledStage<dim>::solve(const Vector &found)
   {
     const auto       timed = parts.timing.section("couple");
     SolidReport<dim> report;
     parts.solver.start_step(pressures.places());
     if (newton.fixed_iterations > 0)
       // Every round begins anew, so that there are exactly so many corrections.
-      find_entering_speeds([&](const unsigned int) { return solve_round(report.newton, newton); });
+      find_entering_speeds(
+        [&](const unsigned int) { return solve_round(report.newton, newton, found); });
     else
       {
         // No more accurate than the speeds are, before the last round.
@@ -144,8 +145,8 @@ namespace undine
         rough.relative_tolerance = std::max(newton.relative_tolerance, 1e-5);
         if (pressures.has_openings())
           find_entering_speeds(
-            [&](const unsigned int n) { return solve_round(report.newton, rough, n > 0); });
-        solve_round(report.newton, newton, pressures.has_openings());
+            [&](const unsigned int n) { return solve_round(report.newton, rough, found, n > 0); });
+        solve_round(report.newton, newton, found, pressures.has_openings());
       }
     report.note = parts.solver.note();
     end(report);
@@ -159,6 +160,7 @@ namespace undine
   double
   CoupledStage<dim>::solve_round(NewtonReport        &report,
                                  const NewtonOptions &options,
+                                 const Vector        &found,
                                  const bool           goes_on)
   {
     state.fluid.velocity = predicted;
@@ -171,7 +173,7 @@ namespace undine
       return solve_from(velocity, last_pressure, options);
     };
     report.append(goes_on ? solve_from(x.block(0), x.block(1), options, problem.has_tangent())
-                          : solve_from_guesses(equations, options, rest, from));
+                          : solve_from_guesses(equations, options, found, rest, from));
     pressures.accelerate(state.fluid.velocity, x.block(1));
     return pressures.update_backflow(state.fluid.velocity);
   }

@@ -17,11 +17,13 @@ namespace undine
                 "1",
                 Allowed::between(1e-14, 1e-2),
                 "Of the residual of forces, relative to the largest of the forces that it sums.");
-    options.add("Newton maximum iterations",
-                newton.maximum_iterations,
-                "1",
-                Allowed::positive(),
-                "The step fails if these are not enough.");
+    options.add(
+      "Newton maximum iterations",
+      newton.maximum_iterations,
+      "1",
+      Allowed::positive(),
+      "The step fails if these are not enough. Where no correction lowers the residual as "
+      "bodies in contact slip, up to twice as many more go down their potential.");
     options.add("Newton iterations",
                 newton.fixed_iterations,
                 "1",

@@ -174,10 +174,10 @@ namespace undine
 
   template <int dim>
   typename SolidEquations<dim>::Matrix
-  SolidEquations<dim>::jacobian(const Vector &velocity) const
+  SolidEquations<dim>::jacobian(const Vector &velocity, const Tangent kind) const
   {
     const Vector end    = displacement(velocity);
-    Matrix       result = full_jacobian(velocity, end, end);
+    Matrix       result = full_jacobian(velocity, end, end, kind);
     fix_rows_and_columns(result, model.all_fixed());
     return result;
   }
@@ -190,7 +190,8 @@ namespace undine
     Vector jump = motion.prescribed_increment();
     jump *= -1 / coefficients.displacement;
     LinearSystem system{
-      full_jacobian(guess_at_rest(), old_state.displacement, contact.last_displacement()),
+      full_jacobian(
+        guess_at_rest(), old_state.displacement, contact.last_displacement(), Tangent::exact),
       model.vector()};
     system.matrix.vmult(system.right_side, jump);
     clear_fixed(system.right_side, model);
@@ -203,7 +204,8 @@ namespace undine
   typename SolidEquations<dim>::Matrix
   SolidEquations<dim>::full_jacobian(const Vector &velocity,
                                      const Vector &end,
-                                     const Vector &in_contact) const
+                                     const Vector &in_contact,
+                                     const Tangent kind) const
   {
     const auto timed  = timing.section("assemble tangent");
     Matrix     result = model.matrix();
@@ -219,7 +221,7 @@ namespace undine
     if (coefficients.mass != 0)
       result.add(coefficients.mass, mass);
     rayleigh_damping.add_jacobian(result, velocity, end);
-    contact.add_stiffness(result, coefficients.displacement, in_contact);
+    contact.add_stiffness(result, coefficients.displacement, in_contact, kind);
     timing.memory.hold_briefly("deformable bodies", result.memory_consumption());
     return result;
   }

@@ -51,16 +51,23 @@ namespace undine
         throw_if_interrupted(velocity.get_mpi_communicator());
         if (request.new_tangent)
           {
-            jacobian = std::make_unique<const Matrix>(equations.jacobian(velocity));
+            jacobian =
+              std::make_unique<const Matrix>(equations.jacobian(velocity, request.tangent));
             solver.initialize(*jacobian, equations.displacement(velocity));
           }
-        const auto timed = timing.section("solve linear system");
-        residual *= -1.;
-        auto         change = solver.solve(residual, request.reduction);
-        const double part   = equations.collision_free_fraction(velocity, change);
+        const auto timed  = timing.section("solve linear system");
+        auto       change = solver.solve(residual, request.reduction);
+        change *= -1.;
+        const double part = equations.collision_free_fraction(velocity, change);
         if (part < 1)
           change *= part;
         return change;
+      }
+
+      double
+      slope(const Unknown &change) const
+      {
+        return residual * change;
       }
 
       double
@@ -263,6 +270,7 @@ namespace undine
     report.newton           = solve_from_guesses(
       equations,
       newton,
+      {},
       [&] { return resting_guess(equations, solver, timing); },
       [&](const Vector &guess) {
         velocity = equations.kept_apart(guess);

@@ -60,12 +60,15 @@ namespace undine
 
   template <int dim>
   void
-  StepContact<dim>::add_stiffness(Matrix &A, const double factor, const Vector &end) const
+  StepContact<dim>::add_stiffness(Matrix       &A,
+                                  const double  factor,
+                                  const Vector &end,
+                                  const Tangent kind) const
   {
     if (!contact)
       return;
     const auto timed = timing.section("contact");
-    contact->add_stiffness(A, start.weight * factor, end, time + dt);
+    contact->add_stiffness(A, start.weight * factor, end, time + dt, kind);
   }
 
 

@@ -122,6 +122,49 @@ namespace
     CHECK(scene.contact.collision_free_fraction({start, 0.}, {fall, 0.}) * 4 == Approx(.45));
     CHECK(scene.contact.forces(start, 0.).size() == 0);
   }
+
+
+  /// Two balls, a node of one in front of a node of the other.
+  template <int dim>
+  std::string
+  two_balls(const double gap)
+  {
+    const auto ball = [](const std::string &name, const double x) {
+      return fmt::format("subsection {}\nset Shape = ball\nset Radius = 1\nset Centre = {}{}\nset "
+                         "Density = 1\nset Young's modulus = 1\nset Poisson's ratio = 0\nend\n",
+                         name,
+                         x,
+                         plane_or_space<dim>(", 0", ", 0, 0"));
+    };
+    return "subsection Bodies\n" + ball("one", 0) + ball("other", 2 + gap) + "end\n";
+  }
+
+
+  /// Nodes that press on each other are about to slip: for the exact stiffness a way aside has
+  /// negative energy, but for no way that of the convex part is negative. Towards each other both
+  /// are the same.
+  template <int dim>
+  void
+  check_convex_part()
+  {
+    const Scene<dim> scene(two_balls<dim>(0.05), 0.2);
+    const auto       of_way = [&](const Tangent kind, const Vector &way) {
+      auto matrix = scene.model.matrix();
+      scene.contact.add_stiffness(matrix, 1, scene.model.vector(), 0, kind);
+      Vector result = scene.model.vector();
+      matrix.vmult(result, way);
+      return result * way;
+    };
+    const auto   towards = scene.shift(dealii::Point<dim>::unit_vector(0));
+    const auto   aside   = scene.shift(dealii::Point<dim>::unit_vector(dim - 1));
+    const double size    = of_way(Tangent::convex, towards);
+    CHECK(size > 0);
+    CHECK(of_way(Tangent::exact, towards) == Approx(size));
+    CHECK(of_way(Tangent::exact, aside) < -1e-3 * size);
+    CHECK(of_way(Tangent::convex, aside) >= -1e-12 * size);
+    for (const double phase : {0., 1., 2., 3., 4., 5.})
+      CHECK(of_way(Tangent::convex, scene.field(1, phase)) >= -1e-12 * size);
+  }
 } // namespace
 
 
@@ -144,6 +187,13 @@ TEST_CASE("forces and stiffness of contact are derivatives of its energy", "[con
   CHECK(barrier(1) == 0);
   CHECK(barrier_slope(1) == 0);
   CHECK(barrier_curvature(1) == 0);
+}
+
+
+TEST_CASE("the convex part of contact's stiffness lets nothing slip", "[contact][mpi]")
+{
+  check_convex_part<2>();
+  check_convex_part<3>();
 }
 
 

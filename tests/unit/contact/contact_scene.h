@@ -111,7 +111,7 @@ namespace undine_tests
           Approx(-(forces * change)).epsilon(tolerance));
 
     auto matrix = scene.model.matrix();
-    scene.contact.add_stiffness(matrix, 2, place, 0);
+    scene.contact.add_stiffness(matrix, 2, place, 0, Tangent::exact);
     Vector by_matrix = scene.model.vector();
     matrix.vmult(by_matrix, change);
     Vector by_difference = scene.contact.forces(at(step), 0);

@@ -32,6 +32,7 @@ namespace
     using Unknown = Number;
 
     std::function<double(double)> f, derivative;
+    double                        convex    = 0; ///< in the place of the derivative; 0: none
     double                        last      = 0;
     double                        tangent   = 0;
     double                        leaves    = 1; ///< of what it may [1]
@@ -49,11 +50,17 @@ namespace
     correction(const Number &x, const CorrectionRequest &request)
     {
       if (request.new_tangent)
-        tangent = derivative(x.value);
+        tangent = request.tangent == Tangent::convex && convex > 0 ? convex : derivative(x.value);
       left       = leaves * request.reduction;
       most_left  = std::max(most_left, request.reduction);
       least_left = std::min(least_left, request.reduction);
       return {-(1 - left) * last / tangent};
+    }
+
+    double
+    slope(const Number &change) const
+    {
+      return last * change.value;
     }
 
     double
@@ -119,6 +126,34 @@ TEST_CASE("Newton's method says how it failed", "[newton]")
   x.value              = 3;
   CHECK(solve_newton(problem, x, one).iterations == 1);
   CHECK(x.value == Approx(3 - 10. / 6));
+}
+
+
+TEST_CASE("Newton's method goes down a potential where the residual has a least value", "[newton]")
+{
+  // |f| has a least value next to x = 0, where f' vanishes; the potential falls from there to x
+  // = 2.
+  Scalar problem{[](double x) { return (x * x + 0.1) * (x - 2); },
+                 [](double x) { return 2 * x * (x - 2) + x * x + 0.1; }};
+  problem.convex = 3;
+  for (const double start : {-1., -0.1, 0., 0.01, 0.5})
+    {
+      INFO(start);
+      Number     x{start};
+      const auto report = solve_newton(problem, x, NewtonOptions());
+      CHECK(x.value == Approx(2));
+      CHECK(report.residuals.back() <= 1e-10);
+    }
+  // The last corrections have the exact tangent.
+  Number     x{0.01};
+  const auto report = solve_newton(problem, x, NewtonOptions());
+  const auto n      = report.residuals.size();
+  CHECK(report.residuals[n - 1] <= 1e-4 * report.residuals[n - 3]);
+  // Where nothing is convex the residual still decides.
+  Scalar upwards{[](double x) { return -std::atan(x); }, [](double x) { return -1 / (1 + x * x); }};
+  x.value = 20;
+  solve_newton(upwards, x, NewtonOptions());
+  CHECK(std::abs(x.value) < 1e-10);
 }
 
 

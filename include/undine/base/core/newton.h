@@ -2,71 +2,24 @@
 #ifndef undine_base_core_newton_h
 #define undine_base_core_newton_h
 
-#include <undine/base/core/errors.h>
+#include <undine/base/core/descent.h>
+#include <undine/base/core/trial_points.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>
-#include <vector>
 
 namespace undine
 {
-  /// How Newton's method stops and how carefully it goes.
-  struct NewtonOptions
-  {
-    double       relative_tolerance = 1e-10; ///< of the problem's scale [1]
-    unsigned int maximum_iterations = 40;
-    unsigned int fixed_iterations   = 0;  ///< do exactly so many, converged or not; 0: converge
-    unsigned int maximum_cuts       = 10; ///< halvings of one correction in the line search
-    unsigned int relaxed_steps      = 8;  ///< full corrections that may increase the residual
-    bool         inexact = true; ///< keep tangents, solve no further than a correction can gain
-
-    /// Not where the number of corrections is given.
-    bool
-    is_inexact() const
-    {
-      return inexact && fixed_iterations == 0;
-    }
-  };
-
-  /// What Newton's method asks of a correction.
-  struct CorrectionRequest
-  {
-    bool   new_tangent; ///< r'(x); else the tangent that the last correction had
-    double reduction;   ///< the part of |r| that the linear solver may leave [1]
-  };
-
-  /// How it went.
-  struct NewtonReport
-  {
-    unsigned int        iterations        = 0; ///< corrections computed
-    unsigned int        tangents          = 0; ///< assembled for them
-    unsigned int        cuts              = 0; ///< halvings in the line search
-    unsigned int        linear_iterations = 0;
-    std::vector<double> residuals; ///< norm before the first and after every correction
-    double              scale = 0; ///< size of the terms whose sum the last residual is
-
-    /// `later` went on from here. The linear iterations are counted through.
-    void
-    append(const NewtonReport &later)
-    {
-      iterations += later.iterations;
-      tangents += later.tangents;
-      cuts += later.cuts;
-      linear_iterations = later.linear_iterations;
-      scale             = later.scale;
-      residuals.insert(residuals.end(), later.residuals.begin(), later.residuals.end());
-    }
-  };
-
   /// Newton's method for r(x) = 0 with a watchdog line search: a full correction is taken as long
   /// as the residual falls; it may rise for a few corrections, as it does when thin bodies bend,
   /// and if it has not fallen below its best by then, the best point is taken up again and its
-  /// correction halved until the residual falls [Chamberlain, Powell, Lemarechal, Pedersen 1982;
-  /// Nocedal, Wright, Numerical Optimization, section 15.6]. After that the residual may not rise
-  /// any more: every correction that does not bring it below its best is halved.
+  /// correction followed down the potential whose gradient is r (Descent), or, where there is none,
+  /// halved until the residual falls [Chamberlain, Powell, Lemarechal, Pedersen 1982; Nocedal,
+  /// Wright, Numerical Optimization, section 15.6]. After that the residual may not rise any more:
+  /// every correction that does not bring it below its best is halved.
   ///
   /// It may be inexact: as long as corrections reduce the residual tenfold, those that follow keep
   /// the tangent (the chord method), and the linear solver is not asked for much more than such a
@@ -84,6 +37,8 @@ namespace undine
     ///     using Unknown          with add(double, const Unknown &)
     ///     double evaluate(x)     norm of r(x), which it keeps; SolveError where r makes no sense
     ///     Unknown correction(x, const CorrectionRequest &)  -A^{-1} r(x) for the x evaluated last
+    ///     double slope(const Unknown &)  r . correction for the x evaluated last: the derivative
+    ///                                    of the potential, if r is a gradient
     ///     double part_left()     of |r|, that the linear solver has left; 0: next to nothing
     ///     double scale()         size of the terms whose sum is r
     ///     double rounding()      the norm that rounding alone gives r
@@ -122,13 +77,13 @@ namespace undine
     void
     learn_from(const CorrectionRequest &asked, double residual, double before);
 
-    /// Infinite where x is inadmissible.
-    double
-    try_to_evaluate(const Unknown &x);
-
     /// Add the correction, or the largest of its halves that is admissible. Returns the residual.
     double
     take_correction(Unknown &x, const Unknown &correction);
+
+    /// From the best point down the potential. False if that does not lead to a solution.
+    bool
+    descend(Unknown &x, double &residual);
 
     /// Halve the correction of the best point until the residual falls. False if it never does.
     bool
@@ -146,12 +101,12 @@ namespace undine
 
     Problem             &problem;
     const NewtonOptions &options;
+    TrialPoints<Problem> trials;
     NewtonReport         report;
     Best                 best;
     unsigned int         relaxed       = 0; ///< corrections since the best point
     bool                 keeps_tangent = false;
     double               gain          = first_gain; ///< part of the residual that may be left [1]
-    std::string          last_refusal;
   };
 
 
@@ -159,6 +114,7 @@ namespace undine
   Newton<Problem>::Newton(Problem &problem, const NewtonOptions &options)
     : problem(problem)
     , options(options)
+    , trials(problem)
   {
   }
 
@@ -199,12 +155,15 @@ namespace undine
             continue;
           }
         if (options.fixed_iterations > 0 && std::isinf(residual))
-          throw SolveError("the correction cannot be accepted. " + last_refusal);
+          throw SolveError("the correction cannot be accepted. " + trials.last_refusal());
         if (options.fixed_iterations == 0 && !(residual < best.residual))
           if (std::isinf(residual) || ++relaxed > allowance)
             {
-              allowance = 0;
-              relaxed   = 0;
+              const bool first = allowance > 0;
+              allowance        = 0;
+              relaxed          = 0;
+              if (first && descend(x, residual))
+                break;
               if (!backtrack(x, residual))
                 break;
             }
@@ -217,9 +176,9 @@ namespace undine
     const double stagnation = 100 * problem.rounding();
     if (options.fixed_iterations == 0 && !converged(residual) && !(residual <= stagnation))
       throw SolveError("Newton's method does not converge. " + history() +
-                       (last_refusal.empty() ? // else it says what to try
+                       (trials.last_refusal().empty() ? // else it says what to try
                           "Try a smaller step, a finer mesh, or more iterations."
-                                             : last_refusal));
+                                                      : trials.last_refusal()));
     return report;
   }
 
@@ -256,27 +215,10 @@ namespace undine
 
   template <class Problem>
   double
-  Newton<Problem>::try_to_evaluate(const Unknown &x)
-  {
-    try
-      {
-        const double residual = problem.evaluate(x);
-        return std::isfinite(residual) ? residual : std::numeric_limits<double>::infinity();
-      }
-    catch (const SolveError &error)
-      {
-        last_refusal = std::string("Last refused: ") + error.what();
-        return std::numeric_limits<double>::infinity();
-      }
-  }
-
-
-  template <class Problem>
-  double
   Newton<Problem>::take_correction(Unknown &x, const Unknown &correction)
   {
     x.add(1., correction);
-    double residual = try_to_evaluate(x);
+    double residual = trials.evaluate(x);
     double length   = 1;
     if (options.fixed_iterations == 0)
       for (unsigned int cut = 0; std::isinf(residual) && cut < options.maximum_cuts; ++cut)
@@ -284,9 +226,20 @@ namespace undine
           length /= 2;
           ++report.cuts;
           x.add(-length, correction);
-          residual = try_to_evaluate(x);
+          residual = trials.evaluate(x);
         }
     return residual;
+  }
+
+
+  template <class Problem>
+  bool
+  Newton<Problem>::descend(Unknown &x, double &residual)
+  {
+    x             = best.x;
+    residual      = problem.evaluate(x);
+    keeps_tangent = false;
+    return Descent<Problem>(problem, options, trials, report).solve(x, residual);
   }
 
 
@@ -301,7 +254,7 @@ namespace undine
         ++report.cuts;
         x = best.x;
         x.add(length, best.correction);
-        residual = try_to_evaluate(x);
+        residual = trials.evaluate(x);
         if (residual < (1 - 1e-4 * length) * best.residual)
           return true;
       }
@@ -315,8 +268,7 @@ namespace undine
   bool
   Newton<Problem>::converged(const double residual) const
   {
-    return residual <= options.relative_tolerance * problem.scale() ||
-           residual <= problem.rounding();
+    return has_converged(problem, options, residual);
   }
 
 

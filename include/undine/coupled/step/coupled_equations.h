@@ -71,6 +71,12 @@ namespace undine
       return system != nullptr;
     }
 
+    /// The slope along a correction of the bodies' potential (inertia, elasticity, contact, added
+    /// mass), for the point evaluated last [N m/s]: pressures, which depend on velocities by
+    /// equations that are linear, take care of their own. Collective.
+    double
+    slope(const Unknown &correction) const;
+
     /// Of the last correction's linear system [1].
     double
     part_left() const;
@@ -114,7 +120,7 @@ namespace undine
     void
     measure(const Sizes &own);
     void
-    linearise(const Vector &velocity);
+    linearise(const Vector &velocity, Tangent kind);
 
     Sizes reference; ///< where corrections were computed
     Sizes here;      ///< for the point evaluated last

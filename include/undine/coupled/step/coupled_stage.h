@@ -44,9 +44,17 @@ namespace undine
                  State<dim>            &state,
                  const std::string     &boundary_flux);
 
-    /// The state becomes that of t^{n+1}. Collective. Throws SolveError.
+    /// The state becomes that of t^{n+1}. `found`: u^{n+1} of an earlier solution of this stage,
+    /// for which the grid was cut elsewhere; empty: there is none. Collective. Throws SolveError.
     SolidReport<dim>
-    solve();
+    solve(const Vector &found);
+
+    /// u^{n+1}, after solve() [m/s].
+    const Vector &
+    velocity_of_bodies() const
+    {
+      return x.block(0);
+    }
 
     /// What forces of contact have contributed to the fluid's velocity, after solve() [m/s]; empty:
     /// nothing touches, or later stages need not know.
@@ -86,7 +94,10 @@ namespace undine
 
   private:
     double
-    solve_round(NewtonReport &report, const NewtonOptions &options, bool goes_on = false);
+    solve_round(NewtonReport        &report,
+                const NewtonOptions &options,
+                const Vector        &found,
+                bool                 goes_on = false);
     NewtonReport
     solve_from(const Vector        &velocity,
                const Vector        &pressure,

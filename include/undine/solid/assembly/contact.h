@@ -3,6 +3,7 @@
 #define undine_solid_assembly_contact_h
 
 #include <undine/base/core/column.h>
+#include <undine/base/core/correction_request.h>
 #include <undine/solid/mesh/solid_model.h>
 
 #include <vector>
@@ -35,9 +36,11 @@ namespace undine
     virtual std::vector<dealii::Tensor<1, dim>>
     nodal_forces(const Vector &displacement, double time) const = 0;
 
-    /// A += factor d^2E/dd^2, after A has been enlarged by the entries that this needs.
+    /// A += factor d^2E/dd^2, or what is convex of it, after A has been enlarged by the entries
+    /// that this needs.
     virtual void
-    add_stiffness(Matrix &A, double factor, const Vector &displacement, double time) const = 0;
+    add_stiffness(
+      Matrix &A, double factor, const Vector &displacement, double time, Tangent kind) const = 0;
 
     /// A configuration of all bodies at a time.
     struct Configuration

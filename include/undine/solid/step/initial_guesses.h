@@ -29,19 +29,30 @@ namespace undine
   }
 
 
-  /// The result of solve(u), Newton's method from the guess u: from that of `equations`, and if it
-  /// fails from rest(). In the other order without inertia, where an extrapolated equilibrium
-  /// changes the volume of what is nearly incompressible, and with a given number of corrections,
-  /// which are not tried twice. Throws what the last solve() throws.
+  /// The result of solve(u), Newton's method from the guess u: from `found`, what an earlier
+  /// solution of the same stage has found (empty: none); if there is none or it fails from the
+  /// guess of `equations`, and if that fails from rest(). The last two in the other order without
+  /// inertia, where an extrapolated equilibrium changes the volume of what is nearly
+  /// incompressible, and with a given number of corrections, which are not tried twice. Throws what
+  /// the last solve() throws.
   template <int dim, class Rest, class Solve>
   NewtonReport
-  solve_from_guesses(const SolidEquations<dim> &equations,
-                     const NewtonOptions       &options,
-                     const Rest                &rest,
-                     const Solve               &solve)
+  solve_from_guesses(const SolidEquations<dim>              &equations,
+                     const NewtonOptions                    &options,
+                     const typename SolidModel<dim>::Vector &found,
+                     const Rest                             &rest,
+                     const Solve                            &solve)
   {
     const bool only_once  = options.fixed_iterations > 0;
     const bool rest_first = equations.is_static() || only_once;
+    if (found.size() > 0 && !only_once)
+      try
+        {
+          return solve(found);
+        }
+      catch (const SolveError &)
+        {
+        }
     try
       {
         return solve(rest_first ? rest() : equations.guess());

@@ -131,9 +131,10 @@ namespace undine
     SolidBalance<dim>
     balance(const Vector &velocity, const Vector &reactions, const Vector &by_contact) const;
 
-    /// d residual / du [kg/s], with a diagonal of its own size at fixed degrees of freedom.
+    /// d residual / du [kg/s], with a diagonal of its own size at fixed degrees of freedom; a
+    /// convex one has contact's convex stiffness.
     Matrix
-    jacobian(const Vector &velocity) const;
+    jacobian(const Vector &velocity, Tangent kind = Tangent::exact) const;
 
     /// d^{n+1} [m].
     Vector
@@ -221,7 +222,8 @@ namespace undine
     Matrix
     full_jacobian(const Vector &velocity,
                   const Vector &end_displacement,
-                  const Vector &in_contact) const;
+                  const Vector &in_contact,
+                  Tangent       kind) const;
     void
     find_known_forces();
     void

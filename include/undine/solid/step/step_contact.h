@@ -36,9 +36,9 @@ namespace undine
     Vector
     forces(const Vector &end_displacement) const;
 
-    /// A += factor weight d^2E/dd^2 at the end of the step.
+    /// A += factor weight d^2E/dd^2 at the end of the step, or what is convex of it.
     void
-    add_stiffness(Matrix &A, double factor, const Vector &end_displacement) const;
+    add_stiffness(Matrix &A, double factor, const Vector &end_displacement, Tangent kind) const;
 
     /// SolidEquations::guess().
     Vector
