@@ -369,8 +369,8 @@ namespace undine
   void
   SleepingBodies<dim>::change_sleep(State<dim> &state, const double dt, const double time) const
   {
-    auto &sleep   = state.sleep;
-    sleep.changed = false;
+    auto &sleep       = state.sleep;
+    sleep.begins_anew = false;
     if (!count_quiet_time(state, dt) && !sleep.any_asleep())
       return;
     const auto          loads = loads_on_bodies(state, time);
@@ -386,7 +386,7 @@ namespace undine
         }
       else if (was_asleep[body] && changes[body] > masses[body] * settings.speed / settings.time)
         sleep.wake(body);
-    sleep.changed = has_fallen_asleep_in_contact(state, was_asleep, time);
+    sleep.begins_anew = has_fallen_asleep_in_contact(state, was_asleep, time);
     for (unsigned int node = 0; node < loads.size(); ++node)
       if (!was_asleep[body_of_node[node]])
         sleep.loads[node] = loads[node];

@@ -210,8 +210,9 @@ namespace undine
           budget->start(state.budget_rates);
           // Rates of bodies in contact leave out what that gives: they hold no longer where some of
           // these have fallen asleep.
-          const auto rates = state.clock.step > 0 && !state.sleep.changed ? RatesAtBegin::known
-                                                                          : RatesAtBegin::unknown;
+          const auto rates = state.clock.step > 0 && !state.sleep.begins_anew
+                               ? RatesAtBegin::known
+                               : RatesAtBegin::unknown;
           physics->advance(state, integrator->stages(report.dt, rates), report);
           append(report.columns, budget->columns());
           state.budget_rates = budget->rates();

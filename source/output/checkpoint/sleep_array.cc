@@ -9,7 +9,7 @@ namespace undine
   StateArray
   pack_sleep(const SleepState<dim> &sleep, const MPI_Comm communicator)
   {
-    std::vector<double> numbers{(sleep.settled ? 1. : 0.) + (sleep.changed ? 2. : 0.)};
+    std::vector<double> numbers{(sleep.settled ? 1. : 0.) + (sleep.begins_anew ? 2. : 0.)};
     for (const bool asleep : sleep.asleep)
       numbers.push_back(asleep ? 1 : 0);
     numbers.insert(numbers.end(), sleep.slow_time.begin(), sleep.slow_time.end());
@@ -27,7 +27,7 @@ namespace undine
     auto       value  = values.begin();
     const int  flags  = static_cast<int>(*value++);
     sleep.settled     = flags % 2 != 0;
-    sleep.changed     = flags >= 2;
+    sleep.begins_anew = flags >= 2;
     for (std::size_t body = 0; body < sleep.asleep.size(); ++body)
       sleep.asleep[body] = *value++ != 0;
     for (double &slow_time : sleep.slow_time)

@@ -22,8 +22,8 @@ namespace undine
       newton.maximum_iterations,
       "1",
       Allowed::positive(),
-      "The step fails if these are not enough. Where no correction lowers the residual as "
-      "bodies in contact slip, up to twice as many more go down their potential.");
+      "The step fails if these are not enough. Where no correction lowers the residual, up to "
+      "twice as many more go down the potential.");
     options.add("Newton iterations",
                 newton.fixed_iterations,
                 "1",

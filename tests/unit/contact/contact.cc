@@ -190,7 +190,7 @@ TEST_CASE("forces and stiffness of contact are derivatives of its energy", "[con
 }
 
 
-TEST_CASE("the convex part of contact's stiffness lets nothing slip", "[contact][mpi]")
+TEST_CASE("the convex part of contact's stiffness pushes nothing aside", "[contact][mpi]")
 {
   check_convex_part<2>();
   check_convex_part<3>();

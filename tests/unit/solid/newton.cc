@@ -32,6 +32,7 @@ namespace
     using Unknown = Number;
 
     std::function<double(double)> f, derivative;
+    double                        rounded   = 1e-15;
     double                        convex    = 0; ///< in the place of the derivative; 0: none
     double                        last      = 0;
     double                        tangent   = 0;
@@ -78,7 +79,7 @@ namespace
     double
     rounding() const
     {
-      return 1e-15;
+      return rounded;
     }
 
     unsigned int
@@ -144,11 +145,25 @@ TEST_CASE("Newton's method goes down a potential where the residual has a least 
       CHECK(x.value == Approx(2));
       CHECK(report.residuals.back() <= 1e-10);
     }
-  // The last corrections have the exact tangent.
-  Number     x{0.01};
+  // The last corrections have the exact tangent: the convex one reduces the residual to 0.4.
+  Number     x{-1};
   const auto report = solve_newton(problem, x, NewtonOptions());
   const auto n      = report.residuals.size();
   CHECK(report.residuals[n - 1] <= 1e-4 * report.residuals[n - 3]);
+  CHECK(report.iterations < 40);
+  CHECK(report.tangents == report.iterations);
+  // What rounding leaves is accepted.
+  Scalar rough  = problem;
+  rough.f       = [](double x) { return (x * x + 0.1) * (x - 2) + 3e-8 * std::sin(1e9 * x); };
+  rough.rounded = 1e-9;
+  x.value       = -1;
+  solve_newton(rough, x, NewtonOptions());
+  CHECK(x.value == Approx(2));
+  // So many corrections are just these.
+  NewtonOptions ten;
+  ten.fixed_iterations = 10;
+  x.value              = -1;
+  CHECK(solve_newton(problem, x, ten).iterations == 10);
   // Where nothing is convex the residual still decides.
   Scalar upwards{[](double x) { return -std::atan(x); }, [](double x) { return -1 / (1 + x * x); }};
   x.value = 20;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace undine
 {
@@ -22,14 +23,24 @@ namespace undine
   }
 
 
+  /// May what is left of r(x) be rounding, which may end the descent somewhat above the estimate of
+  /// its size?
+  template <class Problem>
+  bool
+  may_be_rounding(const Problem &problem, const double residual)
+  {
+    return residual <= 100 * problem.rounding();
+  }
+
+
   /// Newton's method for a minimum of a potential whose gradient is r. Where the potential is not
   /// convex, as where nodes of two surfaces press on each other and are about to slip, |r| has
   /// least values that are no solutions, with a tangent that is nearly singular, and a line search
-  /// that wants |r| to fall ends there. Here each correction must lower the potential, of which the
-  /// slopes along the correction are all that has to be known: a length serves once the potential
-  /// still falls at its end or does not rise by more than half as steeply as it fell at the begin
-  /// (S23) [Matthies, Strang, Int. J. Numer. Methods Eng. 14 (1979) 1613]. Directions come from a
-  /// convex tangent, and from the exact one as long as it gives full corrections that halve |r|
+  /// that wants |r| to fall ends there. Here each correction is to lower the potential, of which
+  /// the slopes along the correction are all that has to be known: a length serves once the
+  /// potential still falls at its end or does not rise by more than half as steeply as it fell at
+  /// the begin (S23) [Matthies, Strang, Int. J. Numer. Methods Eng. 14 (1979) 1613]. Directions
+  /// come from a convex tangent, and from the exact one as long as full corrections by it serve
   /// (projected Newton: Nocedal, Wright, Numerical Optimization, section 3.4).
   template <class Problem>
   class Descent
@@ -43,8 +54,9 @@ namespace undine
             TrialPoints<Problem> &trials,
             NewtonReport         &report);
 
-    /// Improve x, evaluated last, whose residual is `residual`. False if corrections are used up,
-    /// or lead upwards, so that r is no gradient, or the convex tangent is not convex.
+    /// Improve x, evaluated last, whose residual is `residual`, as far as is asked for or rounding
+    /// allows. False if corrections are used up, or lead upwards, so that r is no gradient, or the
+    /// convex tangent is not convex. x is then where corrections led.
     bool
     solve(Unknown &x, double &residual);
 
@@ -52,18 +64,27 @@ namespace undine
     /// Corrections of its own, in proportion to those of Newton's method.
     static constexpr unsigned int share_of_corrections = 2;
 
-    /// Reduction of |r| from which on it alone may decide [1].
+    /// Reduction of |r| from which on it alone may decide: slopes may be rounding [1].
     static constexpr double close = 1e-4;
 
-    /// Halves |r|, or lets the potential fall, on a part of the correction. Returns that part, 0 if
-    /// there is none; x is then where it was.
+    /// The part of a correction that has been taken, 0 if none serves; x is then where it was.
     double
-    take_part(Unknown &x, double &residual, const Unknown &correction, double slope, double least);
+    correct(Unknown &x, double &residual, Tangent tangent, bool is_close);
+
+    /// The largest part of a correction, of those that are tried, that serves, but no less than
+    /// `least`. 0 if there is none; x is then where it was.
+    double
+    search(Unknown &x, double &residual, const Unknown &correction, double slope, double least);
+
+    /// Does a point serve, with the slope `at_end` there?
+    static bool
+    serves(double residual, double before, double at_end, double slope);
 
     Problem              &problem;
     const NewtonOptions  &options;
     TrialPoints<Problem> &trials;
     NewtonReport         &report;
+    bool                  is_first = true; ///< no correction has been taken
   };
 
 
@@ -86,30 +107,20 @@ namespace undine
   {
     const unsigned int limit =
       report.iterations + share_of_corrections * options.maximum_iterations;
-    const double first    = residual;
-    const double shortest = std::pow(0.5, options.maximum_cuts);
-    auto         tangent  = Tangent::convex;
+    const double first   = residual;
+    auto         tangent = Tangent::convex;
     for (unsigned int wait = 1, waited = 0; !has_converged(problem, options, residual);)
       {
         if (report.iterations == limit)
           return false;
-        const double tolerated = options.relative_tolerance * problem.scale() / residual;
-        const auto   correction =
-          problem.correction(x, {true, std::min(0.01 * tolerated, 1.), tangent});
-        ++report.iterations;
-        ++report.tangents;
+        const double before   = residual;
         const bool   is_exact = tangent == Tangent::exact;
-        const double slope    = problem.slope(correction);
-        // Close to a solution the residual tells: there slopes may be rounding.
-        const bool leads_on = slope < 0 || (is_exact && residual <= close * first);
-        if (!is_exact && !leads_on)
-          return false;
-        // An exact tangent is not worth a search: where it does not serve, it is nearly singular.
-        const double part =
-          leads_on ? take_part(x, residual, correction, slope, is_exact ? 1 : shortest) : 0;
+        const double part     = correct(x, residual, tangent, residual <= close * first);
         if (part > 0)
           report.residuals.push_back(residual);
-        else if (!is_exact)
+        if (may_be_rounding(problem, residual) && !(residual <= 0.5 * before))
+          return true;
+        if (part == 0 && !is_exact)
           return false;
 
         if (is_exact)
@@ -123,7 +134,38 @@ namespace undine
 
   template <class Problem>
   double
-  Descent<Problem>::take_part(
+  Descent<Problem>::correct(Unknown      &x,
+                            double       &residual,
+                            const Tangent tangent,
+                            const bool    is_close)
+  {
+    const bool   is_exact  = tangent == Tangent::exact;
+    const double tolerated = options.relative_tolerance * problem.scale() / residual;
+    ++report.iterations;
+    ++report.tangents;
+    try
+      {
+        const auto correction =
+          problem.correction(x, {true, std::min(0.01 * tolerated, 1.), tangent});
+        const double slope = problem.slope(correction);
+        // Other unknowns, which follow from linear equations, need not fit yet: then the first
+        // slope is not that of the potential. They do after a full correction.
+        const bool may_rise = is_exact ? is_close : std::exchange(is_first, false);
+        // An exact tangent is not worth a search: where it does not serve, it is nearly singular.
+        const double least = is_exact || !(slope < 0) ? 1 : std::pow(0.5, options.maximum_cuts);
+        return slope < 0 || may_rise ? search(x, residual, correction, slope, least) : 0;
+      }
+    catch (const SolveError &) // of factors that are singular, say
+      {
+        residual = problem.evaluate(x);
+        return 0;
+      }
+  }
+
+
+  template <class Problem>
+  double
+  Descent<Problem>::search(
     Unknown &x, double &residual, const Unknown &correction, const double slope, const double least)
   {
     const double before = residual;
@@ -134,7 +176,7 @@ namespace undine
         residual             = trials.evaluate(x);
         const bool   is_real = std::isfinite(residual);
         const double at_end  = is_real ? problem.slope(correction) : 0;
-        if (is_real && (residual <= 0.5 * before || (slope < 0 && at_end <= -0.5 * slope)))
+        if (is_real && serves(residual, before, at_end, slope))
           return part;
         // The secant's zero, and not much less.
         part *= is_real ? std::clamp(slope / (slope - at_end), 0.1, 0.5) : 0.5;
@@ -143,6 +185,18 @@ namespace undine
       }
     residual = problem.evaluate(x);
     return 0;
+  }
+
+
+  template <class Problem>
+  bool
+  Descent<Problem>::serves(const double residual,
+                           const double before,
+                           const double at_end,
+                           const double slope)
+  {
+    const bool is_halved = residual <= 0.5 * before;
+    return slope < 0 ? at_end <= -0.5 * slope || (is_halved && at_end <= -slope) : is_halved;
   }
 } // namespace undine
 

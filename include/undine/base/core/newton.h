@@ -3,6 +3,7 @@
 #define undine_base_core_newton_h
 
 #include <undine/base/core/descent.h>
+#include <undine/base/core/errors.h>
 #include <undine/base/core/trial_points.h>
 
 #include <algorithm>
@@ -47,10 +48,10 @@ namespace undine
     /// Norms are all in one unit.
     Newton(Problem &problem, const NewtonOptions &options);
 
-    /// Improve x until |r| <= max(relative tolerance * scale, rounding) (T6). Where the descent
-    /// ends before, |r| <= 100 rounding is accepted; else throws SolveError with the history of
-    /// |r|. A given number of corrections is done whatever |r| is. `has_tangent`: an earlier call
-    /// has left the problem a tangent with which to begin.
+    /// Improve x until |r| <= max(relative tolerance * scale, rounding) (T6). Where no
+    /// correction serves before, |r| <= 100 rounding is accepted; else throws SolveError with the
+    /// history of |r|. A given number of corrections is done whatever |r| is. `has_tangent`: an
+    /// earlier call has left the problem a tangent with which to begin.
     NewtonReport
     solve(typename Problem::Unknown &x, bool has_tangent = false);
 
@@ -81,7 +82,11 @@ namespace undine
     double
     take_correction(Unknown &x, const Unknown &correction);
 
-    /// From the best point down the potential. False if that does not lead to a solution.
+    /// From the best point on by other corrections than full ones. False if none serves.
+    bool
+    recover(Unknown &x, double &residual);
+
+    /// From the best point down the potential. False if that leads to no better one.
     bool
     descend(Unknown &x, double &residual);
 
@@ -104,7 +109,10 @@ namespace undine
     TrialPoints<Problem> trials;
     NewtonReport         report;
     Best                 best;
+    unsigned int         limit         = 0; ///< of corrections
+    unsigned int         allowance     = 0; ///< of corrections that may increase the residual
     unsigned int         relaxed       = 0; ///< corrections since the best point
+    bool                 has_recovered = false;
     bool                 keeps_tangent = false;
     double               gain          = first_gain; ///< part of the residual that may be left [1]
   };
@@ -124,6 +132,7 @@ namespace undine
   Newton<Problem>::solve(Unknown &x, const bool has_tangent)
   {
     report          = NewtonReport();
+    has_recovered   = false;
     gain            = first_gain;
     keeps_tangent   = has_tangent && options.is_inexact();
     double residual = problem.evaluate(x);
@@ -131,11 +140,10 @@ namespace undine
       throw SolveError("the forces at the start of the step are not finite numbers. Check the "
                        "scene's expressions (loads, tractions, pressures, motions) at this time.");
     report.residuals.push_back(residual);
-    best.residual          = std::numeric_limits<double>::infinity();
-    unsigned int allowance = options.relaxed_steps;
-
-    const unsigned int limit =
-      options.fixed_iterations > 0 ? options.fixed_iterations : options.maximum_iterations;
+    best.residual = std::numeric_limits<double>::infinity();
+    allowance     = options.relaxed_steps;
+    limit   = options.fixed_iterations > 0 ? options.fixed_iterations : options.maximum_iterations;
+    relaxed = 0;
     while (report.iterations < limit && (options.fixed_iterations > 0 || !is_done(residual)))
       {
         const auto    asked      = request(residual);
@@ -158,23 +166,15 @@ namespace undine
           throw SolveError("the correction cannot be accepted. " + trials.last_refusal());
         if (options.fixed_iterations == 0 && !(residual < best.residual))
           if (std::isinf(residual) || ++relaxed > allowance)
-            {
-              const bool first = allowance > 0;
-              allowance        = 0;
-              relaxed          = 0;
-              if (first && descend(x, residual))
-                break;
-              if (!backtrack(x, residual))
-                break;
-            }
+            if (!recover(x, residual))
+              break;
         report.residuals.push_back(residual);
       }
     report.linear_iterations = problem.linear_iterations();
     report.scale             = problem.scale();
 
-    // Rounding may stop the descent somewhat above the estimate of its size.
-    const double stagnation = 100 * problem.rounding();
-    if (options.fixed_iterations == 0 && !converged(residual) && !(residual <= stagnation))
+    if (options.fixed_iterations == 0 && !converged(residual) &&
+        !may_be_rounding(problem, residual))
       throw SolveError("Newton's method does not converge. " + history() +
                        (trials.last_refusal().empty() ? // else it says what to try
                           "Try a smaller step, a finer mesh, or more iterations."
@@ -234,12 +234,36 @@ namespace undine
 
   template <class Problem>
   bool
+  Newton<Problem>::recover(Unknown &x, double &residual)
+  {
+    const bool first = !has_recovered;
+    has_recovered    = true;
+    allowance        = 0;
+    relaxed          = 0;
+    if (first && !may_be_rounding(problem, best.residual) && descend(x, residual))
+      return true;
+    return backtrack(x, residual);
+  }
+
+
+  template <class Problem>
+  bool
   Newton<Problem>::descend(Unknown &x, double &residual)
   {
-    x             = best.x;
-    residual      = problem.evaluate(x);
-    keeps_tangent = false;
-    return Descent<Problem>(problem, options, trials, report).solve(x, residual);
+    x                     = best.x;
+    residual              = problem.evaluate(x);
+    keeps_tangent         = false;
+    const auto iterations = report.iterations;
+    const bool is_solved  = Descent<Problem>(problem, options, trials, report).solve(x, residual);
+    limit += report.iterations - iterations;
+    if (is_solved)
+      return true;
+    // The sizes of terms on the way may have made another unit of |r|.
+    best.residual = problem.evaluate(best.x);
+    if (!(residual < best.residual))
+      return false;
+    residual = problem.evaluate(x);
+    return true;
   }
 
 

@@ -57,9 +57,10 @@ namespace undine
       return any;
     }
 
-    bool                settled = true;  ///< false: some that sleep still have a velocity
-    bool                changed = false; ///< some in contact fell asleep in the last step
-    std::vector<bool>   asleep;          ///< [body]
+    bool settled     = true;       ///< false: some that sleep still have a velocity
+    bool begins_anew = false;      ///< the next step, without rates of the last one: some that fell
+                                   ///< asleep in it were in contact
+    std::vector<bool>   asleep;    ///< [body]
     std::vector<double> slow_time; ///< [body] for how long it has been slow without a break [s]
 
     /// Loads of fluid and contact in the nodes of the bodies' surfaces, of those that sleep when

@@ -71,9 +71,10 @@ namespace undine
       return system != nullptr;
     }
 
-    /// The slope along a correction of the bodies' potential (inertia, elasticity, contact, added
-    /// mass), for the point evaluated last [N m/s]: pressures, which depend on velocities by
-    /// equations that are linear, take care of their own. Collective.
+    /// The slope along a correction of the potential of bodies and added mass, for the point
+    /// evaluated last [N m/s]: R . du, since pressures follow from velocities by equations that are
+    /// linear. Where the second of these is not fulfilled yet, as it is after a full correction, it
+    /// is off by that. Collective.
     double
     slope(const Unknown &correction) const;
 

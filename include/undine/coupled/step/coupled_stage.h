@@ -44,8 +44,8 @@ namespace undine
                  State<dim>            &state,
                  const std::string     &boundary_flux);
 
-    /// The state becomes that of t^{n+1}. `found`: u^{n+1} of an earlier solution of this stage,
-    /// for which the grid was cut elsewhere; empty: there is none. Collective. Throws SolveError.
+    /// The state becomes that of t^{n+1}. `found`: u^{n+1} of an earlier solution of
+    /// this stage; empty: there is none. Collective. Throws SolveError.
     SolidReport<dim>
     solve(const Vector &found);
 
