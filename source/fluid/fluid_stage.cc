@@ -92,9 +92,6 @@ namespace undine
   FluidStage<dim>::move_pressure_and_acceleration()
   {
     const auto &now = tracer.bodies().topology;
-    if (state.contact_pressure.has_lattice())
-      add(state.pressure, stage.contact_weight() - 1, state.contact_pressure);
-    state.contact_pressure = {}; // the end of the stage has another one
     if (state.pressure.topology() != now)
       {
         pressure_before = std::move(state.pressure);
@@ -218,9 +215,7 @@ namespace undine
                                ? difference(state.velocity, *advected_begin, stage.duration())
                                : difference(state.velocity, *advected, stage.length);
         if (by_contact)
-          add(state.acceleration,
-              -1 / (advected_begin ? stage.duration() : stage.length),
-              *by_contact);
+          add(state.acceleration, -1 / stage.length, *by_contact);
         state.change = difference(state.velocity, before, stage.duration());
       }
     else if (advected)

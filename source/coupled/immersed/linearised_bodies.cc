@@ -7,21 +7,6 @@
 
 namespace undine
 {
-  namespace
-  {
-    /// Of the fluid, as they were in the stage before; those that contact has count as often as it
-    /// does in this one [N].
-    dealii::TrilinosWrappers::MPI::Vector
-    loads_of_fluid(const SolidState &bodies, const Stage &stage)
-    {
-      auto loads = bodies.fluid_loads;
-      if (loads.size() > 0 && bodies.contact_loads.size() > 0)
-        loads.add(stage.contact_weight() - 1, bodies.contact_loads);
-      return loads;
-    }
-  } // namespace
-
-
   template <int dim>
   LinearisedBodies<dim>::LinearisedBodies(const Models<dim>           &models,
                                           const Matrix                &mass,
@@ -47,7 +32,7 @@ namespace undine
                                   state.clock.time + stage.start(),
                                   stage.length,
                                   timing,
-                                  loads_of_fluid(state.solid, stage),
+                                  state.solid.fluid_loads,
                                   state.contact,
                                   begin_of(state, stage));
     solvers.motion.begin_stage(equations.symmetry());

@@ -64,17 +64,10 @@ namespace undine
   {
     if (!moves_bodies())
       return;
-    const auto on_bodies = [&](const Vectors &forces) {
-      auto loads = models.solid->vector();
-      models.surface->add_to_bodies(loads, forces);
-      return loads;
-    };
-    auto &bodies       = state.solid;
-    bodies.fluid_loads = on_bodies(geometry.pressure_forces(state.fluid.pressure));
-    models.surface->add_to_bodies(bodies.fluid_loads, geometry.other_forces(gravity, time));
-    bodies.contact_loads = state.fluid.contact_pressure.has_lattice()
-                             ? on_bodies(geometry.pressure_forces(state.fluid.contact_pressure))
-                             : typename SolidModel<dim>::Vector();
+    auto &loads = state.solid.fluid_loads;
+    loads       = models.solid->vector();
+    models.surface->add_to_bodies(loads, geometry.pressure_forces(state.fluid.pressure));
+    models.surface->add_to_bodies(loads, geometry.other_forces(gravity, time));
   }
 
 

@@ -109,11 +109,9 @@ namespace undine
           // come to would depend on more than where the grid is cut, and no place be found.
           if (is_placed || !knows_pressure)
             {
-              knows_pressure               = true;
-              begin.fluid.pressure         = state.fluid.pressure;
-              begin.fluid.contact_pressure = state.fluid.contact_pressure;
-              begin.solid.fluid_loads      = state.solid.fluid_loads;
-              begin.solid.contact_loads    = state.solid.contact_loads;
+              knows_pressure          = true;
+              begin.fluid.pressure    = state.fluid.pressure;
+              begin.solid.fluid_loads = state.solid.fluid_loads;
             }
           if (is_placed)
             {

@@ -220,13 +220,15 @@ namespace undine
   }
 
 
-  /// The velocities that forces of contact give to bodies and fluid together, with the inertia of
-  /// both: light bodies move the fluid rather than themselves. Of the fluid's it takes note.
+  /// The velocities that forces of contact beside the rate give to bodies and fluid together, with
+  /// the inertia of both: light bodies move the fluid rather than themselves. Of the fluid's it
+  /// takes note. They count for the whole stage in its pressure; a pressure is a force per area and
+  /// time (S21).
   template <int dim>
   ContactResponse
   CoupledStage<dim>::respond_to_contact()
   {
-    const auto forces = equations.contact_forces(x.block(0));
+    const auto forces = equations.contact_beside_rate(x.block(0));
     if (forces.size() == 0)
       return {};
     const auto          timed = parts.timing.section("contact");
@@ -240,30 +242,18 @@ namespace undine
     parts.impulse_solver.start_step(pressures.places());
     parts.impulse_solver.initialize(system, equations.displacement(x.block(0)));
     const auto response = parts.impulse_solver.solve(right_side, impulse_reduction);
-    fluid_by_contact    = state.fluid.velocity;
-    add(*fluid_by_contact, -1., state.fluid.velocity);
-    pressures.accelerate(*fluid_by_contact, response.block(1));
+    if (fluid.stage.kept != KeptRate::mean) // in which they have their part
+      {
+        fluid_by_contact = state.fluid.velocity;
+        add(*fluid_by_contact, -1., state.fluid.velocity);
+        pressures.accelerate(*fluid_by_contact, response.block(1));
+      }
     const auto pressure = pressures.field(response.block(1));
     if (state.impulses)
       pressure_forces_by_contact = parts.geometry.pressure_forces(pressure);
     if (fluid.stage.keeps_rates())
-      hand_over(pressure);
+      add(state.fluid.pressure, -1., pressure);
     return {response.block(0), surface->on_bodies(surface->nodal_forces(pressure))};
-  }
-
-
-  /// `by_contact`: the share of forces of contact in the stage's pressure [Pa]. They count for the
-  /// whole stage there, but a pressure is a force per area and time.
-  template <int dim>
-  void
-  CoupledStage<dim>::hand_over(const Field<dim> &by_contact)
-  {
-    const double weight = fluid.stage.contact_weight();
-    auto        &share  = state.fluid.contact_pressure;
-    share               = Field<dim>(by_contact.shared_lattice(), by_contact.topology());
-    add(share, 1 / weight, by_contact);
-    set_means(share, parts.models.fluid->grid());
-    add(state.fluid.pressure, 1 / weight - 1, by_contact);
   }
 
 

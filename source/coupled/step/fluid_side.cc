@@ -159,8 +159,6 @@ namespace undine
       for (auto &component : velocity->components)
         component.share(parts);
     state.pressure.share(parts);
-    if (state.contact_pressure.has_lattice())
-      state.contact_pressure.share(parts);
     if (is_in_use(state.volume_rates))
       for (auto &half : state.volume_rates.halves)
         for (auto &component : half.components)
@@ -286,13 +284,36 @@ namespace undine
   }
 
 
+  /// Does anything but bodies that give way move and exert friction on the fluid, or flow in?
+  template <int dim>
+  bool
+  FluidSide<dim>::has_moving_walls() const
+  {
+    const auto &boundaries = model.boundaries().all();
+    if (std::any_of(boundaries.begin(), boundaries.end(), [](const auto &boundary) {
+          return boundary.kind == BoundaryKind::moving_wall ||
+                 boundary.kind == BoundaryKind::inflow;
+        }))
+      return true;
+    if (!cut)
+      return false;
+    const auto velocities = cut->surface_velocities();
+    return std::any_of(velocities.begin() + models.surface->n_body_nodes(),
+                       velocities.end(),
+                       [](const auto &velocity) { return velocity.norm() > 0; });
+  }
+
+
   /// Of walls and obstacles that friction moves the fluid with, `gain` being what diffusion has
   /// added to the fluid's kinetic energy [J]. What bodies have given of it they have lost, and what
-  /// has been dissipated does not count.
+  /// has been dissipated does not count; nor does what walls at rest seem to give, since bodies and
+  /// pressures have yet to act on that velocity.
   template <int dim>
   double
   FluidSide<dim>::power_of_walls(const FluidStage<dim> &fluid, const double gain) const
   {
+    if (!has_moving_walls())
+      return 0;
     double power = gain / fluid.dt;
     if (fluid.friction && cut)
       for (unsigned int node = 0; node < models.surface->n_body_nodes(); ++node)
@@ -390,8 +411,8 @@ namespace undine
       {
         const auto phase = timing.section("measure");
         pressures        = pressures_on_surfaces(state, fluid.end);
-        if (fluid.stage.keeps_rates()) // in the step, where those of contact count for the stage
-          pressures = sum(pressures, fluid.forces_by_contact, 1 - 1 / fluid.stage.contact_weight());
+        if (fluid.stage.keeps_rates()) // as they act in the stage
+          pressures = sum(pressures, fluid.forces_by_contact);
       }
     fluid.finish();
     if (fluid.friction)
@@ -446,7 +467,10 @@ namespace undine
     const auto  add     = [&](Impulse<dim> &impulse, const Vectors &forces, const Vectors &kept) {
       impulse.add(fluid.stage, sums_over_bodies(surface, forces), sums_over_bodies(surface, kept));
     };
-    add(impulses.pressure, pressures, sum(pressures, fluid.forces_by_contact, -1));
+    add(impulses.pressure,
+        pressures,
+        fluid.stage.kept == KeptRate::mean ? pressures
+                                           : sum(pressures, fluid.forces_by_contact, -1));
     if (fluid.friction)
       add(impulses.friction, viscous_coupling.forces(), viscous_coupling.forces());
   }

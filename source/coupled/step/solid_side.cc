@@ -70,7 +70,7 @@ namespace undine
     contact.displacement = state.stage_begin.displacement;
     contact.time         = state.clock.time + stage.begin;
     contact.weight       = stage.contact_weight();
-    contact.keeps_rates  = true;
+    contact.kept         = stage.kept;
     const auto forces    = surroundings.contact->forces(contact.displacement, contact.time);
     if (forces.size() > 0)
       contact.velocity = expected_velocity(state, stage, forces);

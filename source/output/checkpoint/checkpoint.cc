@@ -220,11 +220,8 @@ namespace undine
         state.fluid.volume_rates = {}; // of a run with another form of convection
       if (state.solid.fluid_loads.size() > 0 && !file.contains(fluid_loads_array))
         state.solid.fluid_loads = {}; // written by an earlier version
-      // While bodies touch each other.
-      if (models.solid && file.contains(contact_loads_array))
-        state.solid.contact_loads = models.solid->vector();
-      if (models.fluid && file.contains(contact_pressure_array))
-        state.fluid.contact_pressure = Field<dim>(models.fluid->grid().cells());
+      if (models.solid && file.contains(contact_forces_array))
+        state.solid.contact_forces = models.solid->vector();
       auto surface = pack_surface(models, state);
       read_arrays(surface, file, slot, communicator);
       unpack_surface(state, models, surface);

@@ -180,8 +180,8 @@ namespace undine
         action("solid/acceleration", solid.acceleration);
       if (solid.fluid_loads.size() > 0)
         action(fluid_loads_array, solid.fluid_loads);
-      if (solid.contact_loads.size() > 0)
-        action(contact_loads_array, solid.contact_loads);
+      if (solid.contact_forces.size() > 0)
+        action(contact_forces_array, solid.contact_forces);
       for_each_sample(state.history, [&](const std::string &name, auto &sample) {
         action(name + "/bodies", sample.bodies);
       });
@@ -205,8 +205,6 @@ namespace undine
                    char('x' + axis),
                  fluid.volume_rates.halves[end][axis]);
       action("fluid/pressure", fluid.pressure);
-      if (fluid.contact_pressure.has_lattice())
-        action(contact_pressure_array, fluid.contact_pressure);
       for (auto &scalar : fluid.scalars)
         action("fluid/scalars/" + scalar.first, scalar.second);
       for (auto &rate : fluid.scalar_rates)

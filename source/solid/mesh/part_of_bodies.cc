@@ -109,7 +109,7 @@ namespace undine
             taken_from(of_all.velocity),
             taken_from(of_all.acceleration),
             if_known(of_all.fluid_loads),
-            if_known(of_all.contact_loads)};
+            if_known(of_all.contact_forces)};
   }
 
 
@@ -128,8 +128,8 @@ namespace undine
       put_into(vector, of_these);
     };
     if_known(of_all.fluid_loads, of_part.fluid_loads);
-    of_all.contact_loads = {}; // those of bodies that sleep change no more
-    if_known(of_all.contact_loads, of_part.contact_loads);
+    of_all.contact_forces = {}; // bodies that sleep have no rates
+    if_known(of_all.contact_forces, of_part.contact_forces);
   }
 
 

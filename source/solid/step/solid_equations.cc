@@ -351,7 +351,7 @@ namespace undine
     rest.add(1 - 1 / weight, damping);
     result.inertia_loss += rest * displacement_increment;
     result.inertia_gap += dt * resultant(model, rest);
-    if (by_contact.size() > 0)
+    if (by_contact.size() > 0 && contact.keeps_rate_at_end())
       {
         Vector impulse = model.vector();
         mass.vmult(impulse, by_contact);
@@ -366,11 +366,9 @@ namespace undine
 
   template <int dim>
   typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::contact_forces(const Vector &velocity) const
+  SolidEquations<dim>::contact_beside_rate(const Vector &velocity) const
   {
-    if (!contact.is_told_apart())
-      return {};
-    Vector result = contact.forces(displacement(velocity));
+    Vector result = contact.forces_beside_rate(displacement(velocity));
     if (result.size() > 0)
       clear_fixed(result, model);
     return result;
@@ -382,7 +380,7 @@ namespace undine
   SolidEquations<dim>::contact_response(const Vector &velocity) const
   {
     ContactResponse result;
-    const Vector    forces = contact_forces(velocity);
+    const Vector    forces = contact_beside_rate(velocity);
     if (forces.size() > 0)
       {
         result.velocity = solve_mass(model, mass, forces, model.vector());
@@ -399,16 +397,16 @@ namespace undine
                                         const ContactResponse &by_contact) const
   {
     Vector result = reactions;
-    if (by_contact.velocity.size() == 0 || contact.weight() == 1)
+    if (by_contact.velocity.size() == 0 || !contact.is_part_of_rates())
       return result;
     Vector share = model.vector(); // M dv/dt less forces: what supports add to these
     mass.vmult(share, by_contact.velocity);
     share *= 1 / dt;
-    share.add(-1., contact.forces(displacement(velocity)));
+    share.add(-1., contact.forces_beside_rate(displacement(velocity)));
     if (by_contact.pressures.size() > 0)
       share.add(-1., by_contact.pressures);
     for (const auto &fixed : model.fixed())
-      result(fixed.dof) = reactions(fixed.dof) - (1 - 1 / contact.weight()) * share(fixed.dof);
+      result(fixed.dof) = reactions(fixed.dof) - share(fixed.dof);
     result.compress(dealii::VectorOperation::insert);
     return result;
   }
@@ -424,8 +422,10 @@ namespace undine
     state.acceleration = model.vector();
     state.acceleration.add(
       coefficients.acceleration, velocity, coefficients.acceleration_velocity, old_state.velocity);
-    if (by_contact.velocity.size() > 0)
+    if (by_contact.velocity.size() > 0 && contact.keeps_rate_at_end())
       state.acceleration.add(-coefficients.acceleration, by_contact.velocity);
+    if (contact.is_part_of_rates())
+      state.contact_forces = contact.rate(state.displacement);
     const auto &integrator = *model.numerics().integrator;
     if (integrator.uses_acceleration())
       {

@@ -140,7 +140,7 @@ namespace undine
   SolidState
   start_of_bodies(const SolidModel<dim> &model)
   {
-    SolidState  state{model.vector(), model.vector(), model.vector(), {}};
+    SolidState  state{model.vector(), model.vector(), model.vector(), {}, {}};
     const auto &geometry = model.geometry();
     for (unsigned int cell = 0; cell < geometry.n_cells(); ++cell)
       {

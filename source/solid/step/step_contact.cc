@@ -7,6 +7,29 @@
 
 namespace undine
 {
+  namespace
+  {
+    /// a x + b y, empty vectors being zero.
+    template <class Vector>
+    Vector
+    combination(const double a, Vector x, const double b, const Vector &y)
+    {
+      if ((a == 0 || x.size() == 0) && (b == 0 || y.size() == 0))
+        return {};
+      if (x.size() == 0)
+        {
+          x = y;
+          x *= b;
+          return x;
+        }
+      x *= a;
+      if (b != 0 && y.size() > 0)
+        x.add(b, y);
+      return x;
+    }
+  } // namespace
+
+
   template <int dim>
   StepContact<dim>::StepContact(const Contact<dim>    *contact,
                                 const ContactStart    &start,
@@ -46,15 +69,30 @@ namespace undine
 
   template <int dim>
   typename StepContact<dim>::Vector
-  StepContact<dim>::forces(const Vector &end) const
+  StepContact<dim>::rate(const Vector &end) const
   {
     if (!contact)
       return {};
-    const auto timed  = timing.section("contact");
-    Vector     result = contact->forces(end, time + dt);
-    if (result.size() > 0)
-      result *= start.weight;
-    return result;
+    const auto timed = timing.section("contact");
+    return contact->forces(end, time + dt);
+  }
+
+
+  template <int dim>
+  typename StepContact<dim>::Vector
+  StepContact<dim>::forces(const Vector &end) const
+  {
+    return combination(start.weight, rate(end), 1 - start.weight, old_state.contact_forces);
+  }
+
+
+  template <int dim>
+  typename StepContact<dim>::Vector
+  StepContact<dim>::forces_beside_rate(const Vector &end) const
+  {
+    if (is_part_of_rates())
+      return combination(start.weight - 1, rate(end), 1 - start.weight, old_state.contact_forces);
+    return model.numerics().integrator->uses_acceleration() ? forces(end) : Vector();
   }
 
 
@@ -158,9 +196,9 @@ namespace undine
 
   template <int dim>
   bool
-  StepContact<dim>::is_told_apart() const
+  StepContact<dim>::keeps_rate_at_end() const
   {
-    return start.keeps_rates || model.numerics().integrator->uses_acceleration();
+    return start.kept != KeptRate::mean;
   }
 
 

@@ -107,8 +107,6 @@ namespace undine
     end(SolidReport<dim> &report);
     ContactResponse
     respond_to_contact();
-    void
-    hand_over(const Field<dim> &by_contact);
     Vector
     loads_besides_pressure();
     FollowerPressure<dim>

@@ -120,6 +120,8 @@ namespace undine
     bodies() const;
     typename CharacteristicTracer<dim>::Bodies
     no_slip_bodies();
+    bool
+    has_moving_walls() const;
     double
     power_of_walls(const FluidStage<dim> &fluid, double gain) const;
     void

@@ -80,10 +80,6 @@ namespace undine
     std::map<std::string, Field<dim>> scalars; ///< by name, e.g. "smoke", "temperature"
     std::map<std::string, Field<dim>>
       scalar_rates; ///< Ds/Dt that the last stage has kept [1/s], of scalars that have one
-
-    /// The share in `pressure` of what bodies that touch each other do to the fluid (S21) [Pa];
-    /// empty: nothing touches.
-    Field<dim> contact_pressure;
   };
 } // namespace undine
 

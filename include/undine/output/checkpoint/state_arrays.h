@@ -22,10 +22,8 @@ namespace undine
   /// The array that holds SolidState::fluid_loads in a checkpoint.
   inline const std::string fluid_loads_array = "solid/loads of the fluid";
 
-  /// Those of SolidState::contact_loads and FluidState::contact_pressure. @{
-  inline const std::string contact_loads_array    = "solid/loads of the fluid by contact";
-  inline const std::string contact_pressure_array = "fluid/pressure by contact";
-  /// @}
+  /// The array that holds SolidState::contact_forces in a checkpoint, while bodies touch something.
+  inline const std::string contact_forces_array = "solid/forces of contact";
 
   /// The array that holds DualVolumeRates::time in a checkpoint, if those rates are in use.
   inline const std::string volume_rate_time_array = "fluid/time of volume rates";

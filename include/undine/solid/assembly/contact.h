@@ -4,6 +4,7 @@
 
 #include <undine/base/core/column.h>
 #include <undine/base/core/correction_request.h>
+#include <undine/base/core/stage.h>
 #include <undine/solid/mesh/solid_model.h>
 
 #include <vector>
@@ -83,8 +84,8 @@ namespace undine
     /// the velocity at which the stage starts tells.
     dealii::TrilinosWrappers::MPI::Vector velocity;
 
-    double weight      = 1; ///< duration over length of the stage [1]
-    bool   keeps_rates = false;
+    double   weight = 1; ///< kappa: duration over length of the stage [1]
+    KeptRate kept   = KeptRate::none;
   };
 } // namespace undine
 

@@ -17,8 +17,8 @@ namespace undine
     /// there is none with friction, or nothing is known of them.
     dealii::TrilinosWrappers::MPI::Vector fluid_loads;
 
-    /// The share in them of FluidState::contact_pressure [N]; empty: none.
-    dealii::TrilinosWrappers::MPI::Vector contact_loads;
+    /// f_c of contact, which the rates that the last stage has kept contain (T1) [N]; empty: none.
+    dealii::TrilinosWrappers::MPI::Vector contact_forces;
   };
 } // namespace undine
 

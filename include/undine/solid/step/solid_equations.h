@@ -10,7 +10,7 @@
 
 namespace undine
 {
-  /// What forces of contact do in a step, told apart from the rest.
+  /// What forces of contact that are not part of the rate at the end of a step do in it.
   struct ContactResponse
   {
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
@@ -33,7 +33,7 @@ namespace undine
 
     /// From `old_state` at `time` [s] over `dt` [s]. `mass` is mass_matrix(model). `nodal_forces`
     /// [N] act during the whole step and enter the momentum once, as J p does; empty: none. Forces
-    /// of contact (`environment`), at the end of the step, count alike, `contact.weight` times.
+    /// of contact (`environment`), at the end of the step, count alike, in stages as in (T1).
     /// `begin` is where a stage began that starts from elsewhere. The references to model, mass,
     /// state, environment and timing must outlive the equations. Collective. Throws SolveError.
     SolidEquations(const SolidModel<dim>       &model,
@@ -157,17 +157,18 @@ namespace undine
       return coefficients.displacement;
     }
 
-    /// kappa times the forces of contact [N], zero at fixed degrees of freedom; empty if there are
-    /// none, or if neither the integrator nor later stages need to know what they do. Collective.
+    /// Of the forces of contact that act in the step what the rate at its end does not contain [N],
+    /// zero at fixed degrees of freedom; empty if there is nothing, or if neither the integrator
+    /// nor later stages need to know what it does. Collective.
     Vector
-    contact_forces(const Vector &velocity) const;
+    contact_beside_rate(const Vector &velocity) const;
 
     /// What these do in the step to bodies without a fluid. Collective.
     ContactResponse
     contact_response(const Vector &velocity) const;
 
-    /// The `reactions` at the end of the step: forces of contact, which count kappa times in it,
-    /// are borne once (S22). Collective.
+    /// The `reactions` at the end of the step, where f_c of contact is borne once, whatever acts in
+    /// the stage beside it (S22). Collective.
     Vector
     reactions_at_end(const Vector          &reactions,
                      const Vector          &velocity,

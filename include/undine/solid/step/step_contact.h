@@ -32,9 +32,20 @@ namespace undine
     const Vector &
     last_displacement() const;
 
-    /// weight (-dE/dd) at the end of the step [N]; empty if nothing touches.
+    /// f_c at the end of the step [N]; empty if nothing touches.
+    Vector
+    rate(const Vector &end_displacement) const;
+
+    /// kappa f_c - (kappa - 1) f_c^b, with f_c^b of the old state [N]; empty if nothing touches,
+    /// nor has.
     Vector
     forces(const Vector &end_displacement) const;
+
+    /// What of these the rate at the end of the step does not contain [N]: (kappa - 1) (f_c -
+    /// f_c^b) in stages, all of them where the integrator uses accelerations; empty: nothing, or
+    /// nobody needs to know.
+    Vector
+    forces_beside_rate(const Vector &end_displacement) const;
 
     /// A += factor weight d^2E/dd^2 at the end of the step, or what is convex of it.
     void
@@ -54,16 +65,17 @@ namespace undine
                             const Vector          &correction,
                             const StepMotion<dim> &motion) const;
 
-    /// kappa, with which forces() are multiplied [1].
-    double
-    weight() const
-    {
-      return start.weight;
-    }
-
-    /// Do the integrator or later stages need to know which part of the velocity is by contact?
+    /// Is the rate at the end of the step kept for the next one? Not that of a stage that keeps the
+    /// mean, in which contact has given f_c all the same.
     bool
-    is_told_apart() const;
+    keeps_rate_at_end() const;
+
+    /// Is f_c part of the rates?
+    bool
+    is_part_of_rates() const
+    {
+      return start.kept != KeptRate::none;
+    }
 
     /// Set the terms of contact in a balance.
     void
