@@ -109,6 +109,31 @@ namespace
 } // namespace
 
 
+TEST_CASE("Walls at rest put in no energy, whatever friction does between them", "[coupled]")
+{
+  // A sheet swings in viscous fluid that convection carries: all velocities are known before
+  // pressures and bodies have acted on them.
+  CoupledRun<2> run(
+    steps_of(1. / 30) + section("Output", "set Energy account = true") +
+    section("Domain", "set Cells = 12, 13") + section("Fluid", "set Density = 1") +
+    section("Effects",
+            section("viscosity", "set Dynamic viscosity = 1e-3") + section("convection", "")) +
+    section("Bodies",
+            body("sheet",
+                 "set Lower corner = .45, 0\nset Upper corner = .52, .6\nset Cells = 1, 6\n"
+                 "set Density = 100\nset Young's modulus = 1e6\nset Poisson's ratio = .3\n"
+                 "set Initial velocity = 20*y; 0",
+                 clamp("foot", "1", "set Sides = bottom"))));
+  const double energy = run.column("solid kinetic energy");
+  for (unsigned int n = 0; n < 6; ++n)
+    {
+      run.step();
+      CHECK(std::abs(run.column("energy put in")) < 1e-3 * energy);
+      CHECK(run.column("energy exchanged") < 1e-3 * energy);
+    }
+}
+
+
 TEST_CASE("The energy monitor knows all powers", "[coupled]")
 {
   const std::string gravity = section("gravity", "set Acceleration = 0, -3");
