@@ -208,8 +208,8 @@ namespace undine
           report.dt = asked / (1u << report.halvings);
           energy_monitor.begin_step(state, report);
           budget->start(state.budget_rates);
-          // Rates of bodies in contact leave out what that gives: they hold no longer where some of
-          // these have fallen asleep.
+          // Rates of bodies in contact contain its forces on both of them: they hold no longer
+          // where one has fallen asleep.
           const auto rates = state.clock.step > 0 && !state.sleep.begins_anew
                                ? RatesAtBegin::known
                                : RatesAtBegin::unknown;

@@ -13,17 +13,17 @@ namespace undine
   /// A stage of h [s] from t^n (T1), written for the one unknown u = u^{n+1} [m/s]:
   ///
   ///     M (m u + m_u u^n + m_a a^n) + alpha M u_C + eta W V(d_V) u_V
-  ///       + sum_e w_e [ K(d_e) - f(d_e, t_e) ] - kappa f_c - J p = 0                           [N]
+  ///       + sum_e w_e [ K(d_e) - f(d_e, t_e) ] - kappa f_c + (kappa - 1) f_c^b - J p = 0       [N]
   ///     u_C = c u + c_u u^n
   ///     d_e = (1 - s_e) d^n + s_e d^{n+1},   t_e = t^n + s_e h
   ///     d^{n+1} = d^n + e_u u^n + e_a a^n + e u
   ///     a^{n+1} = b u + b_u u^n + b_a a^n
   ///
-  /// where f are gravity, dead loads and follower pressures, and kappa f_c forces of contact, kappa
-  /// being ContactStart::weight. Unless the step is static, m = 1/h and m_u = -1/h: the impulse
-  /// h J p of a fluid's pressure enters the momentum once and un-averaged, whatever the integrator.
-  /// alpha and eta are those of Rayleigh damping, whose viscosity V (S15) has no negative
-  /// eigenvalue.
+  /// where f are gravity, dead loads and follower pressures, f_c forces of contact, f_c^b those
+  /// of the stage before (SolidState::contact_forces), and kappa is ContactStart::weight. Unless
+  /// the step is static, m = 1/h and m_u = -1/h: the impulse h J p of a fluid's pressure enters the
+  /// momentum once and un-averaged, whatever the integrator. alpha and eta are those of Rayleigh
+  /// damping, whose viscosity V (S15) has no negative eigenvalue.
   struct StageCoefficients
   {
     /// Internal forces and loads between t^n (position 0) and t^{n+1} (position 1).
