@@ -12,6 +12,20 @@ namespace undine
     constexpr int margin = 3; ///< layers beyond those that paths cross
 
 
+    /// What comes in under a given pressure brings in kinetic energy, the more the faster it is.
+    template <int dim>
+    std::string
+    advice_on_openings(const BoundaryMap<dim> &boundaries)
+    {
+      for (const auto &boundary : boundaries.all())
+        if (boundary.kind == BoundaryKind::pressure)
+          return ", or 'Kind = outflow' for the boundary '" + boundary.name +
+                 "', which takes the same 'Pressure': what comes in through it does so from rest "
+                 "outside then, and brings in no energy";
+      return "";
+    }
+
+
     /// Ghost layers for paths of a given length, and for the up to four points around their ends.
     template <int dim>
     GridIndex<dim>
@@ -26,11 +40,12 @@ namespace undine
           if (distance[d] > times * (model.grid().upper()[d] - model.grid().lower()[d]))
             throw SolveError(
               fmt::format("The fluid would travel {:.3g} m along {} in one step of {:.3g} s, more "
-                          "than {} times through the domain. Try a smaller step.",
+                          "than {} times through the domain. Try a smaller step{}.",
                           distance[d],
                           "xyz"[d],
                           dt,
-                          times));
+                          times,
+                          advice_on_openings(model.boundaries())));
         }
       auto width = model.grid().planes_crossed(distance);
       for (int &layers : width.values)

@@ -84,7 +84,9 @@ namespace undine
         "What the fluid does here. slip wall: no flow through it, no friction. "
         "no-slip wall: sticks. moving wall: sticks to a wall that moves along itself. "
         "inflow: given velocity. pressure: given reduced pressure, in or out. outflow: "
-        "no traction. periodic: goes on at the opposite side.");
+        "leaves without traction, or under a given pressure; where it comes back it does so from "
+        "rest outside, with less pressure, and brings in no energy. periodic: goes on at the "
+        "opposite side.");
       options.add("Region",
                   boundary.region,
                   "",
@@ -97,21 +99,27 @@ namespace undine
         "m/s",
         Allowed::anything(),
         "Of inflow and moving wall, which need it; of the latter the part along the wall.");
-      options.add("Pressure",
-                  boundary.pressure,
-                  "Pa",
-                  Allowed::anything(),
-                  "Reduced pressure p - rho g.x of the kind 'pressure', which needs it.");
+      options.add(
+        "Pressure",
+        boundary.pressure,
+        "Pa",
+        Allowed::anything(),
+        "Reduced pressure p - rho g.x of the kind 'pressure', which needs it; of the kind "
+        "'outflow' that of the fluid at rest outside, 0 by default.");
       boundary.has_region = options.given("Region");
       boundary.kind       = kinds().at(kind);
       for (const auto &side : sides)
         boundary.sides.push_back(side_by_name(side));
       const bool has_velocity =
         boundary.kind == BoundaryKind::inflow || boundary.kind == BoundaryKind::moving_wall;
-      const bool has_pressure = boundary.kind == BoundaryKind::pressure;
-      const bool is_periodic  = boundary.kind == BoundaryKind::periodic;
+      const bool is_periodic = boundary.kind == BoundaryKind::periodic;
       check_use(options, "Velocity", has_velocity ? Use::required : Use::refused, kind);
-      check_use(options, "Pressure", has_pressure ? Use::required : Use::refused, kind);
+      check_use(options,
+                "Pressure",
+                boundary.kind == BoundaryKind::pressure  ? Use::required
+                : boundary.kind == BoundaryKind::outflow ? Use::optional
+                                                         : Use::refused,
+                kind);
       check_use(options, "Region", is_periodic ? Use::refused : Use::optional, kind);
       return boundary;
     }

@@ -61,7 +61,7 @@ namespace undine
                                           const dealii::Point<dim> &place,
                                           const double              time) const
   {
-    return boundary.kind == BoundaryKind::pressure ? boundary.pressure.value(place, time) : 0;
+    return boundary.is_open() ? boundary.pressure.value(place, time) : 0;
   }
 
 

@@ -53,7 +53,7 @@ namespace undine
           const double s    = opening.entering;
           const auto   size = extent(model.grid(), velocity.topology(), opening);
           opening.mobility  = 1 / (1 + dt * s * size.area / size.volume);
-          opening.pressure  = model.density() / 2 * s * s;
+          opening.pressure  = opening.outside + model.density() / 2 * s * s;
           value_on(velocity, opening) *= opening.mobility;
         }
     set_means(velocity, model.grid());

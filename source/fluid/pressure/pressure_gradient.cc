@@ -56,10 +56,11 @@ namespace undine
       if (!boundary.is_open())
         return;
       const double entering = std::max(0., -at.side.sign() * velocity[at.side.axis](at.face));
+      const double outside  = boundary.pressure.value(place, time);
       const double pressure = boundary.kind == BoundaryKind::outflow
-                                ? -model.density() / 2 * entering * entering
-                                : boundary.pressure.value(place, time);
-      result.push_back({at, pressure, boundary.kind, entering});
+                                ? outside - model.density() / 2 * entering * entering
+                                : outside;
+      result.push_back({at, outside, pressure, boundary.kind, entering});
     });
     return result;
   }

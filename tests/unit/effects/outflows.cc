@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <effects/flow_run.h>
 
+#include <cmath>
+
 using namespace undine_tests;
 
 namespace
@@ -59,6 +61,36 @@ TEMPLATE_TEST_CASE_SIG("fluid that is drawn in through an outflow comes from res
       INFO("dt = " << dt);
       CHECK(largest_error(run.state.pressure, [](const auto &) { return -9.; }) < 1e-7);
       CHECK(fastest_entering(run) == Approx(3).epsilon(1e-9));
+    }
+}
+
+
+TEST_CASE("fluid at rest outside under a pressure comes in by Bernoulli's and Torricelli's laws",
+          "[flows][mpi]")
+{
+  // Through a channel of length 2: rho L du/dt = P - rho u^2/2.
+  const double P = 16, U = std::sqrt(2 * P / 2), L = 2;
+  for (const double dt : {.002, .1, 10.})
+    {
+      FlowRun<2> run(FluidText{"16, 3",
+                               boundary("reservoir", "left", "outflow", "set Pressure = 16") +
+                                 boundary("drain", "right", "outflow"),
+                               "",
+                               "set Upper corner = 2, 1",
+                               2},
+                     convection());
+      INFO("dt = " << dt);
+      while (run.time < .5)
+        {
+          run.step(dt);
+          if (dt < .01)
+            CHECK(fastest_entering(run) ==
+                  Approx(U * std::tanh(U * run.time / (2 * L))).epsilon(5e-3).margin(5e-3 * U));
+        }
+      for (unsigned int n = 0; n < 60; ++n)
+        run.step(std::max(dt, .2));
+      CHECK(fastest_entering(run) == Approx(U).epsilon(1e-6));
+      CHECK(largest_error(run.state.pressure, [](const auto &) { return 0.; }) < 1e-4 * P);
     }
 }
 

@@ -17,6 +17,7 @@ namespace undine
   template <int dim>
   struct OpenFace : SideFace<dim>
   {
+    double       outside;      ///< reduced pressure that is given [Pa]
     double       pressure;     ///< reduced pressure on the face [Pa]
     BoundaryKind kind;         ///< outflow or pressure
     double       entering;     ///< speed of the backflow through it, max(0, -v.n) [m/s]
@@ -24,9 +25,10 @@ namespace undine
   };
 
   /// The openings of this rank with their pressures at `time`. Where there is backflow through an
-  /// outflow, p = -rho (v.n)^2 / 2, so that it brings in no energy (directional do-nothing
-  /// condition, Braack & Mucha 2014); how that acts in a step: stabilise_backflow(). `topology`: of
-  /// the fluid, which may differ from that of `velocity`; nullptr: nothing is cut.
+  /// outflow, p is less by rho (v.n)^2 / 2, so that it brings in no energy beyond that of fluid at
+  /// rest outside (directional do-nothing condition, Braack & Mucha 2014); how that acts in a step:
+  /// stabilise_backflow(). `topology`: of the fluid, which may differ from that of `velocity`;
+  /// nullptr: nothing is cut.
   template <int dim>
   std::vector<OpenFace<dim>>
   open_faces(const FluidModel<dim>    &model,
