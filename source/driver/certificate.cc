@@ -148,6 +148,7 @@ namespace undine
   {
     ++n_steps;
     n_redone += report.cuts > 0;
+    n_by_fallback += report.is_by_fallback;
     if (n_steps == 1)
       find_columns(report.columns);
     const auto step = energies(time, report);
@@ -326,10 +327,14 @@ namespace undine
   std::string
   Certificate::redone() const
   {
-    if (n_redone <= many_redone * n_steps)
-      return "";
-    return fmt::format(
-      "; {} of {} steps were redone ({:.2g} %)", n_redone, n_steps, 100. * n_redone / n_steps);
+    std::string result;
+    if (n_redone > many_redone * n_steps)
+      result = fmt::format(
+        "; {} of {} steps were redone ({:.2g} %)", n_redone, n_steps, 100. * n_redone / n_steps);
+    if (n_by_fallback > 0)
+      result += fmt::format(
+        "; {} of {} steps were taken by implicit Euler, of first order", n_by_fallback, n_steps);
+    return result;
   }
 
 
@@ -404,12 +409,14 @@ namespace undine
                           quoted(now->what),
                           json_number(now->factor));
     return fmt::format(
-      "{{\n    \"verdict\": {},\n    \"text\": {},\n    \"steps\": {}, \"steps redone\": {}{},\n"
+      "{{\n    \"verdict\": {},\n    \"text\": {},\n    \"steps\": {}, \"steps redone\": {}, "
+      "\"steps by fallback\": {}{},\n"
       "    \"margins\": {}\n  }}",
       quoted(verdict(failure)),
       quoted(text(time, failure)),
       n_steps,
       n_redone,
+      n_by_fallback,
       grows,
       json_list(margins.all(), [](const auto &law) {
         return fmt::format(

@@ -107,7 +107,7 @@ namespace undine
     double             last_potential = 0, largest_potential = 0; ///< [J]
     double             largest_force = 0, largest_velocity = 0;   ///< of all watched [N], [m/s]
     std::string        where, mode;                               ///< of the energy that grows
-    unsigned int       located_over = 0, n_steps = 0, n_redone = 0;
+    unsigned int       located_over = 0, n_steps = 0, n_redone = 0, n_by_fallback = 0;
   };
 } // namespace undine
 

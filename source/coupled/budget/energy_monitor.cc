@@ -181,10 +181,11 @@ namespace undine
         const double worthwhile = tries.best_share > largest_share ? less : half_as_much;
         if (tries.number == 0 || step.energy < worthwhile * tries.least_energy)
           {
-            tries.least_energy  = step.energy;
-            tries.best_share    = step.share;
-            tries.best_halvings = report.halvings;
-            tries.vain          = 0;
+            tries.least_energy        = step.energy;
+            tries.best_share          = step.share;
+            tries.best_halvings       = report.halvings;
+            tries.best_is_by_fallback = report.is_by_fallback;
+            tries.vain                = 0;
           }
         else
           ++tries.vain;

@@ -5,6 +5,7 @@
 #include <undine/coupled/step/fluid_alone.h>
 #include <undine/coupled/step/one_way.h>
 #include <undine/coupled/step/solid_alone.h>
+#include <undine/fluid/grid/field_algebra.h>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,19 @@
 
 namespace undine
 {
+  namespace
+  {
+    /// Those that stages have kept: what fails with them is not to be advected.
+    template <int dim>
+    void
+    forget_rates(FluidState<dim> &state)
+    {
+      scale(state.acceleration, 0.);
+      scale(state.change, 0.);
+    }
+  } // namespace
+
+
   template <int dim>
   void
   SteppingScheme<dim>::add_options(const Options &options)
@@ -54,6 +68,14 @@ namespace undine
              Allowed::between(0, 20),
              "A step that fails is redone with half its length; the run stops where that would be "
              "less than Step halved so often.");
+    time.add(
+      "Fallback",
+      fallback,
+      "",
+      Allowed::one_of({"implicit Euler", "none"}),
+      "What takes a step of bodies in a fluid that fails with a quarter of Step, too, or "
+      "creates energy, if the integrator has stages: implicit Euler is of first order and "
+      "damps what shakes. Steps that it takes are counted; none: such steps are cut further.");
   }
 
 
@@ -137,6 +159,9 @@ namespace undine
       physics = make_physics(models, timing);
 
     start_passage_check(models);
+    falls_back = fallback != "none" && has_stages() && tolerance == 0 && models.solid &&
+                 models.fluid && models.direction == Direction::two_way &&
+                 response_to_created_energy() == EnergyMonitor::Response::redo;
 
     Report report;
     if (tolerance > 0)
@@ -202,22 +227,23 @@ namespace undine
       step_error->start(state); // resumed from a run of constant steps
     const State<dim> saved = state;
     std::string      cause; // of the last cut
-    for (Report report;; ++report.cuts)
+    Report           report;
+    // What is hard is so for a while: as long as steps are shorter than asked for.
+    report.is_by_fallback =
+      falls_back && state.clock.begins_anew && state.clock.limit.longest < asked_step * (1 - 1e-9);
+    for (;; ++report.cuts)
       try
         {
           report.dt = asked / (1u << report.halvings);
           energy_monitor.begin_step(state, report);
           budget->start(state.budget_rates);
-          // Rates of bodies in contact contain its forces on both of them: they hold no longer
-          // where one has fallen asleep.
-          const auto rates = state.clock.step > 0 && !state.sleep.begins_anew
-                               ? RatesAtBegin::known
-                               : RatesAtBegin::unknown;
-          physics->advance(state, integrator->stages(report.dt, rates), report);
+          if (report.is_by_fallback)
+            forget_rates(state.fluid);
+          physics->advance(state, stages(state, report), report);
           append(report.columns, budget->columns());
           state.budget_rates = budget->rates();
           assert_finite(report.columns);
-          energy_monitor.judge(state, report, can_be_cut(report));
+          energy_monitor.judge(state, report, can_be_cut(report) || can_fall_back(report));
           judge_error(state, saved, report);
           check_passages(saved, state, report.dt);
           if (steadiness)
@@ -226,33 +252,68 @@ namespace undine
             state.clock.limit.accept_cut(report.dt);
           else
             state.clock.limit.accept(report.dt);
+          state.clock.begins_anew = report.is_by_fallback;
           report.warn("step cuts", cause);
           return report;
         }
       catch (const EnergyMonitor::NoShorterStep &)
         {
           start_again(state, saved, report);
-          report.halvings = report.creations.best_halvings;
-          if (report.halvings == 0)
+          report.halvings       = report.creations.best_halvings;
+          report.is_by_fallback = report.creations.best_is_by_fallback;
+          if (report.halvings == 0 && !report.is_by_fallback)
             cause.clear();
         }
       catch (const SolveError &error)
         {
           start_again(state, saved, report);
-          if (can_be_cut(report))
-            ++report.halvings;
-          else if (report.creations.end())
-            report.halvings = report.creations.best_halvings;
-          else
-            throw SolveError(complaint(asked, report, error));
+          choose_next_attempt(report, asked, error);
           if (report.rejections < report.cuts + 1)
-            cause = fmt::format("a step of {:.4g} s was cut: {}", report.dt, error.what());
+            cause = fmt::format("a step of {:.4g} s was {}: {}",
+                                report.dt,
+                                report.is_by_fallback ? "taken by implicit Euler" : "cut",
+                                error.what());
         }
       catch (const Error &)
         {
           state = saved;
           throw;
         }
+  }
+
+
+  template <int dim>
+  Stages
+  SteppingScheme<dim>::stages(const State<dim> &state, const Report &report) const
+  {
+    if (report.is_by_fallback)
+      return {single_stage(report.dt)};
+    // Rates of bodies in contact contain its forces on both of them: they hold no longer where one
+    // has fallen asleep.
+    const bool are_known =
+      state.clock.step > 0 && !state.clock.begins_anew && !state.sleep.begins_anew;
+    return integrator->stages(report.dt, are_known ? RatesAtBegin::known : RatesAtBegin::unknown);
+  }
+
+
+  /// After one that has failed with `error`, which is thrown, said in full, if there is none.
+  template <int dim>
+  void
+  SteppingScheme<dim>::choose_next_attempt(Report           &report,
+                                           const double      asked,
+                                           const SolveError &error) const
+  {
+    if (can_fall_back(report))
+      report.is_by_fallback = true;
+    else if (can_be_cut(report))
+      ++report.halvings;
+    else if (report.creations.end())
+      {
+        report.halvings       = report.creations.best_halvings;
+        report.is_by_fallback = report.creations.best_is_by_fallback;
+      }
+    else
+      throw SolveError(complaint(asked, report, error));
   }
 
 
@@ -343,6 +404,15 @@ namespace undine
   SteppingScheme<dim>::can_be_cut(const Report &report) const
   {
     return report.dt / 2 >= shortest_step() * (1 - 1e-9);
+  }
+
+
+  template <int dim>
+  bool
+  SteppingScheme<dim>::can_fall_back(const Report &report) const
+  {
+    constexpr double part = .25; // of the step asked for
+    return falls_back && !report.is_by_fallback && report.dt <= part * asked_step * (1 + 1e-9);
   }
 
 

@@ -22,7 +22,7 @@ namespace undine
     namespace fs = std::filesystem;
 
     // Version 1 has no geometry and no digest of statistics.
-    constexpr std::uint64_t format_version = 4;
+    constexpr std::uint64_t format_version = 5;
 
 
     std::array<fs::path, 2>
@@ -132,6 +132,7 @@ namespace undine
       file.add_attribute("steps before a longer one", std::uint64_t(clock.limit.patience));
       file.add_attribute("steps of the longest", std::uint64_t(clock.limit.served));
       file.add_attribute("longest step is doubled", std::uint64_t(clock.limit.is_doubled));
+      file.add_attribute("begins anew", std::uint64_t(clock.begins_anew));
       file.add_attribute("statistics digest",
                          dealii::Utilities::MPI::broadcast(communicator, statistics_digest));
       for (const auto &array : arrays)
@@ -195,6 +196,8 @@ namespace undine
       clock.limit.patience   = file.attribute<std::uint64_t>("steps before a longer one");
       clock.limit.served     = file.attribute<std::uint64_t>("steps of the longest");
       clock.limit.is_doubled = file.attribute<std::uint64_t>("longest step is doubled");
+      if (version >= 5)
+        clock.begins_anew = file.attribute<std::uint64_t>("begins anew");
     }
 
 

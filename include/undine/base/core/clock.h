@@ -20,6 +20,9 @@ namespace undine
 
     StepLimit limit; ///< of the next step, after some that had to be cut
 
+    /// The last step has kept no rates with which stages could go on.
+    bool begins_anew = false;
+
     bool
     ended() const;
 

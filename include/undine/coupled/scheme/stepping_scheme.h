@@ -31,6 +31,11 @@ namespace undine
   /// A step that creates energy is redone like one that fails (EnergyMonitor), but accepted, with a
   /// warning, where shorter ones are not better.
   ///
+  /// Stages go on with rates, and bodies in a fluid end them where the grid has been cut for them:
+  /// for a body that is far lighter than the fluid, shaken within a step, there may be no such end.
+  /// Such a step that fails with a quarter of Time/Step, too, is taken by implicit Euler
+  /// (Time/Fallback), of first order, which damps what shakes; the next one begins without rates.
+  ///
   /// With a tolerance Time/Step is the longest step, and StepError chooses: a step with too large
   /// an error is redone like one that fails, but the shortest one is accepted. What it needs is
   /// part of the state: a resumed run takes the steps that it would have taken.
@@ -99,6 +104,14 @@ namespace undine
     /// Is half the last step of the report long enough?
     bool
     can_be_cut(const Report &report) const;
+    /// Has the last step of the report been made by the integrator, and is it short enough for
+    /// implicit Euler?
+    bool
+    can_fall_back(const Report &report) const;
+    Stages
+    stages(const State<dim> &state, const Report &report) const;
+    void
+    choose_next_attempt(Report &report, double asked, const SolveError &error) const;
     std::string
     complaint(double asked, const Report &last, const SolveError &error) const;
 
@@ -112,6 +125,8 @@ namespace undine
     double                          steady_within       = 0;    // [1]
     double                          steady_for          = 0;    // [s]
     unsigned int                    maximum_cuts        = 6;
+    std::string                     fallback            = "implicit Euler";
+    bool                            falls_back          = false; // where there is something to gain
     bool                            keeps_budget        = false;
     bool                            keeps_impulses      = false;
     bool                            foretells_splitting = false;

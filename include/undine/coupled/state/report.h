@@ -18,11 +18,12 @@ namespace undine
   {
     double       dt                = 0; ///< the step that was accepted [s]
     unsigned int newton_iterations = 0;
-    unsigned int linear_iterations = 0; ///< of all linear solves of the step
-    unsigned int cuts              = 0; ///< how often the asked step was cut and redone
-    unsigned int halvings          = 0; ///< of the asked step
-    unsigned int rejections        = 0; ///< those of the cuts that the error in time asked for
-    unsigned int stages_again      = 0; ///< solved again: bodies were elsewhere or faster
+    unsigned int linear_iterations = 0;     ///< of all linear solves of the step
+    unsigned int cuts              = 0;     ///< how often the asked step was cut and redone
+    unsigned int halvings          = 0;     ///< of the asked step
+    unsigned int rejections        = 0;     ///< those of the cuts that the error in time asked for
+    bool         is_by_fallback    = false; ///< by implicit Euler in the place of the integrator
+    unsigned int stages_again      = 0;     ///< solved again: bodies were elsewhere or faster
     double       newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
     double       newton_residual  = 0; ///< the same over the size of the forces that it sums [1]
     std::string  note;                 ///< what the user may want to know; empty if nothing
@@ -58,7 +59,8 @@ namespace undine
       double       least_energy  = 0; ///< the least that was created [J]
       double       best_share    = 0; ///< of the energy and of what goes in and out, in that try
       unsigned int best_halvings = 0; ///< of the asked step, in that try
-      bool         are_over      = false; ///< that try is carried out again, and accepted
+      bool         best_is_by_fallback = false;
+      bool         are_over            = false; ///< that try is carried out again, and accepted
 
       /// Shorter steps cannot be computed: is there a try to go back to? Then it is gone back to.
       bool

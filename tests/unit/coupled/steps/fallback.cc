@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
+
+#include <coupled/coupled_run.h>
+
+using namespace undine_tests;
+
+namespace
+{
+  /// A block of a hundredth of the water's density rises at 50 g to the open surface of a tank,
+  /// where it shakes within steps of 1/60 s.
+  template <int dim>
+  CoupledRun<dim>
+  block_at_a_surface(const std::string &time)
+  {
+    return CoupledRun<dim>(
+      section("Time", "set Step = 1/60\n" + time) +
+      section("Domain",
+              plane_or_space<dim>("set Cells = 14, 15",
+                                  "set Lower corner = 0, 0, 0\nset Upper corner = 1, 1, 1\n"
+                                  "set Cells = 8, 9, 7")) +
+      section("Fluid",
+              "set Density = 1000\n" +
+                section("Boundaries", boundary("surface", "top", "pressure", "set Pressure = 0"))) +
+      section("Solid numerics",
+              plane_or_space<dim>("set Element degree = 2", "set Element degree = 1")) +
+      section("Bodies",
+              body("block",
+                   plane_or_space<dim>("set Lower corner = .37, .61\nset Upper corner = .62, .83\n"
+                                       "set Cells = 2, 2\n",
+                                       "set Lower corner = .37, .61, .3\n"
+                                       "set Upper corner = .62, .83, .6\nset Cells = 2, 2, 2\n") +
+                     std::string("set Density = 10\nset Young's modulus = 1e7\n"
+                                 "set Poisson's ratio = .2\n"))) +
+      section("Effects",
+              section("contact", "") +
+                section("gravity",
+                        plane_or_space<dim>("set Acceleration = 0, -500",
+                                            "set Acceleration = 0, -500, 0"))));
+  }
+
+
+  template <int dim>
+  double
+  energy(const CoupledRun<dim> &run)
+  {
+    return run.column("Fluid kinetic energy") + run.column("solid kinetic energy") +
+           run.column("solid elastic energy");
+  }
+
+
+  /// Until .1 s there is no more energy than the water has lost of height, as the block rose and as
+  /// it was compressed.
+  template <int dim>
+  void
+  check_fallback()
+  {
+    INFO(dim << "D");
+    auto         run    = block_at_a_surface<dim>("");
+    const double weight = 500 * 990 * run.column("volume block");
+    const double start  = run.column("centre of mass block y");
+    const double volume = run.column("volume block"), depth = 1 - .61;
+    double       rise = 0;
+    unsigned int n    = 0;
+    while (run.state.clock.time < .1)
+      {
+        run.step();
+        rise                    = std::max(rise, run.column("centre of mass block y") - start);
+        const double compressed = volume - run.column("volume block");
+        CHECK(energy(run) < 1.01 * (weight * rise + 500 * 1000 * depth * std::abs(compressed)));
+        n += run.report.is_by_fallback;
+        CHECK(run.state.clock.begins_anew == run.report.is_by_fallback);
+        if (run.report.is_by_fallback)
+          CHECK(run.report.dt < .51 / 60);
+      }
+    CHECK(n > 0);
+  }
+} // namespace
+
+
+TEST_CASE("where stages cannot end a step, implicit Euler does", "[coupled]")
+{
+  check_fallback<2>();
+  check_fallback<3>();
+}
+
+
+TEST_CASE("steps fall back only where they fail, and if the scene allows it", "[coupled]")
+{
+  auto         run      = block_at_a_surface<2>("set Fallback = none");
+  unsigned int cuts     = 0;
+  const auto   has_gone = [&] {
+    while (run.state.clock.time < .06)
+      {
+        run.step();
+        cuts += run.report.cuts;
+        if (run.report.is_by_fallback)
+          return false;
+      }
+    return true;
+  };
+  CHECK(has_gone());
+  CHECK(cuts > 0);
+  auto calm = block_at_a_surface<2>("");
+  calm.step();
+  CHECK(calm.report.cuts == 0);
+  CHECK(!calm.report.is_by_fallback);
+}
