@@ -261,6 +261,8 @@ namespace undine
                              "it is a choice for integrators of one stage",
                              "Remove it: the integrator chosen in 'Time' keeps the volume of "
                              "closed regions by itself. Or choose another one, such as 'theta'.");
+      if (this->has_stages())
+        settings.boundary_flux = "swept"; // of steps that fall back: it keeps that volume, too
       coupling.add("Friction tolerance",
                    settings.friction_tolerance,
                    "1",
