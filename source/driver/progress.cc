@@ -82,6 +82,7 @@ namespace undine
       100 * done,
       readable(seconds_since(begin) * (1 - done) / std::max(done, 1e-12)),
       (report.cuts > 0 ? fmt::format("   step cut {} time(s)", report.cuts) : "") +
+        (report.is_by_fallback ? "   implicit Euler" : "") +
         (report.rejections > 0 ? fmt::format(", {} for its error", report.rejections) : "") +
         (report.creations.number > 0
            ? fmt::format(", {} for the energy that it created", report.creations.number)

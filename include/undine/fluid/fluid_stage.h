@@ -144,8 +144,8 @@ namespace undine
     /// [m/s], which is no rate that the next stage goes on with; empty: none.
     std::optional<Velocity<dim>> by_contact;
 
-    /// The forces on all nodes of surfaces by the pressures that this takes [N], if they are asked
-    /// for; empty: none.
+    /// The forces on all nodes of surfaces by the pressures that changes of contact take [N] (S21),
+    /// also where a stage keeps the mean, if they are asked for; empty: none.
     std::vector<dealii::Tensor<1, dim>> forces_by_contact;
 
     /// For the budget: the work of the effect that has just acted, on this rank, by the effect's

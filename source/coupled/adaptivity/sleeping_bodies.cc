@@ -117,7 +117,9 @@ namespace undine
         try
           {
             Physics<dim>::advance(
-              state, is_first || !contact ? stages : start_anew(stages.back().end), report);
+              state,
+              is_first || !contact || stages.size() == 1 ? stages : start_anew(stages.back().end),
+              report);
             if (!sleep.wake_with(state.sleep))
               return;
           }

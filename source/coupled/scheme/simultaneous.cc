@@ -275,6 +275,12 @@ namespace undine
     }
 
   protected:
+    bool
+    solves_together() const override
+    {
+      return true;
+    }
+
     std::unique_ptr<Physics<dim>>
     couple(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing) const override
     {

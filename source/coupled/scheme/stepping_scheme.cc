@@ -74,8 +74,10 @@ namespace undine
       "",
       Allowed::one_of({"implicit Euler", "none"}),
       "What takes a step of bodies in a fluid that fails with a quarter of Step, too, or "
-      "creates energy, if the integrator has stages: implicit Euler is of first order and "
-      "damps what shakes. Steps that it takes are counted; none: such steps are cut further.");
+      "creates energy, if the integrator has stages and both are solved together in steps of "
+      "a given length, of which Maximum cuts allows a quarter: implicit Euler is of first "
+      "order and damps what shakes. Steps that it takes are counted. none: such steps are cut "
+      "further.");
   }
 
 
@@ -160,8 +162,7 @@ namespace undine
 
     start_passage_check(models);
     falls_back = fallback != "none" && has_stages() && tolerance == 0 && models.solid &&
-                 models.fluid && models.direction == Direction::two_way &&
-                 response_to_created_energy() == EnergyMonitor::Response::redo;
+                 models.fluid && models.direction == Direction::two_way && solves_together();
 
     Report report;
     if (tolerance > 0)
@@ -229,8 +230,8 @@ namespace undine
     std::string      cause; // of the last cut
     Report           report;
     // What is hard is so for a while: as long as steps are shorter than asked for.
-    report.is_by_fallback =
-      falls_back && state.clock.begins_anew && state.clock.limit.longest < asked_step * (1 - 1e-9);
+    report.is_by_fallback = falls_back && state.clock.after_fallback &&
+                            state.clock.limit.longest < asked_step * (1 - 1e-9);
     for (;; ++report.cuts)
       try
         {
@@ -248,11 +249,11 @@ namespace undine
           check_passages(saved, state, report.dt);
           if (steadiness)
             report.steady = steadiness->observe(state, state.clock.time + report.dt);
-          if (report.halvings > 0)
+          if (report.halvings > 0 || (report.is_by_fallback && report.cuts > 0))
             state.clock.limit.accept_cut(report.dt);
           else
             state.clock.limit.accept(report.dt);
-          state.clock.begins_anew = report.is_by_fallback;
+          state.clock.after_fallback = report.is_by_fallback;
           report.warn("step cuts", cause);
           return report;
         }
@@ -267,12 +268,14 @@ namespace undine
       catch (const SolveError &error)
         {
           start_again(state, saved, report);
+          const bool was_by_fallback = report.is_by_fallback;
           choose_next_attempt(report, asked, error);
           if (report.rejections < report.cuts + 1)
-            cause = fmt::format("a step of {:.4g} s was {}: {}",
-                                report.dt,
-                                report.is_by_fallback ? "taken by implicit Euler" : "cut",
-                                error.what());
+            cause = fmt::format(
+              "a step of {:.4g} s was {}: {}",
+              report.dt,
+              report.is_by_fallback && !was_by_fallback ? "taken by implicit Euler" : "cut",
+              error.what());
         }
       catch (const Error &)
         {
@@ -291,7 +294,7 @@ namespace undine
     // Rates of bodies in contact contain its forces on both of them: they hold no longer where one
     // has fallen asleep.
     const bool are_known =
-      state.clock.step > 0 && !state.clock.begins_anew && !state.sleep.begins_anew;
+      state.clock.step > 0 && !state.clock.after_fallback && !state.sleep.begins_anew;
     return integrator->stages(report.dt, are_known ? RatesAtBegin::known : RatesAtBegin::unknown);
   }
 
@@ -431,7 +434,7 @@ namespace undine
                                  const SolveError &error) const
   {
     const std::string shorter =
-      last.cuts == 0 ? "" : fmt::format(" and {} shorter one(s)", last.cuts);
+      last.cuts == 0 ? "" : fmt::format(" and {} more attempt(s) at it", last.cuts);
     return fmt::format("a step of {:.4g} s{} failed, the last one of {:.4g} s: {}\nTime/Step = "
                        "{:.4g} and Time/Maximum cuts = {} allow none shorter than {:.4g} s. If "
                        "steps became shorter and shorter on the way here ('Step cuts' in the "

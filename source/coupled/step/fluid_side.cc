@@ -68,8 +68,8 @@ namespace undine
 
   /// Where the bodies of the surface flux are in this stage, at `time` [s], and how they move. With
   /// contact they get there only as far as they do not run into each other or into walls, with the
-  /// velocity that leads there: that at which the stage starts is one that contact has yet to stop,
-  /// and may be a hundred times as large. What touches goes on with the velocity that contact has
+  /// velocity that leads there: that at which the stage starts is one that contact may have yet to
+  /// stop, or has just stopped. What touches goes on with the velocity that contact has
   /// stopped.
   template <int dim>
   SolidState
@@ -284,15 +284,15 @@ namespace undine
   }
 
 
-  /// Does anything but bodies that give way move and exert friction on the fluid, or flow in?
+  /// Does anything but bodies that give way move and exert friction on the fluid? What flows in
+  /// brings its kinetic energy, which counts elsewhere.
   template <int dim>
   bool
   FluidSide<dim>::has_moving_walls() const
   {
     const auto &boundaries = model.boundaries().all();
     if (std::any_of(boundaries.begin(), boundaries.end(), [](const auto &boundary) {
-          return boundary.kind == BoundaryKind::moving_wall ||
-                 boundary.kind == BoundaryKind::inflow;
+          return boundary.kind == BoundaryKind::moving_wall;
         }))
       return true;
     if (!cut)
@@ -404,7 +404,7 @@ namespace undine
     budget.end_fluid(state.fluid.velocity,
                      fluid.by_contact ? &*fluid.by_contact : nullptr,
                      fluid.advected_from_begin());
-    if (fluid.stage.is_last && report.account && fluid.advected)
+    if (fluid.stage.is_last && report.account && (fluid.advected || fluid.carrying))
       report.account->add_power(-kinetic_energy_outflow(model, state.fluid.velocity));
     Vectors pressures; // those that have accelerated the fluid, before friction corrects them
     if (state.impulses)

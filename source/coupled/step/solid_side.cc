@@ -32,8 +32,8 @@ namespace undine
 
 
   /// How the bodies that `forces` of contact act on are expected to go on from the begin of the
-  /// stage: with the velocity there, without what other forces have changed since and contact has
-  /// yet to stop. All others as they would without contact.
+  /// stage: with the velocity there, without what forces have changed since, of which contact stops
+  /// the rest. All others as they would without contact.
   template <int dim>
   typename SolidSide<dim>::Vector
   SolidSide<dim>::expected_velocity(const State<dim> &state,

@@ -132,7 +132,7 @@ namespace undine
       file.add_attribute("steps before a longer one", std::uint64_t(clock.limit.patience));
       file.add_attribute("steps of the longest", std::uint64_t(clock.limit.served));
       file.add_attribute("longest step is doubled", std::uint64_t(clock.limit.is_doubled));
-      file.add_attribute("begins anew", std::uint64_t(clock.begins_anew));
+      file.add_attribute("after fallback", std::uint64_t(clock.after_fallback));
       file.add_attribute("statistics digest",
                          dealii::Utilities::MPI::broadcast(communicator, statistics_digest));
       for (const auto &array : arrays)
@@ -197,7 +197,7 @@ namespace undine
       clock.limit.served     = file.attribute<std::uint64_t>("steps of the longest");
       clock.limit.is_doubled = file.attribute<std::uint64_t>("longest step is doubled");
       if (version >= 5)
-        clock.begins_anew = file.attribute<std::uint64_t>("begins anew");
+        clock.after_fallback = file.attribute<std::uint64_t>("after fallback");
     }
 
 

@@ -20,8 +20,9 @@ namespace undine
 
     StepLimit limit; ///< of the next step, after some that had to be cut
 
-    /// The last step has kept no rates with which stages could go on.
-    bool begins_anew = false;
+    /// The last step was taken by implicit Euler in the place of stages: there are no rates with
+    /// which these could go on.
+    bool after_fallback = false;
 
     bool
     ended() const;

@@ -64,6 +64,13 @@ namespace undine
     virtual std::unique_ptr<Physics<dim>>
     couple(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing) const = 0;
 
+    /// Does couple() find velocities of bodies and pressures together?
+    virtual bool
+    solves_together() const
+    {
+      return false;
+    }
+
     /// To steps that create energy, unless the scene says otherwise.
     virtual EnergyMonitor::Response
     response_to_created_energy() const

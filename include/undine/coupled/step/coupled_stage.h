@@ -56,16 +56,16 @@ namespace undine
       return x.block(0);
     }
 
-    /// What forces of contact have contributed to the fluid's velocity, after solve() [m/s]; empty:
-    /// nothing touches, or later stages need not know.
+    /// What changes of contact have contributed to the fluid's velocity that is no rate, after
+    /// solve() [m/s]; empty: nothing touches, later stages need not know, or the mean is kept.
     const std::optional<Velocity<dim>> &
     velocity_by_contact() const
     {
       return fluid_by_contact;
     }
 
-    /// The forces on all nodes of surfaces by the pressures that this takes [N], if impulses are
-    /// asked for.
+    /// The forces on all nodes of surfaces by the pressures that changes of contact take [N] (S21),
+    /// if impulses are asked for.
     const typename SurfaceExchange<dim>::Vectors &
     forces_by_contact() const
     {

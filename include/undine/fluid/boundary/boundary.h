@@ -48,7 +48,7 @@ namespace undine
     moving_wall,  ///< v.n = 0, tangential velocity given
     inflow,       ///< v given
     pressure,     ///< reduced pressure given; what comes in comes in normal to the boundary
-    outflow,      ///< no traction; where the flow turns back, p = -rho (v.n)^2 / 2
+    outflow,      ///< pressure P given; where the flow turns back, p = P - rho (v.n)^2 / 2
     periodic      ///< goes on at the opposite side
   };
 
@@ -61,7 +61,7 @@ namespace undine
     std::vector<Side>    sides;
     Expression<dim>      region;   ///< faces whose centre has a value > 0
     Expression<dim, dim> velocity; ///< of inflow and moving wall [m/s]
-    Expression<dim>      pressure; ///< reduced pressure [Pa]
+    Expression<dim>      pressure; ///< reduced pressure; of outflows that outside [Pa]
     bool                 has_region = false;
 
     /// The normal velocity on the faces is given: walls and inflow.

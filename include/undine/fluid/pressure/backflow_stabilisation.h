@@ -15,27 +15,27 @@ namespace undine
 {
   /// The dynamic pressure on outflows where there is backflow, implicit in time and linearised by
   /// Newton's method: with the speed u = -v^{n+1}.n of the backflow through a face and s, a guess
-  /// of it (not below zero),
+  /// of it (not below zero), and the pressure P of the fluid at rest outside,
   ///
-  ///     p = -rho/2 max(0, u)^2  ~  -rho/2 (2 s u - s^2)
+  ///     p = P - rho/2 max(0, u)^2  ~  P - rho/2 (2 s u - s^2)
   ///
   /// Taken from v^n, the impulse h p would more than stop the backflow as soon as fluid crosses a
   /// cell in a step: strips of backflow and strips of outflow would drive each other. Taken
   /// implicitly, the opening takes h rho/2 u^3 of energy per area in a step, which is what the next
   /// transport brings in. v^{n+1} is unique, since it minimises a convex function,
   ///
-  ///     |v - v*|^2 rho V/2 + h rho/6 a max(0, u)^3.
+  ///     |v - v*|^2 rho V/2 + h rho/6 a max(0, u)^3 - h a P u.
   ///
   /// With v^{n+1} = v* + h a (p_c - p)/(rho V) on the face, v outward and p_c the pressure inside,
   ///
-  ///     v^{n+1} = m v* + m h a (p_c - rho s^2/2)/(rho V),   m = 1/(1 + h s a/V),            (F11)
+  ///     v^{n+1} = m v* + m h a (p_c - P - rho s^2/2)/(rho V),   m = 1/(1 + h s a/V),        (F11)
   ///
   /// a face with backflow moves as if it were heavier. This is the directional do-nothing condition
   /// of Braack & Mucha (2014), taken implicitly. @{
 
   /// Let the dynamic pressure act for a step dt [s] on v* = `velocity`, given s: on outflows v*
-  /// becomes m v*; the openings get their mobility m, and the remainder rho s^2/2 as pressure [Pa].
-  /// Not collective.
+  /// becomes m v*; the openings get their mobility m, and P and the remainder rho s^2/2 as pressure
+  /// [Pa]. Not collective.
   template <int dim>
   void
   stabilise_backflow(Velocity<dim>              &velocity,

@@ -69,7 +69,7 @@ namespace
         const double compressed = volume - run.column("volume block");
         CHECK(energy(run) < 1.01 * (weight * rise + 500 * 1000 * depth * std::abs(compressed)));
         n += run.report.is_by_fallback;
-        CHECK(run.state.clock.begins_anew == run.report.is_by_fallback);
+        CHECK(run.state.clock.after_fallback == run.report.is_by_fallback);
         if (run.report.is_by_fallback)
           CHECK(run.report.dt < .51 / 60);
       }
