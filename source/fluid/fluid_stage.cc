@@ -215,7 +215,9 @@ namespace undine
                                ? difference(state.velocity, *advected_begin, stage.duration())
                                : difference(state.velocity, *advected, stage.length);
         if (by_contact)
-          add(state.acceleration, -1 / stage.length, *by_contact);
+          add(state.acceleration,
+              -1 / (advected_begin ? stage.duration() : stage.length),
+              *by_contact);
         state.change = difference(state.velocity, before, stage.duration());
       }
     else if (advected)

@@ -17,6 +17,17 @@
 
 namespace undine
 {
+  /// Forces on all nodes of surfaces by pressures of contact between bodies in a stage [N].
+  template <int dim>
+  struct ContactForces
+  {
+    using Vectors = std::vector<dealii::Tensor<1, dim>>;
+
+    Vectors by_change; ///< of the pressure that acts in the stage, not in that of its end (S21)
+    Vectors not_kept;  ///< of that which is not among the rates that are kept
+  };
+
+
   /// What the effects work on while the fluid goes through a stage (Stage) of a step: they turn
   /// state.velocity from v^0 into v*, which the projection then makes divergence-free:
   ///
@@ -144,9 +155,8 @@ namespace undine
     /// [m/s], which is no rate that the next stage goes on with; empty: none.
     std::optional<Velocity<dim>> by_contact;
 
-    /// The forces on all nodes of surfaces by the pressures that changes of contact take [N] (S21),
-    /// also where a stage keeps the mean, if they are asked for; empty: none.
-    std::vector<dealii::Tensor<1, dim>> forces_by_contact;
+    /// Those of the pressures of contact, if they are asked for; empty: none.
+    ContactForces<dim> forces_by_contact;
 
     /// For the budget: the work of the effect that has just acted, on this rank, by the effect's
     /// own formula [J]; empty: it has none.

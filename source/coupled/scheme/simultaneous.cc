@@ -186,7 +186,7 @@ namespace undine
       found                   = coupled.velocity_of_bodies();
       solid_side.end(state, stage);
       fluid->by_contact        = coupled.velocity_by_contact();
-      fluid->forces_by_contact = coupled.forces_by_contact();
+      fluid->forces_by_contact = coupled.pressures_of_contact();
       balance(coupled, state);
       fluid_side.finish(*fluid, state, report, coupled.divergence());
       budget.end_stage();

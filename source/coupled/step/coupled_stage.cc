@@ -220,16 +220,17 @@ namespace undine
   }
 
 
-  /// The velocities that forces of contact beside the rate give to bodies and fluid together, with
-  /// the inertia of both: light bodies move the fluid rather than themselves. Of the fluid's it
-  /// takes note. They count for the whole stage in its pressure; a pressure is a force per area and
-  /// time (S21).
+  /// The velocities that forces of contact give to bodies and fluid together, as far as they are
+  /// not kept as rates, with the inertia of both: light bodies move the fluid rather than
+  /// themselves. Of the fluid's it takes note. What changes of them counts for the whole stage in
+  /// its pressure; a pressure is a force per area and time (S21).
   template <int dim>
   ContactResponse
   CoupledStage<dim>::respond_to_contact()
   {
-    const auto forces = equations.contact_beside_rate(x.block(0));
-    if (forces.size() == 0)
+    const auto change = equations.change_of_contact(x.block(0));
+    const auto beside = equations.contact_beside_rates(x.block(0));
+    if (change.size() == 0 && beside.size() == 0)
       return {};
     const auto          timed = parts.timing.section("contact");
     BlockSystem::Matrix inertia;
@@ -237,23 +238,39 @@ namespace undine
     inertia *= 1 / fluid.dt;
     fix_rows_and_columns(inertia, parts.models.solid->all_fixed());
     const BlockSystem system(inertia, surface->matrix(), surface->factor(), pressures.matrix());
-    auto              right_side = problem.vector();
-    right_side.block(0)          = forces;
     parts.impulse_solver.start_step(pressures.places());
     parts.impulse_solver.initialize(system, equations.displacement(x.block(0)));
-    const auto response = parts.impulse_solver.solve(right_side, impulse_reduction);
-    if (fluid.stage.kept != KeptRate::mean) // in which they have their part
-      {
-        fluid_by_contact = state.fluid.velocity;
-        add(*fluid_by_contact, -1., state.fluid.velocity);
-        pressures.accelerate(*fluid_by_contact, response.block(1));
-      }
-    const auto pressure = pressures.field(response.block(1));
+    const auto response_to = [&](const Vector &forces) {
+      auto right_side = problem.vector();
+      if (forces.size() == 0)
+        return right_side;
+      right_side.block(0) = forces;
+      return parts.impulse_solver.solve(right_side, impulse_reduction);
+    };
+    const auto by_change = response_to(change);
+    auto       not_kept  = response_to(beside);
+    if (equations.leaves_out_change())
+      not_kept += by_change;
+    fluid_by_contact = state.fluid.velocity;
+    add(*fluid_by_contact, -1., state.fluid.velocity);
+    pressures.accelerate(*fluid_by_contact, not_kept.block(1));
+    const auto pressure = pressures.field(by_change.block(1));
     if (state.impulses)
-      pressure_forces_by_contact = parts.geometry.pressure_forces(pressure);
-    if (fluid.stage.keeps_rates())
-      add(state.fluid.pressure, -1., pressure);
-    return {response.block(0), surface->on_bodies(surface->nodal_forces(pressure))};
+      {
+        forces_by_contact.by_change = parts.geometry.pressure_forces(pressure);
+        forces_by_contact.not_kept =
+          parts.geometry.pressure_forces(pressures.field(not_kept.block(1)));
+      }
+    ContactResponse result;
+    result.velocity = not_kept.block(0);
+    if (change.size() > 0)
+      {
+        add(state.fluid.pressure, -1., pressure);
+        result.by_change = by_change.block(0);
+      }
+    result.pressures = surface->on_bodies(
+      surface->nodal_forces(change.size() > 0 ? pressure : pressures.field(not_kept.block(1))));
+    return result;
   }
 
 

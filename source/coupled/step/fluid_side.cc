@@ -412,7 +412,7 @@ namespace undine
         const auto phase = timing.section("measure");
         pressures        = pressures_on_surfaces(state, fluid.end);
         if (fluid.stage.keeps_rates()) // as they act in the stage
-          pressures = sum(pressures, fluid.forces_by_contact);
+          pressures = sum(pressures, fluid.forces_by_contact.by_change);
       }
     fluid.finish();
     if (fluid.friction)
@@ -467,10 +467,7 @@ namespace undine
     const auto  add     = [&](Impulse<dim> &impulse, const Vectors &forces, const Vectors &kept) {
       impulse.add(fluid.stage, sums_over_bodies(surface, forces), sums_over_bodies(surface, kept));
     };
-    add(impulses.pressure,
-        pressures,
-        fluid.stage.kept == KeptRate::mean ? pressures
-                                           : sum(pressures, fluid.forces_by_contact, -1));
+    add(impulses.pressure, pressures, sum(pressures, fluid.forces_by_contact.not_kept, -1));
     if (fluid.friction)
       add(impulses.friction, viscous_coupling.forces(), viscous_coupling.forces());
   }

@@ -351,7 +351,7 @@ namespace undine
     rest.add(1 - 1 / weight, damping);
     result.inertia_loss += rest * displacement_increment;
     result.inertia_gap += dt * resultant(model, rest);
-    if (by_contact.size() > 0 && contact.keeps_rate_at_end())
+    if (by_contact.size() > 0)
       {
         Vector impulse = model.vector();
         mass.vmult(impulse, by_contact);
@@ -366,9 +366,20 @@ namespace undine
 
   template <int dim>
   typename SolidEquations<dim>::Vector
-  SolidEquations<dim>::contact_beside_rate(const Vector &velocity) const
+  SolidEquations<dim>::change_of_contact(const Vector &velocity) const
   {
-    Vector result = contact.forces_beside_rate(displacement(velocity));
+    Vector result = contact.change(displacement(velocity));
+    if (result.size() > 0)
+      clear_fixed(result, model);
+    return result;
+  }
+
+
+  template <int dim>
+  typename SolidEquations<dim>::Vector
+  SolidEquations<dim>::contact_beside_rates(const Vector &velocity) const
+  {
+    Vector result = contact.beside_rates(displacement(velocity));
     if (result.size() > 0)
       clear_fixed(result, model);
     return result;
@@ -380,11 +391,19 @@ namespace undine
   SolidEquations<dim>::contact_response(const Vector &velocity) const
   {
     ContactResponse result;
-    const Vector    forces = contact_beside_rate(velocity);
-    if (forces.size() > 0)
+    const auto      give = [&](Vector &given, const Vector &forces) {
+      if (forces.size() == 0)
+        return;
+      given = solve_mass(model, mass, forces, model.vector());
+      given *= dt;
+    };
+    give(result.by_change, change_of_contact(velocity));
+    give(result.velocity, contact_beside_rates(velocity));
+    if (leaves_out_change() && result.by_change.size() > 0)
       {
-        result.velocity = solve_mass(model, mass, forces, model.vector());
-        result.velocity *= dt;
+        if (result.velocity.size() == 0)
+          result.velocity = model.vector();
+        result.velocity.add(1., result.by_change);
       }
     return result;
   }
@@ -397,12 +416,12 @@ namespace undine
                                         const ContactResponse &by_contact) const
   {
     Vector result = reactions;
-    if (by_contact.velocity.size() == 0 || !contact.is_part_of_rates())
+    if (by_contact.by_change.size() == 0)
       return result;
     Vector share = model.vector(); // M dv/dt less forces: what supports add to these
-    mass.vmult(share, by_contact.velocity);
+    mass.vmult(share, by_contact.by_change);
     share *= 1 / dt;
-    share.add(-1., contact.forces_beside_rate(displacement(velocity)));
+    share.add(-1., contact.change(displacement(velocity)));
     if (by_contact.pressures.size() > 0)
       share.add(-1., by_contact.pressures);
     for (const auto &fixed : model.fixed())
@@ -422,9 +441,9 @@ namespace undine
     state.acceleration = model.vector();
     state.acceleration.add(
       coefficients.acceleration, velocity, coefficients.acceleration_velocity, old_state.velocity);
-    if (by_contact.velocity.size() > 0 && contact.keeps_rate_at_end())
+    if (by_contact.velocity.size() > 0)
       state.acceleration.add(-coefficients.acceleration, by_contact.velocity);
-    if (contact.is_part_of_rates())
+    if (contact.is_part_of_rates() && contact.is_lasting(state.displacement))
       state.contact_forces = contact.rate(state.displacement);
     const auto &integrator = *model.numerics().integrator;
     if (integrator.uses_acceleration())

@@ -88,11 +88,41 @@ namespace undine
 
   template <int dim>
   typename StepContact<dim>::Vector
-  StepContact<dim>::forces_beside_rate(const Vector &end) const
+  StepContact<dim>::change(const Vector &end) const
+  {
+    if (!is_part_of_rates() || start.weight == 1)
+      return {};
+    return combination(start.weight - 1, rate(end), 1 - start.weight, old_state.contact_forces);
+  }
+
+
+  template <int dim>
+  typename StepContact<dim>::Vector
+  StepContact<dim>::beside_rates(const Vector &end) const
   {
     if (is_part_of_rates())
-      return combination(start.weight - 1, rate(end), 1 - start.weight, old_state.contact_forces);
+      return is_lasting(end)
+               ? Vector()
+               : combination(keeps_rate_at_end() ? 1. : start.weight, rate(end), 0., Vector());
     return model.numerics().integrator->uses_acceleration() ? forces(end) : Vector();
+  }
+
+
+  template <int dim>
+  bool
+  StepContact<dim>::is_lasting(const Vector &end) const
+  {
+    constexpr double largest_change = .5; // of the force
+    Vector           now            = rate(end);
+    if (now.size() == 0)
+      return true;
+    const auto   timed  = timing.section("contact");
+    const Vector before = contact->forces(last_displacement(), last_time());
+    if (before.size() == 0)
+      return false;
+    const double size = now.l2_norm();
+    now.add(-1., before);
+    return now.l2_norm() <= largest_change * size;
   }
 
 

@@ -56,20 +56,19 @@ namespace undine
       return x.block(0);
     }
 
-    /// What changes of contact have contributed to the fluid's velocity that is no rate, after
-    /// solve() [m/s]; empty: nothing touches, later stages need not know, or the mean is kept.
+    /// What forces of contact have contributed to the fluid's velocity that is not kept as a rate,
+    /// after solve() [m/s]; empty: nothing touches, or later stages need not know.
     const std::optional<Velocity<dim>> &
     velocity_by_contact() const
     {
       return fluid_by_contact;
     }
 
-    /// The forces on all nodes of surfaces by the pressures that changes of contact take [N] (S21),
-    /// if impulses are asked for.
-    const typename SurfaceExchange<dim>::Vectors &
-    forces_by_contact() const
+    /// The forces on all nodes of surfaces by the pressures of contact, if impulses are asked for.
+    const ContactForces<dim> &
+    pressures_of_contact() const
     {
-      return pressure_forces_by_contact;
+      return forces_by_contact;
     }
 
     /// v* with the velocities of inflows and walls [m/s].
@@ -129,7 +128,7 @@ namespace undine
     Vector                                  last_pressure;
     Velocity<dim>                           predicted; ///< v*
     std::optional<Velocity<dim>>            fluid_by_contact;
-    typename SurfaceExchange<dim>::Vectors  pressure_forces_by_contact;
+    ContactForces<dim>                      forces_by_contact;
     typename SurfaceExchange<dim>::Vectors  on_nodes;  ///< forces of pressures on the bodies [N]
     Vector                                  reactions; ///< with which the stage balances [N]
     ContactResponse                         bodies_by_contact;

@@ -15,8 +15,10 @@ namespace undine
   {
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-    Vector velocity;  ///< that they give to bodies, with the fluid's inertia [m/s]; empty: none
-    Vector pressures; ///< forces on the bodies by which a fluid answers them [N]; empty: no fluid
+    Vector velocity;  ///< that is not kept as a rate, with the fluid's inertia [m/s]; empty: none
+    Vector by_change; ///< that of the change of contact (S24) [m/s]; empty: none
+    Vector pressures; ///< forces on the bodies by which a fluid answers that, or without rates the
+                      ///< forces of contact [N]; empty: none
   };
 
   /// The balance of momentum over one step (T1), with StageCoefficients, as equations for the end
@@ -157,11 +159,20 @@ namespace undine
       return coefficients.displacement;
     }
 
-    /// Of the forces of contact that act in the step what the rate at its end does not contain [N],
-    /// zero at fixed degrees of freedom; empty if there is nothing, or if neither the integrator
-    /// nor later stages need to know what it does. Collective.
+    /// StepContact::change() and beside_rates() [N], zero at fixed degrees of freedom. Collective.
+    /// @{
     Vector
-    contact_beside_rate(const Vector &velocity) const;
+    change_of_contact(const Vector &velocity) const;
+    Vector
+    contact_beside_rates(const Vector &velocity) const;
+    /// @}
+
+    /// Is what the change of contact does left out of the rates that are kept?
+    bool
+    leaves_out_change() const
+    {
+      return contact.keeps_rate_at_end();
+    }
 
     /// What these do in the step to bodies without a fluid. Collective.
     ContactResponse

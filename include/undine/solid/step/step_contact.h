@@ -41,11 +41,20 @@ namespace undine
     Vector
     forces(const Vector &end_displacement) const;
 
-    /// What of these the rate at the end of the step does not contain [N]: (kappa - 1) (f_c -
-    /// f_c^b) in stages, all of them where the integrator uses accelerations; empty: nothing, or
-    /// nobody needs to know.
+    /// What of these f_c is not [N]: (kappa - 1) (f_c - f_c^b) in stages, nothing else.
     Vector
-    forces_beside_rate(const Vector &end_displacement) const;
+    change(const Vector &end_displacement) const;
+
+    /// What of them no rate contains that is kept, beside the change() in those at the end of a
+    /// stage [N]: f_c, or kappa times that of the mean, of a contact that does not last, and all
+    /// where the integrator uses accelerations; empty: nothing, or nobody needs to know.
+    Vector
+    beside_rates(const Vector &end_displacement) const;
+
+    /// Does contact press about as at the begin of the stage? Then it is part of the rates; what
+    /// hits or leaves something would go on with a rate of one stage.
+    bool
+    is_lasting(const Vector &end_displacement) const;
 
     /// A += factor weight d^2E/dd^2 at the end of the step, or what is convex of it.
     void

@@ -68,7 +68,7 @@ namespace
         CHECK(run.column("momentum closure") < 1e-8);
         if (run.state.clock.time > .5)
           {
-            CHECK(run.column("Fluid kinetic energy") < 1.5 * start);
+            CHECK(run.column("Fluid kinetic energy") < 2 * start);
             CHECK(run.column("nodes in contact") > 0);
           }
       }
