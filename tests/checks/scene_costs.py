@@ -31,7 +31,7 @@ COLUMNS = ("scene", "core seconds", "bytes", "core seconds of two steps", "secon
            "share of the run that was made")
 HEAD = re.compile(r"^# Takes about (\S+ (?:s|min|h)) on one core and writes about (\S+ (?:MB|GB))\.$", re.M)
 ENDS = (0, 3, 7)  # exit codes: at the end, where a scene shows that a step fails, stopped
-FACTOR = 3
+DEARER, CHEAPER = 3, 5  # than what the table has: processors are not equally fast at the yardstick and at scenes
 PREFACE = """# Written by tests/checks/scene_costs.py, which says what it means. Core seconds of whole runs of mok_channel, turek_hron_cfd
 # and _fsi, elastic_plate_cross_flow and pressure_pulse_tube are those of doc/viscous_flows.md, in which they were measured; those of
 # at_rest, body_against_wall_3d, fifty_bodies_3d, folding_sheet_3d, inflated_sphere and two_hundred_bodies are of doc/hard_cases.md.
@@ -97,7 +97,7 @@ def faults(scene, folder):
             ("results take {:.2g} times the bytes", max(whole_size(folder), LEAST_BYTES), max(float(row["bytes"]), LEAST_BYTES))):
         if "bytes" in what and name_of(scene) in ENDS_EARLY:
             continue
-        if not before / FACTOR < value < before * FACTOR:
+        if not before / CHEAPER < value < before * DEARER:
             found.append(f"{what.format(value / before)} that tests/scenes/costs.csv has: the scene's head is not true")
     return found
 

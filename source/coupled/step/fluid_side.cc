@@ -14,6 +14,17 @@ namespace undine
 {
   namespace
   {
+    /// Does the fluid carry its own momentum, and kinetic energy, along?
+    template <int dim>
+    bool
+    is_carried(const Models<dim> &models)
+    {
+      return std::any_of(models.effects.begin(), models.effects.end(), [](const auto &effect) {
+        return effect->name == "convection";
+      });
+    }
+
+
     /// a + factor b, where an empty b is zero.
     template <int dim>
     std::vector<dealii::Tensor<1, dim>>
@@ -404,7 +415,7 @@ namespace undine
     budget.end_fluid(state.fluid.velocity,
                      fluid.by_contact ? &*fluid.by_contact : nullptr,
                      fluid.advected_from_begin());
-    if (fluid.stage.is_last && report.account && (fluid.advected || fluid.carrying))
+    if (fluid.stage.is_last && report.account && is_carried(models))
       report.account->add_power(-kinetic_energy_outflow(model, state.fluid.velocity));
     Vectors pressures; // those that have accelerated the fluid, before friction corrects them
     if (state.impulses)

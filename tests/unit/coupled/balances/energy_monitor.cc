@@ -190,6 +190,7 @@ TEST_CASE("The energy monitor knows all powers", "[coupled]")
   }
   SECTION("inflow, opening and an obstacle that moves, without convection")
   {
+    // Without convection what comes in fast and leaves slowly brings in no kinetic energy.
     check_powers<2>(
       section("Domain", "set Cells = 16, 16") +
       section("Fluid",
