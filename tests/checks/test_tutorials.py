@@ -80,7 +80,7 @@ class SceneCosts(unittest.TestCase):
         self.assertEqual(self.faults(head, 4, 3.2e7), [])
         self.assertEqual(self.faults(head, 11, 3.2e7), [])
         self.assertEqual(self.faults(head, 20, 3.2e7, yardstick=0.3), [], "a machine that is slower by 3")
-        for wrong, word in (((head, 13, 3.2e7), "core seconds"), ((head, 1, 3.2e7), "core seconds"), ((head, 4, 1e8), "bytes"),
+        for wrong, word in (((head, 13, 3.2e7), "core seconds"), ((head, 0.7, 3.2e7), "core seconds"), ((head, 4, 1e8), "bytes"),
                             ((head.replace("3 min", "9 min"), 4, 3.2e7), "must say"), (("set Title = A\n", 4, 3.2e7), "must say")):
             found = self.faults(*wrong)
             self.assertEqual(len(found), 1, found)

@@ -108,6 +108,8 @@ namespace undine
     if (writes_columns && models.direction != Direction::two_way)
       throw InputError("Output / Energy account: of a coupling in one direction there is none. "
                        "Try: remove the key.");
+    if (models.direction != Direction::two_way)
+      return; // what one side gives the other does not get
     auto &account  = state.account.emplace();
     account.energy = account.largest = energy_of(columns);
     add_columns(columns, account, {account, account, 0.});
@@ -119,7 +121,7 @@ namespace undine
   void
   EnergyMonitor::begin_step(State<dim> &state, Report &report) const
   {
-    if (response == "off")
+    if (response == "off" || !state.account)
       return;
     report.account.emplace();
     state.step_begin = state.solid;
@@ -200,9 +202,11 @@ namespace undine
           throw NoShorterStep(text);
       }
     if (step.share > largest_share)
-      report.warn("energy created in a step",
-                  text + (tries.number > 0 ? ", in shorter ones no less" : "") +
-                    ". Try: shorter steps, a finer grid, or the integrator trapezoid_bdf2.");
+      report.warn(
+        "energy created in a step",
+        text + (tries.number > 0 ? ", in shorter ones no less" : "") +
+          ". Try: shorter steps, a finer grid, or, where another integrator has been chosen, "
+          "trapezoid_bdf2.");
   }
 
 
@@ -212,7 +216,7 @@ namespace undine
   {
     state.step_begin = {};
     if (!report.account)
-      return; // off, or a coupling in one direction, which keeps no energy
+      return; // off, or a coupling in one direction
     const auto &last = *state.account;
     auto       &now  = *report.account;
     now.energy       = energy_of(report.columns);

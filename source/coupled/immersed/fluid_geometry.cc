@@ -3,6 +3,7 @@
 #include <undine/cutting/flush_facets.h>
 #include <undine/cutting/whole_facets.h>
 #include <undine/operators/body_forces.h>
+#include <undine/operators/outside_forces.h>
 #include <undine/operators/sampled_regions.h>
 
 #include <deal.II/base/mpi.h>
@@ -135,7 +136,9 @@ namespace undine
 
   template <int dim>
   SweptVolumeFlux
-  FluidGeometry<dim>::swept_volume_flux(const Velocities &given, const double dt) const
+  FluidGeometry<dim>::swept_volume_flux(const BoundaryFlux<dim> &boundary_flux,
+                                        const Velocities        &given,
+                                        const double             dt) const
   {
     StepAccuracy accuracy{dt, 0};
     const auto   include = [&](const auto &place) {
@@ -147,10 +150,18 @@ namespace undine
     for (const auto &position : positions)
       include(position);
     auto result =
-      undine::swept_volume_flux(*flux_operator, cells, parts, surface.surface(), given, accuracy);
+      undine::swept_volume_flux(boundary_flux, cells, parts, surface.surface(), given, accuracy);
     result.bodies = surface.section_names();
     result.scene  = surface.scene_name();
     return result;
+  }
+
+
+  template <int dim>
+  SweptVolumeFlux
+  FluidGeometry<dim>::swept_volume_flux(const Velocities &given, const double dt) const
+  {
+    return swept_volume_flux(*flux_operator, given, dt);
   }
 
 
@@ -177,8 +188,15 @@ namespace undine
   typename FluidGeometry<dim>::Velocities
   FluidGeometry<dim>::pressure_forces(const Field<dim> &pressure) const
   {
-    return nodal_forces(
-      *flux_operator, parts.of_cut_cells(pressure.parts()), model.grid().communicator());
+    return pressure_forces(pressure.parts());
+  }
+
+
+  template <int dim>
+  typename FluidGeometry<dim>::Velocities
+  FluidGeometry<dim>::pressure_forces(const std::vector<double> &pressures) const
+  {
+    return nodal_forces(*flux_operator, parts.of_cut_cells(pressures), model.grid().communicator());
   }
 
 
@@ -186,8 +204,7 @@ namespace undine
   typename FluidGeometry<dim>::Velocities
   FluidGeometry<dim>::uniform_pressure_forces(const double pressure) const
   {
-    const std::vector<double> pressures(parts.open->cells.all().size(), pressure);
-    return nodal_forces(*flux_operator, parts.of_cut_cells(pressures), model.grid().communicator());
+    return pressure_forces(std::vector<double>(parts.open->cells.all().size(), pressure));
   }
 
 
@@ -216,6 +233,15 @@ namespace undine
 
   template <int dim>
   typename FluidGeometry<dim>::Velocities
+  FluidGeometry<dim>::outside_forces(const dealii::Tensor<1, dim> &gravity, const double time) const
+  {
+    return undine::outside_forces(
+      model.boundaries(), surface.surface(), cut_at, model.density() * gravity, time);
+  }
+
+
+  template <int dim>
+  typename FluidGeometry<dim>::Velocities
   FluidGeometry<dim>::other_forces(const dealii::Tensor<1, dim> &gravity, const double time) const
   {
     Velocities forces(positions.size());
@@ -227,6 +253,7 @@ namespace undine
       add(gravity_forces(gravity));
     if (void_regions != nullptr)
       add(void_forces(time));
+    add(outside_forces(gravity, time));
     return forces;
   }
 
@@ -240,12 +267,13 @@ namespace undine
   {
     PressureForces<dim> forces;
     forces.reduced = pressure_forces(pressure);
+    const auto add = [&](const Velocities &more) {
+      for (std::size_t node = 0; node < more.size(); ++node)
+        forces.reduced[node] += more[node];
+    };
     if (void_regions != nullptr)
-      {
-        const auto of_voids = void_forces(time);
-        for (std::size_t node = 0; node < of_voids.size(); ++node)
-          forces.reduced[node] += of_voids[node];
-      }
+      add(void_forces(time));
+    add(outside_forces(gravity, time));
     if (gravity.norm() > 0)
       forces.gravity = gravity_forces(gravity);
     auto columns = pressure_force_columns(surface.surface(), forces);

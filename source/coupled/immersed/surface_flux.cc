@@ -97,11 +97,15 @@ namespace undine
                 const FluidGeometry<dim>   &geometry,
                 const PressureNumbers<dim> &numbers,
                 const SolidEquations<dim>  &solid,
-                const double                dt)
+                const BodiesInStage<dim>   &bodies)
         : SurfaceFlux<dim>(models, geometry, numbers)
         , solid(solid)
-        , dt(dt)
+        , dt(bodies.stage.length)
       {
+        // Their own way, not that by which B where they begin keeps their volume.
+        for (std::size_t node = models.surface->n_body_nodes(); node < bodies.increment.size();
+             ++node)
+          this->velocities[node] = bodies.increment[node] / dt;
       }
 
       void
@@ -206,14 +210,15 @@ namespace undine
     : stage(stage)
     , time(time)
   {
-    if (!stage.keeps_rates())
-      return;
     const auto &surface = *models.surface;
-    before              = surface.positions(state.stage_begin, time + stage.begin);
-    const auto arrived  = surface.positions(state.solid, time + stage.end);
+    before =
+      surface.positions(stage.keeps_rates() ? state.stage_begin : state.solid, time + stage.begin);
+    const auto arrived = surface.positions(state.solid, time + stage.end);
     increment.resize(before.size());
     for (std::size_t node = surface.n_body_nodes(); node < increment.size(); ++node)
       increment[node] = arrived[node] - before[node];
+    if (!stage.keeps_rates())
+      return;
     auto of_bodies = state.mean_velocity;
     of_bodies *= stage.going_on();
     increment = surface.with_bodies(of_bodies, increment);
@@ -232,8 +237,7 @@ namespace undine
     if (bodies.stage.keeps_rates())
       return std::make_unique<FluxAtEnd<dim>>(models, geometry, numbers, solid, bodies);
     if (kind == "swept")
-      return std::make_unique<SweptFlux<dim>>(
-        models, geometry, numbers, solid, bodies.stage.length);
+      return std::make_unique<SweptFlux<dim>>(models, geometry, numbers, solid, bodies);
     return std::make_unique<InitialFlux<dim>>(models, geometry, numbers);
   }
 

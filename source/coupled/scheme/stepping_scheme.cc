@@ -415,7 +415,8 @@ namespace undine
   SteppingScheme<dim>::can_fall_back(const Report &report) const
   {
     constexpr double part = .25; // of the step asked for
-    return falls_back && !report.is_by_fallback && report.dt <= part * asked_step * (1 + 1e-9);
+    const auto is_short   = [&](const double dt) { return dt <= part * asked_step * (1 + 1e-9); };
+    return falls_back && !report.is_by_fallback && is_short(report.dt) && is_short(shortest_step());
   }
 
 

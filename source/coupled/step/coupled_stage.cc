@@ -87,7 +87,7 @@ namespace undine
     pressures.start(state.fluid.velocity,
                     fluid.tracer.velocity(),
                     end_time,
-                    parts.geometry.swept_volume_flux(surface->node_velocities(), fluid.dt));
+                    surface->swept_volume_flux(fluid.dt));
     predicted = state.fluid.velocity;
   }
 

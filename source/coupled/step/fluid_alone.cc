@@ -14,6 +14,7 @@ namespace undine
     , fluid_side(models, budget, timing)
     , projection(*models.fluid)
     , keeps_levels(models.has_sleepers())
+    , loads_bodies(models.direction != Direction::body_to_fluid)
   {
   }
 
@@ -64,6 +65,8 @@ namespace undine
   std::vector<dealii::Tensor<1, dim>>
   FluidAlone<dim>::loads_on_surfaces(const State<dim> &state, const double time) const
   {
+    if (!loads_bodies)
+      return {}; // as bodies that are awake get: what sleeps wakes of its own loads alone
     return fluid_side.loads_on_surfaces(state, time);
   }
 

@@ -4,6 +4,7 @@
 #include <undine/coupled/step/physics.h>
 #include <undine/fluid/model/fluid_quantities.h>
 #include <undine/operators/body_forces.h>
+#include <undine/operators/outside_forces.h>
 #include <undine/operators/static_pressure.h>
 
 #include <algorithm>
@@ -295,41 +296,31 @@ namespace undine
   }
 
 
-  /// Does anything but bodies that give way move and exert friction on the fluid? What flows in
-  /// brings its kinetic energy, which counts elsewhere.
-  template <int dim>
-  bool
-  FluidSide<dim>::has_moving_walls() const
-  {
-    const auto &boundaries = model.boundaries().all();
-    if (std::any_of(boundaries.begin(), boundaries.end(), [](const auto &boundary) {
-          return boundary.kind == BoundaryKind::moving_wall;
-        }))
-      return true;
-    if (!cut)
-      return false;
-    const auto velocities = cut->surface_velocities();
-    return std::any_of(velocities.begin() + models.surface->n_body_nodes(),
-                       velocities.end(),
-                       [](const auto &velocity) { return velocity.norm() > 0; });
-  }
-
-
-  /// Of walls and obstacles that friction moves the fluid with, `gain` being what diffusion has
-  /// added to the fluid's kinetic energy [J]. What bodies have given of it they have lost, and what
-  /// has been dissipated does not count; nor does what walls at rest seem to give, since bodies and
-  /// pressures have yet to act on that velocity.
+  /// Of walls and obstacles that move, by their friction. What obstacles give follows from the
+  /// forces on them. Where walls of the domain move, too, it is taken from `gain`, what diffusion
+  /// has added to the fluid's kinetic energy [J], less what bodies have given of it and lost; what
+  /// has been dissipated does not count. What walls at rest seem to give does not, either, since
+  /// bodies and pressures have yet to act on that velocity.
   template <int dim>
   double
   FluidSide<dim>::power_of_walls(const FluidStage<dim> &fluid, const double gain) const
   {
-    if (!has_moving_walls())
-      return 0;
-    double power = gain / fluid.dt;
-    if (fluid.friction && cut)
-      for (unsigned int node = 0; node < models.surface->n_body_nodes(); ++node)
-        power += fluid.friction->on_nodes[node] * fluid.wall_velocities[node];
-    return std::max(0., power);
+    const auto &boundaries = model.boundaries().all();
+    const bool  walls_move =
+      std::any_of(boundaries.begin(), boundaries.end(), [](const auto &boundary) {
+        return boundary.kind == BoundaryKind::moving_wall;
+      });
+    const auto of_nodes = [&](const std::size_t begin, const std::size_t end) {
+      double power = 0;
+      if (fluid.friction && cut)
+        for (std::size_t node = begin; node < end; ++node)
+          power -= fluid.friction->on_nodes[node] * fluid.wall_velocities[node];
+      return power;
+    };
+    const std::size_t n_bodies = models.surface ? models.surface->n_body_nodes() : 0;
+    if (walls_move)
+      return std::max(0., gain / fluid.dt - of_nodes(0, n_bodies));
+    return fluid.friction && cut ? of_nodes(n_bodies, fluid.friction->on_nodes.size()) : 0;
   }
 
 
@@ -357,8 +348,36 @@ namespace undine
           power -= forces[node] * velocities[node];
         account.add_power(power);
       }
+    if (!is_carried(models))
+      account.add_doubtful_power(kinetic_energy_of_way_made(state));
     if (n_body_nodes > 0)
       add_work_on_bodies(account, state, time, pressures);
+  }
+
+
+  /// Where convection does not carry the fluid along, what makes way for it gives it kinetic
+  /// energy, and what moves into it takes it away, although nothing does work:
+  ///
+  ///     int_Gamma rho |v|^2 / 2 u.n dGamma    [W],    (B5)
+  ///
+  /// n out of the fluid, with the velocities u of all surfaces. In gaps that close it is far larger
+  /// at the end of a step than in the mean.
+  template <int dim>
+  double
+  FluidSide<dim>::kinetic_energy_of_way_made(const State<dim> &state) const
+  {
+    auto velocities = cut->surface_velocities();
+    if (models.solid)
+      velocities = models.surface->with_bodies(state.solid.velocity, std::move(velocities));
+    if (std::all_of(velocities.begin(), velocities.end(), [](const auto &velocity) {
+          return velocity.norm() == 0;
+        }))
+      return 0;
+    const auto forces = cut->pressure_forces(kinetic_energy_densities(model, state.fluid.velocity));
+    double     power  = 0;
+    for (std::size_t node = 0; node < velocities.size(); ++node)
+      power += forces[node] * velocities[node];
+    return power;
   }
 
 
@@ -400,8 +419,33 @@ namespace undine
                           surface.positions(bodies, at),
                           surface.n_body_nodes());
     };
-    const double work = against(state.step_begin, state.clock.time) - against(state.solid, time);
-    account.add_work(work, work);
+    const double work    = against(state.step_begin, state.clock.time) - against(state.solid, time);
+    const auto   outside = works_outside(state, time);
+    account.add_work(work + (outside[0] + outside[1]) / 2, work + outside[1]);
+  }
+
+
+  /// The work of what acts on bodies outside of openings, with its pressures at the begin and at
+  /// the end of the step [J].
+  template <int dim>
+  std::array<double, 2>
+  FluidSide<dim>::works_outside(const State<dim> &state, const double time) const
+  {
+    const auto &surface = *models.surface;
+    const auto  before  = surface.positions(state.step_begin, state.clock.time);
+    const auto  now     = surface.positions(state.solid, time);
+    const auto  work    = [&](const double at) {
+      const auto against = [&](const auto &positions) {
+        return work_outside(model.boundaries(),
+                            surface.surface(),
+                            positions,
+                            surface.n_body_nodes(),
+                            model.density() * environment.gravity,
+                            at);
+      };
+      return against(before) - against(now);
+    };
+    return {{work(state.clock.time), work(time)}};
   }
 
 

@@ -38,7 +38,6 @@ namespace undine
   OneWay<dim>::solve_stage(State<dim> &state, const Stage &stage, Report &report)
   {
     budget.begin_stage(stage);
-    report.account.reset(); // what one side gives the other does not get
     Half half = models.direction == Direction::fluid_to_body
                   ? fluid_then_body(state, stage, report)
                   : body_then_fluid(state, stage, report);

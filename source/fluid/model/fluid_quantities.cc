@@ -199,6 +199,34 @@ namespace undine
 
 
   template <int dim>
+  std::vector<double>
+  kinetic_energy_densities(const FluidModel<dim> &model, const Velocity<dim> &velocity)
+  {
+    const auto *open = velocity.topology();
+    if (!open)
+      return {};
+    const auto          known = with_ghosts(velocity);
+    std::vector<double> densities(open->cells.all().size());
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        std::vector<double> areas(densities.size()), sums(densities.size());
+        for (std::size_t k = 0; k < open->pieces[axis].size(); ++k)
+          for (const int component : open->pieces[axis][k].components)
+            if (component >= 0)
+              {
+                const double area = open->faces[axis].all()[k].measure;
+                areas[component] += area;
+                sums[component] += area * std::pow(known[axis].parts()[k], 2);
+              }
+        for (std::size_t c = 0; c < densities.size(); ++c)
+          if (areas[c] > 0)
+            densities[c] += model.density() * sums[c] / areas[c] / 2;
+      }
+    return densities;
+  }
+
+
+  template <int dim>
   double
   kinetic_energy_outflow(const FluidModel<dim> &model, const Velocity<dim> &velocity)
   {
@@ -247,7 +275,9 @@ namespace undine
 
 
 #define INSTANTIATE(dim)                                                                           \
-  template double kinetic_energy(const FluidModel<dim> &, const Velocity<dim> &);                  \
+  template double              kinetic_energy(const FluidModel<dim> &, const Velocity<dim> &);     \
+  template std::vector<double> kinetic_energy_densities(const FluidModel<dim> &,                   \
+                                                        const Velocity<dim> &);                    \
   template double kinetic_energy_outflow(const FluidModel<dim> &, const Velocity<dim> &);          \
   template double inner_product(                                                                   \
     const FluidModel<dim> &, const Velocity<dim> &, const Velocity<dim> &);                        \

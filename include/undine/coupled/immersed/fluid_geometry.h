@@ -101,7 +101,11 @@ namespace undine
     }
 
     /// The swept-volume flux of the surfaces out of each component of the fluid in a step of dt
-    /// [s]; with the velocities given, or with those of place(). @{
+    /// [s]; with the B and velocities given, or with those of place(). @{
+    SweptVolumeFlux
+    swept_volume_flux(const BoundaryFlux<dim> &boundary_flux,
+                      const Velocities        &velocities,
+                      double                   dt) const;
     SweptVolumeFlux
     swept_volume_flux(const Velocities &velocities, double dt) const;
     SweptVolumeFlux
@@ -117,12 +121,17 @@ namespace undine
     Velocities
     pressure_forces(const Field<dim> &pressure) const;
 
+    /// The same of pressures of the components, [CutTopology::open->cells] [Pa]. Collective.
+    Velocities
+    pressure_forces(const std::vector<double> &pressures) const;
+
     /// The same of a uniform pressure [Pa]. Collective.
     Velocities
     uniform_pressure_forces(double pressure) const;
 
     /// All other forces in the nodes of the surfaces but friction [N]: the weight that the reduced
-    /// pressure leaves out, and the pressures of void regions at `time` [s]. Collective.
+    /// pressure leaves out, the pressures of void regions at `time` [s], and those outside of
+    /// openings. Collective.
     Velocities
     other_forces(const dealii::Tensor<1, dim> &gravity, double time) const;
 
@@ -162,6 +171,8 @@ namespace undine
     gravity_forces(const dealii::Tensor<1, dim> &gravity) const;
     Velocities
     void_forces(double time) const;
+    Velocities
+    outside_forces(const dealii::Tensor<1, dim> &gravity, double time) const;
 
     const ImmersedSurface<dim>                &surface;
     const FluidModel<dim>                     &model;

@@ -50,6 +50,13 @@ namespace undine
       return velocities;
     }
 
+    /// What they sweep in a step of dt [s], see FluidGeometry::swept_volume_flux().
+    SweptVolumeFlux
+    swept_volume_flux(const double dt) const
+    {
+      return geometry.swept_volume_flux(*flux_operator, velocities, dt);
+    }
+
     /// The surface flux out of each component of the fluid, [FluidTopology::cells] [m^dim/s].
     std::vector<double>
     fluxes() const;
@@ -105,11 +112,10 @@ namespace undine
     const Stage  stage;
     const double time; ///< t^n [s]
 
-    /// Of all nodes, if the stage keeps rates. @{
-    typename FluidGeometry<dim>::Positions before; ///< where they were at its begin [m]
-    typename FluidGeometry<dim>::Velocities
-      increment; ///< of bodies to the start of the stage, of obstacles to its end [m]
-    /// @}
+    typename FluidGeometry<dim>::Positions before; ///< where all nodes were at its begin [m]
+
+    /// Of bodies to the start of the stage, of obstacles to its end [m].
+    typename FluidGeometry<dim>::Velocities increment;
   };
 
 

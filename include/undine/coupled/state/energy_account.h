@@ -22,6 +22,15 @@ namespace undine
       exchange += std::abs(more);
     }
 
+    /// The same of one that may be far from its mean at the end of a step: what a step creates is
+    /// judged with and without it.
+    void
+    add_doubtful_power(const double more)
+    {
+      add_power(more);
+      doubtful += more;
+    }
+
     /// The work of a force in the step, and that of the force at the end of it [J].
     void
     add_work(const double more, const double at_end)
@@ -34,6 +43,7 @@ namespace undine
     double energy        = 0; ///< kinetic, elastic and of contact [J]
     double power         = 0; ///< sum of powers [W]
     double exchange      = 0; ///< sum of their sizes [W]
+    double doubtful      = 0; ///< of the sum, what is doubtful [W]
     double work          = 0; ///< sum of works in the step [J]
     double work_at_end   = 0; ///< the same of forces at the end of the step [J]
     double work_exchange = 0; ///< sum of their sizes [J]

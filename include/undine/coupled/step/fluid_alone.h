@@ -36,6 +36,7 @@ namespace undine
     FluidSide<dim>         fluid_side;
     Projection<dim>        projection;
     const bool             keeps_levels; ///< of pressure in closed regions, between sleeping bodies
+    const bool             loads_bodies; ///< that sleep: else they wake of their own loads alone
   };
 } // namespace undine
 

@@ -13,6 +13,7 @@
 #include <undine/fluid/fluid_stage.h>
 #include <undine/fluid/pressure/projection.h>
 
+#include <array>
 #include <memory>
 
 namespace undine
@@ -94,11 +95,15 @@ namespace undine
     }
 
   private:
+    double
+    kinetic_energy_of_way_made(const State<dim> &state) const;
     void
     add_work_on_bodies(EnergyAccount              &account,
                        const State<dim>           &state,
                        double                      time,
                        const PressureBalance<dim> &pressures) const;
+    std::array<double, 2>
+    works_outside(const State<dim> &state, double time) const;
     template <class Action, class Book>
     void
     run_phase(FluidStage<dim> &fluid, const Action &act, const Book &book);
@@ -120,8 +125,6 @@ namespace undine
     bodies() const;
     typename CharacteristicTracer<dim>::Bodies
     no_slip_bodies();
-    bool
-    has_moving_walls() const;
     double
     power_of_walls(const FluidStage<dim> &fluid, double gain) const;
     void

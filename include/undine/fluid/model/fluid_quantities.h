@@ -31,6 +31,13 @@ namespace undine
   double
   kinetic_energy_outflow(const FluidModel<dim> &model, const Velocity<dim> &velocity);
 
+  /// rho |v|^2 / 2 in the components of divided cells, [open->cells] of the velocity's topology, of
+  /// this rank: v_f^2 in the mean over the open areas of each direction [Pa]. Empty where nothing
+  /// is divided.
+  template <int dim>
+  std::vector<double>
+  kinetic_energy_densities(const FluidModel<dim> &model, const Velocity<dim> &velocity);
+
   /// sum_f rho V_f v_f of the faces normal to each axis, [kg m/s] (per metre in 2D).
   template <int dim>
   dealii::Tensor<1, dim>

@@ -231,6 +231,47 @@ TEST_CASE("a fluid that begins to flow wakes bodies in space", "[sleep]")
 }
 
 
+TEST_CASE("bodies that the fluid does not move sleep on in a stream", "[sleep]")
+{
+  CoupledRun<2> run(section("Coupling", "set Direction = body to fluid") + steps_of(.05) +
+                    section("Bodies", post<2>("a", .45, 0)) + channel<2>("t") +
+                    section("Effects", convection() + sleep(1e-2)));
+  bool          slept = false;
+  for (unsigned int n = 0; n < 20; ++n)
+    {
+      run.step();
+      CHECK((!slept || run.column("asleep a") == 1));
+      slept |= run.column("asleep a") == 1;
+    }
+  CHECK(slept);
+  CHECK(run.column("pressure force a x") > 1e-2);
+}
+
+
+TEST_CASE("what a stream gains while bodies are awake is not created when they sleep again",
+          "[sleep]")
+{
+  // The fluid moves bodies and not the other way round, of which there is no energy account.
+  CoupledRun<2> run(section("Coupling", "set Direction = fluid to body") + steps_of(.05) +
+                    section("Bodies", post<2>("a", .45, 0)) +
+                    channel<2>("if(t<.8, .01, if(t<1.6, .01 + 5*(t-.8), 4.01))") +
+                    section("Effects", convection() + sleep(1e-2)));
+  unsigned int  awake        = 0;
+  bool          asleep_again = false;
+  for (unsigned int n = 0; n < 60; ++n)
+    {
+      run.step();
+      CHECK(run.report.cuts == 0);
+      CHECK(run.report.warnings.empty());
+      const bool sleeps = run.column("asleep a") == 1;
+      awake += n > 10 && !sleeps;
+      asleep_again |= awake > 0 && sleeps;
+    }
+  CHECK(awake > 0);
+  CHECK(asleep_again);
+}
+
+
 TEST_CASE("fluid flows on where all bodies sleep", "[sleep][mpi]")
 {
   const std::string friction =
