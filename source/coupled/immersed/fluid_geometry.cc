@@ -209,6 +209,17 @@ namespace undine
 
 
   template <int dim>
+  std::vector<double>
+  FluidGeometry<dim>::static_pressures(const dealii::Tensor<1, dim> &gravity) const
+  {
+    std::vector<double> pressures;
+    for (const auto &component : parts.open->cells.all())
+      pressures.push_back(model.density() * (gravity * component.place));
+    return pressures;
+  }
+
+
+  template <int dim>
   typename FluidGeometry<dim>::Velocities
   FluidGeometry<dim>::gravity_forces(const dealii::Tensor<1, dim> &gravity) const
   {

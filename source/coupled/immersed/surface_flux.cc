@@ -106,6 +106,13 @@ namespace undine
         for (std::size_t node = models.surface->n_body_nodes(); node < bodies.increment.size();
              ++node)
           this->velocities[node] = bodies.increment[node] / dt;
+        if (const auto gravity = models.environment().gravity; gravity.norm() > 0)
+          {
+            static_pressures =
+              geometry.cut_topology().of_cut_cells(geometry.static_pressures(gravity));
+            before = undine::nodal_forces(
+              geometry.boundary_flux(), static_pressures, models.communicator());
+          }
       }
 
       void
@@ -130,10 +137,29 @@ namespace undine
         return solid.displacement_factor() / dt;
       }
 
+      /// The reduced pressure, which acts by the mean of B, holds up the weight of the fluid: were
+      /// that to act by B at the begin, the level of the pressure would move bodies.
+      typename FluidGeometry<dim>::Velocities
+      change_of_weight() const override
+      {
+        if (static_pressures.empty())
+          return {};
+        auto forces = undine::nodal_forces(*mean, static_pressures, this->models.communicator());
+        for (std::size_t node = 0; node < forces.size(); ++node)
+          forces[node] -= before[node];
+        return forces;
+      }
+
     private:
       const SolidEquations<dim>               &solid;
       const double                             dt;
       std::unique_ptr<const BoundaryFlux<dim>> mean;
+
+      /// Of the fluid at rest [CutCells::components] [Pa], and its forces by B at the begin [N];
+      /// empty without gravity. @{
+      std::vector<double>                     static_pressures;
+      typename FluidGeometry<dim>::Velocities before;
+      /// @}
     };
   } // namespace
 

@@ -204,7 +204,7 @@ namespace undine
              const CoupledStage<dim> &step) const
     {
       const auto measured = timing.section("measure");
-      fluid_side.add_work(account, state, time, step.pressure_balance());
+      fluid_side.add_work(account, state, time, step.pressure_balance(), step.pressure());
     }
 
     void

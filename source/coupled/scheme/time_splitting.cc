@@ -86,8 +86,11 @@ namespace undine
       if (stage.is_last && report.account)
         {
           const auto phase = timing.section("measure");
-          fluid_side.add_work(
-            *report.account, state, fluid->end, projected.balance(*models.fluid, state.fluid));
+          fluid_side.add_work(*report.account,
+                              state,
+                              fluid->end,
+                              projected.balance(*models.fluid, state.fluid),
+                              state.fluid.pressure);
         }
       solid_side.finish(state, stage, solid, report);
     }

@@ -75,12 +75,14 @@ namespace undine
   typename CoupledEquations<dim>::Vectors
   CoupledEquations<dim>::nodal_forces(const Unknown &x) const
   {
-    auto result = surface.nodal_forces(fluid.field(x.block(1)));
-    if (!follower.is_on())
-      return result;
-    const auto more = follower.forces(solid.displacement(x.block(0)));
-    for (std::size_t node = 0; node < result.size(); ++node)
-      result[node] += more[node];
+    auto       result = surface.nodal_forces(fluid.field(x.block(1)));
+    const auto add    = [&](const Vectors &more) {
+      for (std::size_t node = 0; node < more.size(); ++node)
+        result[node] += more[node];
+    };
+    add(surface.change_of_weight());
+    if (follower.is_on())
+      add(follower.forces(solid.displacement(x.block(0))));
     return result;
   }
 

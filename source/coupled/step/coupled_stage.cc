@@ -283,13 +283,19 @@ namespace undine
 
 
   template <int dim>
+  Field<dim>
+  CoupledStage<dim>::pressure() const
+  {
+    return pressures.field(x.block(1));
+  }
+
+
+  template <int dim>
   PressureBalance<dim>
   CoupledStage<dim>::pressure_balance() const
   {
-    return undine::pressure_balance(*parts.models.fluid,
-                                    state.fluid.velocity,
-                                    pressures.field(x.block(1)),
-                                    pressures.open_faces());
+    return undine::pressure_balance(
+      *parts.models.fluid, state.fluid.velocity, pressure(), pressures.open_faces());
   }
 
 

@@ -57,7 +57,11 @@ namespace undine
     if (!stage.is_last || !report.account)
       return;
     const auto phase = timing.section("measure");
-    fluid_side.add_work(*report.account, state, fluid->end, projected.balance(model, state.fluid));
+    fluid_side.add_work(*report.account,
+                        state,
+                        fluid->end,
+                        projected.balance(model, state.fluid),
+                        state.fluid.pressure);
   }
 
 

@@ -329,7 +329,8 @@ namespace undine
   FluidSide<dim>::add_work(EnergyAccount              &account,
                            const State<dim>           &state,
                            const double                time,
-                           const PressureBalance<dim> &pressures) const
+                           const PressureBalance<dim> &pressures,
+                           const Field<dim>           &pressure) const
   {
     account.add_power(pressures.power_of_sides);
     const std::size_t n_body_nodes = cut && models.solid ? models.surface->n_body_nodes() : 0;
@@ -342,7 +343,7 @@ namespace undine
     const auto        are_still  = [](const auto &velocity) { return velocity.norm() == 0; };
     if (!std::all_of(velocities.begin() + n_bodies, velocities.end(), are_still))
       {
-        const auto forces = cut->pressure_forces(state.fluid.pressure);
+        const auto forces = cut->pressure_forces(pressure);
         double     power  = 0;
         for (std::size_t node = n_bodies; node < velocities.size(); ++node)
           power -= forces[node] * velocities[node];

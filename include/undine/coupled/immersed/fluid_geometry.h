@@ -129,6 +129,10 @@ namespace undine
     Velocities
     uniform_pressure_forces(double pressure) const;
 
+    /// rho g.x in the centres of the components, [CutTopology::open->cells] [Pa].
+    std::vector<double>
+    static_pressures(const dealii::Tensor<1, dim> &gravity) const;
+
     /// All other forces in the nodes of the surfaces but friction [N]: the weight that the reduced
     /// pressure leaves out, the pressures of void regions at `time` [s], and those outside of
     /// openings. Collective.

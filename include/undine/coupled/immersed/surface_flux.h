@@ -35,6 +35,14 @@ namespace undine
     virtual double
     factor() const = 0;
 
+    /// By how much the mean of the fluid's weight over the motion differs from the load where the
+    /// grid was cut, in the nodes of all surfaces [N]; empty: by nothing. Collective.
+    virtual typename FluidGeometry<dim>::Velocities
+    change_of_weight() const
+    {
+      return {};
+    }
+
     /// B [m^(dim-1)], with a row for each pressure and a column for each degree of freedom of the
     /// bodies, empty for fixed ones.
     const Matrix &

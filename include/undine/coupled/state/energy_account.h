@@ -43,7 +43,6 @@ namespace undine
     double energy        = 0; ///< kinetic, elastic and of contact [J]
     double power         = 0; ///< sum of powers [W]
     double exchange      = 0; ///< sum of their sizes [W]
-    double doubtful      = 0; ///< of the sum, what is doubtful [W]
     double work          = 0; ///< sum of works in the step [J]
     double work_at_end   = 0; ///< the same of forces at the end of the step [J]
     double work_exchange = 0; ///< sum of their sizes [J]
@@ -53,6 +52,7 @@ namespace undine
     double excused       = 0; ///< of these what shorter steps would not avoid [J]
     double uncertain     = 0; ///< how far `created` may be off, as rules for work go [J]
     bool   known         = false;
+    double doubtful      = 0; ///< of `power`; not asked for once the step is judged [W]
   };
 } // namespace undine
 

@@ -82,6 +82,11 @@ namespace undine
     double
     divergence() const;
 
+    /// p after solve(), with what changes of contact take of it and the levels of closed regions as
+    /// they were solved for [Pa]. Collective.
+    Field<dim>
+    pressure() const;
+
     /// The terms of the budget after solve(). Collective. @{
     PressureBalance<dim>
     pressure_balance() const;

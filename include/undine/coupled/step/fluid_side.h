@@ -66,14 +66,16 @@ namespace undine
     }
 
     /// Add to `account`, after finish() of the last stage, the powers of sides, whose balance of
-    /// `pressures` that is, and of obstacles at the end of the step, and the work of what acts on
+    /// `pressures` that is, and of obstacles by the same `pressure` at the end of the step, and the
+    /// work of what acts on
     /// bodies through the fluid: the weight that the reduced pressure leaves out, and the mean
     /// pressure at openings, against which they take their volume. Collective.
     void
     add_work(EnergyAccount              &account,
              const State<dim>           &state,
              double                      time,
-             const PressureBalance<dim> &pressures) const;
+             const PressureBalance<dim> &pressures,
+             const Field<dim>           &pressure) const;
 
     /// Forces of pressure, weight and friction in the nodes of all surfaces [N], after finish(), at
     /// `time` [s]; empty if there is no surface in the fluid. Collective.

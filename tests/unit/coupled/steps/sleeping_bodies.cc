@@ -252,12 +252,14 @@ TEST_CASE("what a stream gains while bodies are awake is not created when they s
           "[sleep]")
 {
   // The fluid moves bodies and not the other way round, of which there is no energy account.
-  CoupledRun<2> run(section("Coupling", "set Direction = fluid to body") + steps_of(.05) +
-                    section("Bodies", post<2>("a", .45, 0)) +
-                    channel<2>("if(t<.8, .01, if(t<1.6, .01 + 5*(t-.8), 4.01))") +
-                    section("Effects", convection() + sleep(1e-2)));
-  unsigned int  awake        = 0;
-  bool          asleep_again = false;
+  CoupledRun<2> run(
+    section("Coupling", "set Direction = fluid to body") + steps_of(.05) +
+    section("Bodies", post<2>("a", .45, 0)) +
+    channel<2>("if(t<.8, .01, if(t<1.6, .01 + 5*(t-.8), 4.01))") +
+    section("Effects",
+            convection() + sleep(1e-2) + section("damping", "set Stiffness coefficient = .05")));
+  unsigned int awake        = 0;
+  bool         asleep_again = false;
   for (unsigned int n = 0; n < 60; ++n)
     {
       run.step();
