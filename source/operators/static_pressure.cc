@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/operators/outside_points.h>
 #include <undine/operators/static_pressure.h>
-#include <undine/surface/simplex.h>
 
-#include <algorithm>
 #include <array>
 
 namespace undine
@@ -19,7 +18,7 @@ namespace undine
     const auto  &origin = grid.lower();
     const double at_origin =
       pressure.at_origin + pressure.gradient * dealii::Tensor<1, dim>(origin);
-    double sum = 0;
+    double sum = 0; // over all of the bodies
     for (const auto &facet : surface.facets())
       {
         if (facet[0] >= n_nodes)
@@ -28,14 +27,20 @@ namespace undine
         dealii::Tensor<1, dim>              mean;
         for (unsigned int k = 0; k < dim; ++k)
           {
-            for (unsigned int d = 0; d < dim; ++d)
-              corners[k][d] =
-                std::clamp(positions[facet[k]][d], grid.lower()[d], grid.upper()[d]) - origin[d];
+            corners[k] = dealii::Point<dim>(positions[facet[k]] - origin);
             mean += dealii::Tensor<1, dim>(corners[k]) / dim;
           }
         sum +=
           mean * area_vector(corners) * (at_origin / dim + pressure.gradient * mean / (dim + 1));
       }
+    for_each_point_outside(grid, surface, positions, n_nodes, [&](const OutsidePoint<dim> &point) {
+      // From the plane of the side to the point the pressure is in the mean that in the middle.
+      const unsigned int axis   = point.sides.front().axis;
+      auto               middle = point.place;
+      middle[axis] -= point.height() / 2;
+      sum += point.into_body[axis] * point.height() *
+             (pressure.at_origin + pressure.gradient * dealii::Tensor<1, dim>(middle));
+    });
     return sum;
   }
 

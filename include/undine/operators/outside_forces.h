@@ -19,9 +19,9 @@ namespace undine
   ///
   /// over what is outside, with n into the body, the nearest point x' of the domain, and the
   /// reduced pressure P given there. The pressure is continuous where bodies pass an opening,
-  /// whatever its level, and along it that of the fluid at rest; beside walls and inflows there is
-  /// none. `weight` rho g [Pa/m]; nodes at `positions` [m]; at `time` [s]. The same on all ranks,
-  /// not collective.
+  /// whatever its level, and along it that of the fluid at rest; beyond walls and inflows alone
+  /// there is none. What is flush with an opening is outside. `weight` rho g [Pa/m]; nodes at
+  /// `positions` [m]; at `time` [s]. The same on all ranks, not collective.
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   outside_forces(const BoundaryMap<dim>                &boundaries,

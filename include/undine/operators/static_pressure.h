@@ -27,9 +27,8 @@ namespace undine
   ///
   ///     int (p + c.x) dV = sum x.N (p / dim + c.x / (dim + 1)),
   ///
-  /// x being the mean of the facet's nodes and N its area vector. Nodes outside of the domain count
-  /// as the nearest points of its sides: parts of a body that stay there add a constant. Only the
-  /// first `n_nodes` nodes and the facets between them count.
+  /// x being the mean of the facet's nodes and N its area vector, less the same over what is
+  /// outside. Only the first `n_nodes` nodes and the facets between them count.
   template <int dim>
   double
   work_against(const StaticPressure<dim>             &pressure,

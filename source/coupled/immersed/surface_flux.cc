@@ -110,7 +110,7 @@ namespace undine
           {
             static_pressures =
               geometry.cut_topology().of_cut_cells(geometry.static_pressures(gravity));
-            before = undine::nodal_forces(
+            static_forces = undine::nodal_forces(
               geometry.boundary_flux(), static_pressures, models.communicator());
           }
       }
@@ -146,7 +146,7 @@ namespace undine
           return {};
         auto forces = undine::nodal_forces(*mean, static_pressures, this->models.communicator());
         for (std::size_t node = 0; node < forces.size(); ++node)
-          forces[node] -= before[node];
+          forces[node] -= static_forces[node];
         return forces;
       }
 
@@ -158,7 +158,7 @@ namespace undine
       /// Of the fluid at rest [CutCells::components] [Pa], and its forces by B at the begin [N];
       /// empty without gravity. @{
       std::vector<double>                     static_pressures;
-      typename FluidGeometry<dim>::Velocities before;
+      typename FluidGeometry<dim>::Velocities static_forces;
       /// @}
     };
   } // namespace

@@ -81,6 +81,7 @@ namespace undine
           budget.add(*solid.balance);
         }
       report.linear_iterations += projected.iterations;
+      const auto pressure = state.fluid.pressure; // that has acted: friction corrects it
       fluid_side.finish(*fluid, state, report, projected.divergence);
       budget.end_stage();
       if (stage.is_last && report.account)
@@ -90,7 +91,7 @@ namespace undine
                               state,
                               fluid->end,
                               projected.balance(*models.fluid, state.fluid),
-                              state.fluid.pressure);
+                              pressure);
         }
       solid_side.finish(state, stage, solid, report);
     }

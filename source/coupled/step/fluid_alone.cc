@@ -52,16 +52,16 @@ namespace undine
     if (budget.is_on())
       balance(state, projected);
     report.linear_iterations += projected.iterations;
+    const bool is_judged = stage.is_last && report.account;
+    const auto pressure  = is_judged ? std::optional(state.fluid.pressure) : std::nullopt;
+    const auto balanced =
+      is_judged ? std::optional(projected.balance(model, state.fluid)) : std::nullopt;
     fluid_side.finish(*fluid, state, report, projected.divergence);
     budget.end_stage();
-    if (!stage.is_last || !report.account)
+    if (!is_judged)
       return;
     const auto phase = timing.section("measure");
-    fluid_side.add_work(*report.account,
-                        state,
-                        fluid->end,
-                        projected.balance(model, state.fluid),
-                        state.fluid.pressure);
+    fluid_side.add_work(*report.account, state, fluid->end, *balanced, *pressure);
   }
 
 

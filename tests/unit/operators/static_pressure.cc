@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/operators/outside_forces.h>
 #include <undine/operators/static_pressure.h>
 
 #include <catch2/catch.hpp>
 #include <cutting/cut_checks.h>
+#include <fluid/fluid_scene.h>
 #include <operators/immersed.h>
 
 using namespace undine_tests;
@@ -60,6 +62,48 @@ namespace
   }
 
 
+  /// The same of what is outside of openings on all sides, for a ball beyond a corner of the
+  /// domain: pressures differ from place to place, one side of the three is a wall.
+  template <int dim>
+  void
+  check_work_outside(const double shift)
+  {
+    INFO(dim << "D, by " << shift);
+    Random              random(2);
+    auto                bodies    = bodies_of_kind<dim>("ball", random);
+    const auto          stretched = make_planes(bodies, Grid::unit, random);
+    const Immersed<dim> immersed(stretched.planes, bodies.surface(), bodies.nodes);
+    const Options       options = read_scene_text(
+      boundary("open", "left, right, top, bottom", "pressure", "set Pressure = 1 + x - 2*y + 3*t"));
+    const auto             boundaries = read_boundaries<dim>(options);
+    const BoundaryMap<dim> map(options, boundaries, immersed.grid);
+    dealii::Tensor<1, dim> weight;
+    weight[1]   = -2;
+    auto places = immersed.positions;
+    for (auto &place : places)
+      for (unsigned int d = 0; d < dim; ++d)
+        place[d] += shift * (immersed.grid.upper()[d] - immersed.grid.lower()[d]) * (1 - .1 * d);
+    const auto forces  = outside_forces(map, immersed.surface, places, weight, .7);
+    const auto work_at = [&](const auto &positions) {
+      return work_outside(map, immersed.surface, positions, immersed.surface.n_nodes(), weight, .7);
+    };
+    constexpr double way   = 1e-6;
+    auto             there = places, back = places;
+    double           work = 0, size = 0;
+    for (std::size_t node = 0; node < there.size(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double step = way * (std::sin(7. * node + d) + (d == 1 ? 1 : 0));
+          there[node][d] += step;
+          back[node][d] -= step;
+          work -= 2 * step * forces[node][d];
+          size += 2 * std::abs(step * forces[node][d]);
+        }
+    CHECK(std::abs(work_at(there) - work_at(back) - work) < 1e-5 * size);
+    CHECK(std::abs(work) > 1e-3 * size);
+  }
+
+
   /// Of four nodes that run clockwise: the solid lies to the left of its facets.
   Surface<2>
   rectangle()
@@ -75,6 +119,16 @@ TEST_CASE("The work against a static pressure is that of its forces", "[operator
     {
       check_work_of_forces<2>(kind);
       check_work_of_forces<3>(kind);
+    }
+}
+
+
+TEST_CASE("The work against what is outside of openings is that of its forces", "[operators]")
+{
+  for (const double shift : {.3, -.5, -.6})
+    {
+      check_work_outside<2>(shift);
+      check_work_outside<3>(shift);
     }
 }
 

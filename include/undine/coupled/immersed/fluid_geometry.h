@@ -129,7 +129,7 @@ namespace undine
     Velocities
     uniform_pressure_forces(double pressure) const;
 
-    /// rho g.x in the centres of the components, [CutTopology::open->cells] [Pa].
+    /// rho g.x in the centroids of the components, [CutTopology::open->cells] [Pa].
     std::vector<double>
     static_pressures(const dealii::Tensor<1, dim> &gravity) const;
 

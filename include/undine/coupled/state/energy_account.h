@@ -23,11 +23,11 @@ namespace undine
     }
 
     /// The same of one that may be far from its mean at the end of a step: what a step creates is
-    /// judged with and without it.
+    /// judged with and without it, and it excuses nothing.
     void
     add_doubtful_power(const double more)
     {
-      add_power(more);
+      power += more;
       doubtful += more;
     }
 
@@ -52,7 +52,8 @@ namespace undine
     double excused       = 0; ///< of these what shorter steps would not avoid [J]
     double uncertain     = 0; ///< how far `created` may be off, as rules for work go [J]
     bool   known         = false;
-    double doubtful      = 0; ///< of `power`; not asked for once the step is judged [W]
+    double doubtful =
+      0; ///< of `power`; not asked for once the step is judged, hence in no checkpoint [W]
   };
 } // namespace undine
 
