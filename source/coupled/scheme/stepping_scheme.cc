@@ -230,8 +230,7 @@ namespace undine
     std::string      cause; // of the last cut
     Report           report;
     // What is hard is so for a while: as long as steps are shorter than asked for.
-    report.is_by_fallback = falls_back && state.clock.after_fallback &&
-                            state.clock.limit.longest < asked_step * (1 - 1e-9);
+    report.is_by_fallback = begins_by_fallback(state);
     for (;; ++report.cuts)
       try
         {
@@ -269,7 +268,7 @@ namespace undine
         {
           start_again(state, saved, report);
           const bool was_by_fallback = report.is_by_fallback;
-          choose_next_attempt(report, asked, error);
+          choose_next_attempt(saved, report, asked, error);
           if (report.rejections < report.cuts + 1)
             cause = fmt::format(
               "a step of {:.4g} s was {}: {}",
@@ -302,14 +301,20 @@ namespace undine
   /// After one that has failed with `error`, which is thrown, said in full, if there is none.
   template <int dim>
   void
-  SteppingScheme<dim>::choose_next_attempt(Report           &report,
+  SteppingScheme<dim>::choose_next_attempt(const State<dim> &state,
+                                           Report           &report,
                                            const double      asked,
                                            const SolveError &error) const
   {
     if (can_fall_back(report))
       report.is_by_fallback = true;
     else if (can_be_cut(report))
-      ++report.halvings;
+      {
+        // What implicit Euler cannot follow either, stages may in half the time, unless they have
+        // failed since the steps before.
+        ++report.halvings;
+        report.is_by_fallback = report.is_by_fallback && begins_by_fallback(state);
+      }
     else if (report.creations.end())
       {
         report.halvings       = report.creations.best_halvings;
@@ -407,6 +412,15 @@ namespace undine
   SteppingScheme<dim>::can_be_cut(const Report &report) const
   {
     return report.dt / 2 >= shortest_step() * (1 - 1e-9);
+  }
+
+
+  template <int dim>
+  bool
+  SteppingScheme<dim>::begins_by_fallback(const State<dim> &state) const
+  {
+    return falls_back && state.clock.after_fallback &&
+           state.clock.limit.longest < asked_step * (1 - 1e-9);
   }
 
 

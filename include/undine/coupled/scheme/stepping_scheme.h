@@ -111,6 +111,9 @@ namespace undine
     /// Is half the last step of the report long enough?
     bool
     can_be_cut(const Report &report) const;
+    /// Does the step from `state` begin by implicit Euler, as the last one did?
+    bool
+    begins_by_fallback(const State<dim> &state) const;
     /// Has the last step of the report been made by the integrator, and is it short enough for
     /// implicit Euler?
     bool
@@ -118,7 +121,10 @@ namespace undine
     Stages
     stages(const State<dim> &state, const Report &report) const;
     void
-    choose_next_attempt(Report &report, double asked, const SolveError &error) const;
+    choose_next_attempt(const State<dim> &state,
+                        Report           &report,
+                        double            asked,
+                        const SolveError &error) const;
     std::string
     complaint(double asked, const Report &last, const SolveError &error) const;
 
