@@ -36,8 +36,8 @@ namespace undine
   ///
   ///     int s p N.e dGamma,
   ///
-  /// with N out of the body and the direction e in which s grows. Of what is beyond two sides the
-  /// first counts. Only the first `n_nodes` nodes and the facets between them count.
+  /// with N out of the body and the direction e in which s grows; of what is beyond two sides s is
+  /// that from the first. Only the first `n_nodes` nodes and the facets between them count.
   template <int dim>
   double
   work_outside(const BoundaryMap<dim>                &boundaries,

@@ -4,6 +4,8 @@
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/solid_side.h>
 
+#include <optional>
+
 namespace undine
 {
   /// Bodies in a fluid, one after the other; all else as in the simultaneous scheme. A step of
@@ -81,17 +83,18 @@ namespace undine
           budget.add(*solid.balance);
         }
       report.linear_iterations += projected.iterations;
-      const auto pressure = state.fluid.pressure; // that has acted: friction corrects it
+      const bool is_judged = stage.is_last && report.account;
+      const auto pressure  = is_judged ? std::optional(state.fluid.pressure) : std::nullopt;
       fluid_side.finish(*fluid, state, report, projected.divergence);
       budget.end_stage();
-      if (stage.is_last && report.account)
+      if (is_judged) // by the pressure that has acted: friction corrects it in the end
         {
           const auto phase = timing.section("measure");
           fluid_side.add_work(*report.account,
                               state,
                               fluid->end,
                               projected.balance(*models.fluid, state.fluid),
-                              pressure);
+                              *pressure);
         }
       solid_side.finish(state, stage, solid, report);
     }

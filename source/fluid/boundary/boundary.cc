@@ -106,8 +106,7 @@ namespace undine
         Allowed::anything(),
         "Reduced pressure p - rho g.x of the kind 'pressure', which needs it; of the kind "
         "'outflow' that of the fluid at rest outside, 0 by default. Bodies that reach out there "
-        "have "
-        "it around them.");
+        "have it around them.");
       boundary.has_region = options.given("Region");
       boundary.kind       = kinds().at(kind);
       for (const auto &side : sides)

@@ -52,8 +52,7 @@ namespace undine
     double excused       = 0; ///< of these what shorter steps would not avoid [J]
     double uncertain     = 0; ///< how far `created` may be off, as rules for work go [J]
     bool   known         = false;
-    double doubtful =
-      0; ///< of `power`; not asked for once the step is judged, hence in no checkpoint [W]
+    double doubtful      = 0; ///< of `power`; only until the step is judged: in no checkpoint [W]
   };
 } // namespace undine
 

@@ -65,11 +65,11 @@ namespace undine
       return viscous_coupling.defect();
     }
 
-    /// Add to `account`, after finish() of the last stage, the powers of sides, whose balance of
-    /// `pressures` that is, and of obstacles by the same `pressure` at the end of the step, and the
-    /// work of what acts on
-    /// bodies through the fluid: the weight that the reduced pressure leaves out, and the mean
-    /// pressure at openings, against which they take their volume. Collective.
+    /// Add to `account`, after finish() of the last stage, the powers at the end of the step of
+    /// sides, whose balance of `pressures` that is, and of obstacles by the same `pressure` [Pa],
+    /// as it has acted; and the work of what acts on bodies through the fluid: the weight that the
+    /// reduced pressure leaves out, the mean pressure at openings, against which they take their
+    /// volume, and what is outside of openings. Collective.
     void
     add_work(EnergyAccount              &account,
              const State<dim>           &state,
