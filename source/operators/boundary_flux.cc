@@ -230,6 +230,27 @@ namespace undine
 
 
   template <int dim>
+  std::vector<double>
+  pressures_on_facets(const CutCells<dim>                   &cut,
+                      const Surface<dim>                    &surface,
+                      const std::vector<dealii::Point<dim>> &place,
+                      const std::vector<double>             &pressures,
+                      const MPI_Comm                         communicator)
+  {
+    AssertDimension(pressures.size(), cut.components.size());
+    std::vector<double> result(surface.facets().size() * dim);
+    for_each_wet_fragment(cut, [&](const auto &fragment) {
+      const double share = share_of_facet(fragment, surface, place);
+      for (unsigned int k = 0; k < dim; ++k)
+        result[fragment.facet * dim + k] +=
+          share * fragment.mean[k] * pressures[fragment.component];
+    });
+    dealii::Utilities::MPI::sum(result, communicator, result);
+    return result;
+  }
+
+
+  template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   gravity_loads(const CutCells<dim>                   &cut,
                 const Surface<dim>                    &surface,
@@ -268,6 +289,8 @@ namespace undine
                                             const std::size_t);                                    \
   template std::vector<dealii::Tensor<1, dim>> nodal_forces(const BoundaryFlux<dim> &,             \
                                                             const std::vector<double> &, MPI_Comm);\
+  template std::vector<double> pressures_on_facets(const CutCells<dim> &, const Surface<dim> &, \
+    const std::vector<dealii::Point<dim>> &, const std::vector<double> &, MPI_Comm); \
   template std::vector<dealii::Tensor<1, dim>> gravity_loads(                                      \
     const CutCells<dim> &, const Surface<dim> &, const std::vector<dealii::Point<dim>> &,          \
     const std::vector<double> &, const dealii::Tensor<1, dim> &, MPI_Comm);

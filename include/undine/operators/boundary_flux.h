@@ -122,6 +122,18 @@ namespace undine
                const std::vector<double> &pressures,
                MPI_Comm                   communicator);
 
+  /// int N_k p over the fluid's part of each facet for its node k, [facet * dim + k], over the
+  /// facet's area, out of the fluid [Pa]: times the area vector of the facet, wherever that moves,
+  /// the forces of `pressures` [CutCells::components] [Pa] in its nodes. The surface was cut at
+  /// `place`. Collective.
+  template <int dim>
+  std::vector<double>
+  pressures_on_facets(const CutCells<dim>                   &cut,
+                      const Surface<dim>                    &surface,
+                      const std::vector<dealii::Point<dim>> &place,
+                      const std::vector<double>             &pressures,
+                      MPI_Comm                               communicator);
+
   /// The forces of the weight that the reduced pressure leaves out (I4), [nodes] [N], the same on
   /// all ranks:
   ///

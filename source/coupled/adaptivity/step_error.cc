@@ -75,7 +75,7 @@ namespace undine
     history.before  = history.samples.front();
     history.uncut   = norms.zero_velocity();
     history.largest = size(state);
-    history.step    = settings.shortest_step;
+    history.step    = settings.first_step;
     take_sample(state, state.clock.time);
   }
 

@@ -3,6 +3,8 @@
 #include <undine/coupled/immersed/surface_flux.h>
 #include <undine/operators/flux_matrix.h>
 
+#include <deal.II/base/bounding_box.h>
+
 namespace undine
 {
   namespace
@@ -123,7 +125,7 @@ namespace undine
         mean_velocity *= 1 / dt;
         this->velocities   = this->models.surface->with_bodies(mean_velocity, this->velocities);
         const auto &before = this->geometry.surface_positions();
-        auto        after  = before;
+        after              = before;
         for (std::size_t node = 0; node < after.size(); ++node)
           after[node] += dt * this->velocities[node];
         mean = std::make_unique<const BoundaryFlux<dim>>(
@@ -150,10 +152,67 @@ namespace undine
         return forces;
       }
 
+      bool
+      has_stiffness() const override
+      {
+        return true;
+      }
+
+      /// A mean area vector is an affine function of the place of each single node at the end, so
+      /// that differences over any length are derivatives, of facets without an area, too.
+      void
+      subtract_stiffness(typename SurfaceFlux<dim>::Matrix &tangent,
+                         const Field<dim>                  &pressure) const override
+      {
+        auto pressures = this->geometry.cut_topology().of_cut_cells(pressure.parts());
+        for (std::size_t c = 0; c < static_pressures.size(); ++c)
+          pressures[c] += static_pressures[c];
+        const auto &immersed = *this->models.surface;
+        const auto &surface  = immersed.surface();
+        const auto &before   = this->geometry.surface_positions();
+        const auto  loads    = pressures_on_facets(
+          this->geometry.cut_cells(), surface, before, pressures, this->models.communicator());
+        const auto corners = dealii::BoundingBox<dim>(before).get_boundary_points();
+        const auto length  = corners.first.distance(corners.second);
+        auto       place   = after;
+        for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
+          for (const unsigned int moved : surface.facets()[facet])
+            for (unsigned int axis = 0; axis < dim && immersed.moves(moved); ++axis)
+              {
+                const auto here = mean_area_vector(surface, facet, before, place);
+                place[moved][axis] += length;
+                const auto change =
+                  (mean_area_vector(surface, facet, before, place) - here) / length;
+                place[moved] = after[moved];
+                for (unsigned int k = 0; k < dim; ++k)
+                  add_to_row(tangent,
+                             surface.facets()[facet][k],
+                             moved,
+                             axis,
+                             -solid.displacement_factor() * loads[facet * dim + k] * change);
+              }
+        tangent.compress(dealii::VectorOperation::add);
+      }
+
     private:
+      void
+      add_to_row(typename SurfaceFlux<dim>::Matrix &tangent,
+                 const unsigned int                 node,
+                 const unsigned int                 moved,
+                 const unsigned int                 axis,
+                 const dealii::Tensor<1, dim>      &change) const
+      {
+        const auto &bodies = *this->models.surface->bodies();
+        for (unsigned int i = 0; i < dim && this->models.surface->moves(node); ++i)
+          if (const auto row = bodies.dofs_of_node(node)[i];
+              tangent.in_local_range(row) && change[i] != 0)
+            tangent.add(row, bodies.dofs_of_node(moved)[axis], change[i]);
+      }
+
       const SolidEquations<dim>               &solid;
       const double                             dt;
       std::unique_ptr<const BoundaryFlux<dim>> mean;
+      std::vector<dealii::Point<dim>>          after; ///< where nodes are at the end [m]
 
       /// Of the fluid at rest [CutCells::components] [Pa], and its forces by B at the begin [N];
       /// empty without gravity. @{

@@ -169,7 +169,8 @@ namespace undine
       step_error = std::make_unique<const StepError<dim>>(
         models,
         *integrator,
-        typename StepError<dim>::Settings{tolerance, displacement, asked_step, shortest_step()});
+        typename StepError<dim>::Settings{
+          tolerance, displacement, asked_step, shortest_step(), first_step()});
     if (steady_within > 0)
       steadiness = std::make_unique<Steadiness<dim>>(models, steady_within, steady_for);
     if (keeps_impulses && models.fluid && models.surface)
@@ -215,7 +216,7 @@ namespace undine
   SteppingScheme<dim>::choose_dt(const State<dim> &state) const
   {
     if (step_error)
-      return state.clock.land(state.history.in_use() ? state.history.step : shortest_step());
+      return state.clock.land(state.history.in_use() ? state.history.step : first_step());
     return state.clock.land(std::min(asked_step, state.clock.limit.longest));
   }
 
@@ -243,7 +244,7 @@ namespace undine
           append(report.columns, budget->columns());
           state.budget_rates = budget->rates();
           assert_finite(report.columns);
-          energy_monitor.judge(state, report, can_be_cut(report) || can_fall_back(report));
+          energy_monitor.judge(state, report, may_create_less(report));
           judge_error(state, saved, report);
           check_passages(saved, state, report.dt);
           if (steadiness)
@@ -319,6 +320,12 @@ namespace undine
       {
         report.halvings       = report.creations.best_halvings;
         report.is_by_fallback = report.creations.best_is_by_fallback;
+      }
+    else if (report.is_by_fallback && begins_by_fallback(state))
+      {
+        report.tries_stages   = true; // at last
+        report.halvings       = 0;
+        report.is_by_fallback = false;
       }
     else
       throw SolveError(complaint(asked, report, error));
@@ -430,7 +437,18 @@ namespace undine
   {
     constexpr double part = .25; // of the step asked for
     const auto is_short   = [&](const double dt) { return dt <= part * asked_step * (1 + 1e-9); };
-    return falls_back && !report.is_by_fallback && is_short(report.dt) && is_short(shortest_step());
+    return falls_back && !report.is_by_fallback && !report.tries_stages && is_short(report.dt) &&
+           is_short(shortest_step());
+  }
+
+
+  /// Is another attempt at a step that creates energy worth its time?
+  template <int dim>
+  bool
+  SteppingScheme<dim>::may_create_less(const Report &report) const
+  {
+    constexpr unsigned int most_halvings = 6;
+    return can_fall_back(report) || (can_be_cut(report) && report.halvings < most_halvings);
   }
 
 
@@ -439,6 +457,16 @@ namespace undine
   SteppingScheme<dim>::shortest_step() const
   {
     return asked_step / (1u << maximum_cuts);
+  }
+
+
+  /// Of a run whose steps are chosen: short, and one that can be cut.
+  template <int dim>
+  double
+  SteppingScheme<dim>::first_step() const
+  {
+    constexpr unsigned int spare_cuts = 2;
+    return asked_step / (1u << (std::max(maximum_cuts, spare_cuts) - spare_cuts));
   }
 
 

@@ -117,13 +117,16 @@ namespace undine
 
   template <int dim>
   void
-  CoupledEquations<dim>::linearise(const Vector &velocity, const Tangent kind)
+  CoupledEquations<dim>::linearise(const Unknown &x, const Tangent kind)
   {
-    const auto displacement = solid.displacement(velocity);
-    tangent                 = std::make_unique<BlockSystem::Matrix>(solid.jacobian(velocity, kind));
-    if (follower.is_on())
+    const auto &velocity     = x.block(0);
+    const auto  displacement = solid.displacement(velocity);
+    tangent = std::make_unique<BlockSystem::Matrix>(solid.jacobian(velocity, kind));
+    // Pressures on surfaces that turn have a stiffness that may be negative: none in convex ones.
+    if (kind == Tangent::exact && (follower.is_on() || surface.has_stiffness()))
       {
         follower.subtract_stiffness(*tangent, solid.displacement_factor(), displacement);
+        surface.subtract_stiffness(*tangent, fluid.field(x.block(1)));
         fix_rows_and_columns(*tangent, model.all_fixed());
       }
     const auto timed = timing.section("solve linear system");
@@ -140,7 +143,7 @@ namespace undine
     reference = here;
     throw_if_interrupted(model.communicator());
     if (request.new_tangent)
-      linearise(x.block(0), request.tangent);
+      linearise(x, request.tangent);
     const auto timed  = timing.section("solve linear system");
     auto       result = solver.solve(residual, request.reduction);
     result *= -1.;

@@ -70,6 +70,29 @@ namespace
   }
 
 
+  /// Forces by the mean of B over a motion are pressures on facets times their mean area vectors.
+  template <int dim>
+  void
+  check_pressures_on_facets(const Immersed<dim> &immersed)
+  {
+    auto after = immersed.positions;
+    for (std::size_t node = 0; node < after.size(); ++node)
+      after[node] += some_vector<dim>(7. * node);
+    const auto pressures = immersed.parts.of_cut_cells(immersed.scattered());
+    const auto loads     = pressures_on_facets(
+      immersed.cut, immersed.surface, immersed.positions, pressures, MPI_COMM_WORLD);
+    std::vector<dealii::Tensor<1, dim>> expected(after.size());
+    for (unsigned int facet = 0; facet < immersed.surface.facets().size(); ++facet)
+      for (unsigned int k = 0; k < dim; ++k)
+        expected[immersed.surface.facets()[facet][k]] +=
+          loads[facet * dim + k] *
+          mean_area_vector(immersed.surface, facet, immersed.positions, after);
+    const BoundaryFlux<dim> mean(immersed.cut, immersed.surface, immersed.positions, after);
+    CHECK(largest_difference(nodal_forces(mean, pressures, MPI_COMM_WORLD), expected) <=
+          1e-12 * largest_norm(expected));
+  }
+
+
   /// Sum of B^T p = - sum of D^T p over the pieces of all faces, those of the domain's sides too.
   template <int dim>
   void
@@ -246,6 +269,13 @@ TEST_CASE("Forces in the nodes equal quadrature over the uncut surface", "[inter
 {
   for_some_bodies<2>(kinds_inside, 5, check_nodal_forces<2>);
   for_some_bodies<3>(kinds_inside, 2, check_nodal_forces<3>);
+}
+
+
+TEST_CASE("Pressures on facets that move", "[interface][mpi]")
+{
+  for_some_bodies<2>(kinds_inside, 5, check_pressures_on_facets<2>);
+  for_some_bodies<3>(kinds_inside, 2, check_pressures_on_facets<3>);
 }
 
 

@@ -116,6 +116,23 @@ TEST_CASE("Newton's method keeps out of where the equations make no sense", "[ne
 }
 
 
+TEST_CASE("Newton's method comes back from where there is no tangent", "[newton]")
+{
+  // Full corrections from 2 lead to -3.5.
+  Scalar problem{[](double x) { return std::atan(x); },
+                 [](double x) {
+                   if (std::abs(x) > 3)
+                     throw SolveError("no tangent");
+                   return 1 / (1 + x * x);
+                 }};
+  Number x{2};
+  solve_newton(problem, x, NewtonOptions());
+  CHECK(std::abs(x.value) < 1e-10);
+  x.value = 5; // from where there is no way back
+  CHECK_THROWS_WITH(solve_newton(problem, x, NewtonOptions()), "no tangent");
+}
+
+
 TEST_CASE("Newton's method says how it failed", "[newton]")
 {
   Scalar problem{[](double x) { return x * x + 1; }, [](double x) { return 2 * x; }};

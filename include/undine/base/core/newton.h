@@ -146,8 +146,18 @@ namespace undine
     relaxed = 0;
     while (report.iterations < limit && (options.fixed_iterations > 0 || !is_done(residual)))
       {
-        const auto    asked      = request(residual);
-        const Unknown correction = problem.correction(x, asked);
+        const auto asked = request(residual);
+        Unknown    correction;
+        try
+          {
+            correction = problem.correction(x, asked);
+          }
+        catch (const SolveError &) // of factors that are singular, say, away from the best point
+          {
+            if (options.fixed_iterations > 0 || relaxed == 0 || !recover(x, residual))
+              throw;
+            continue;
+          }
         if (residual < best.residual)
           {
             best    = {x, correction, residual};

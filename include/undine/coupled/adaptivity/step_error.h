@@ -37,6 +37,7 @@ namespace undine
       double displacement  = 0; ///< D is at least this [m]; 0: a share of the bodies' extent
       double longest_step  = 0; ///< [s]
       double shortest_step = 0; ///< [s]
+      double first_step    = 0; ///< [s]
     };
 
     /// `models` must outlive it. Collective.

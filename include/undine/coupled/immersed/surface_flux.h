@@ -43,6 +43,20 @@ namespace undine
       return {};
     }
 
+    /// Do nodal_forces(pressure) and change_of_weight() depend on u, by B?
+    virtual bool
+    has_stiffness() const
+    {
+      return false;
+    }
+
+    /// Subtract from `tangent` the derivative of both with respect to u: the stiffness of the
+    /// pressure that surfaces turn in. Collective.
+    virtual void
+    subtract_stiffness(Matrix & /*tangent*/, const Field<dim> & /*pressure*/) const
+    {
+    }
+
     /// B [m^(dim-1)], with a row for each pressure and a column for each degree of freedom of the
     /// bodies, empty for fixed ones.
     const Matrix &

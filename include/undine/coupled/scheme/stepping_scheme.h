@@ -108,6 +108,10 @@ namespace undine
     add_error(Report &report, const State<dim> &state) const;
     double
     shortest_step() const;
+    double
+    first_step() const;
+    bool
+    may_create_less(const Report &report) const;
     /// Is half the last step of the report long enough?
     bool
     can_be_cut(const Report &report) const;
@@ -137,7 +141,7 @@ namespace undine
     double                          displacement        = 0;    // [m]
     double                          steady_within       = 0;    // [1]
     double                          steady_for          = 0;    // [s]
-    unsigned int                    maximum_cuts        = 6;
+    unsigned int                    maximum_cuts        = 8;
     std::string                     fallback            = "implicit Euler";
     bool                            falls_back          = false; // where there is something to gain
     bool                            keeps_budget        = false;

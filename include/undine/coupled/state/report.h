@@ -23,6 +23,7 @@ namespace undine
     unsigned int halvings          = 0;     ///< of the asked step
     unsigned int rejections        = 0;     ///< those of the cuts that the error in time asked for
     bool         is_by_fallback    = false; ///< by implicit Euler in the place of the integrator
+    bool         tries_stages      = false; ///< once implicit Euler, which began, could not end it
     unsigned int stages_again      = 0;     ///< solved again: bodies were elsewhere or faster
     double       newton_reduction = 0; ///< last residual norm of Newton's method over the first [1]
     double       newton_residual  = 0; ///< the same over the size of the forces that it sums [1]

@@ -121,7 +121,7 @@ namespace undine
     void
     measure(const Sizes &own);
     void
-    linearise(const Vector &velocity, Tangent kind);
+    linearise(const Unknown &x, Tangent kind);
 
     Sizes reference; ///< where corrections were computed
     Sizes here;      ///< for the point evaluated last

@@ -75,6 +75,58 @@ namespace
       }
     CHECK(n > 0);
   }
+
+
+  /// Lets no stage pass that goes on with rates, at first, and then no other.
+  template <int dim>
+  class Refusal : public Effect<dim>
+  {
+  public:
+    explicit Refusal(const double until)
+      : until(until)
+    {
+    }
+
+    void
+    add_options(const Options &) override
+    {
+    }
+
+    std::string
+    summary() const override
+    {
+      return "";
+    }
+
+    void
+    accelerate(FluidStage<dim> &stage) const override
+    {
+      if (stage.stage.keeps_rates() == (stage.time < until))
+        throw SolveError("refused");
+    }
+
+  private:
+    const double until; ///< [s]
+  };
+
+
+  /// The first step is implicit Euler's, which would begin the next one, too.
+  template <int dim>
+  void
+  check_last_resort()
+  {
+    INFO(dim << "D");
+    const double step = 1. / 60;
+    auto         run  = block_at_a_surface<dim>("");
+    run.models.effects.push_back(std::make_unique<Refusal<dim>>(step / 8));
+    run.step();
+    CHECK(run.report.is_by_fallback);
+    CHECK(run.report.dt == Approx(step / 4));
+    run.step();
+    CHECK(!run.report.is_by_fallback);
+    CHECK(run.report.dt == Approx(step / 4));
+    CHECK(run.report.cuts == 7); // 1/4 to 1/256, before stages are tried
+  }
 } // namespace
 
 
@@ -82,6 +134,13 @@ TEST_CASE("where stages cannot end a step, implicit Euler does", "[coupled]")
 {
   check_fallback<2>();
   check_fallback<3>();
+}
+
+
+TEST_CASE("what implicit Euler cannot end at last, stages are tried for", "[coupled]")
+{
+  check_last_resort<2>();
+  check_last_resort<3>();
 }
 
 

@@ -92,6 +92,14 @@ TEST_CASE("derivative weights are exact for polynomials", "[coupled]")
 }
 
 
+TEST_CASE("the first of steps by a tolerance is short, and can be cut", "[coupled]")
+{
+  Run run(swinging("newmark", 1e-3));
+  run.advance();
+  CHECK(run.report.dt == Approx(.5 / (1 << 10)));
+}
+
+
 TEST_CASE("a tolerance is met within a factor of two", "[coupled]")
 {
   for (const std::string integrator : {"newmark", "generalised_alpha", "theta\nset Theta = 0.6"})

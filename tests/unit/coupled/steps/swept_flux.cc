@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/coupled/immersed/surface_flux.h>
+#include <undine/solid/assembly/mass_matrix.h>
+
+#include <coupled/coupled_run.h>
+
+using namespace undine_tests;
+
+namespace
+{
+  /// A ball and a box with quadratic sides under gravity, beside an obstacle, in water.
+  template <int dim>
+  CoupledRun<dim>
+  ball_and_box()
+  {
+    constexpr const char *material =
+      "\nset Density = 1000\nset Young's modulus = 1e5\nset Poisson's ratio = .3";
+    return CoupledRun<dim>(
+      steps_of(.1) + section("Domain", "set Cells = " + plane_or_space<dim>("8, 8", "8, 8, 8")) +
+      section("Fluid",
+              "set Density = 1000\n" +
+                section("Boundaries", boundary("surface", "top", "pressure", "set Pressure = 0"))) +
+      section("Bodies",
+              body("ball",
+                   "set Shape = ball\nset Radius = .15\nset Centre = " +
+                     plane_or_space<dim>(".3, .3", ".3, .3, .3") + material) +
+                body("box",
+                     "set Cells = " + plane_or_space<dim>("2, 1", "2, 1, 1") +
+                       "\nset Lower corner = " + plane_or_space<dim>(".5, .6", ".5, .6, .4") +
+                       "\nset Upper corner = " + plane_or_space<dim>(".8, .8", ".8, .8, .7") +
+                       material)) +
+      section("Obstacles",
+              section("block",
+                      "set Lower corner = " + plane_or_space<dim>(".6, .1", ".6, .1, .3") +
+                        "\nset Upper corner = " + plane_or_space<dim>(".9, .3", ".9, .3, .6"))) +
+      section(
+        "Effects",
+        section("gravity", "set Acceleration = " + plane_or_space<dim>("1, -9", "1, -9, 2"))));
+  }
+
+
+  /// The surface flux of a step in which bodies move from rest.
+  template <int dim>
+  struct SweptStep
+  {
+    using Vector = typename SolidModel<dim>::Vector;
+
+    SweptStep()
+      : run(ball_and_box<dim>())
+      , mass(mass_matrix(*run.models.solid))
+      , environment(run.models.environment())
+      , equations(*run.models.solid, mass, run.state.solid, environment, 0, dt, timing)
+      , geometry(run.models)
+      , numbers(run.models.fluid->grid(), cut().bodies().topology)
+      , flux(make_surface_flux("swept",
+                               run.models,
+                               geometry,
+                               numbers,
+                               equations,
+                               BodiesInStage<dim>(run.models, run.state, single_stage(dt), 0)))
+    {
+    }
+
+    const FluidGeometry<dim> &
+    cut()
+    {
+      const auto places = run.models.surface->positions(run.state.solid, 0);
+      geometry.place(places, places, std::vector<dealii::Tensor<1, dim>>(places.size()));
+      return geometry;
+    }
+
+    /// Velocities that are neither rigid nor slow [m/s].
+    Vector
+    scattered(const double phase) const
+    {
+      const auto &model  = *run.models.solid;
+      auto        result = model.vector();
+      for (const auto dof : model.locally_owned())
+        {
+          const auto &x = model.rest_position(dof);
+          result(dof)   = .5 * std::sin(phase + 7 * x[0] + 5 * x[dim - 1] + 2 * model.axis(dof));
+        }
+      result.compress(dealii::VectorOperation::insert);
+      return result;
+    }
+
+    Field<dim>
+    scattered_pressure() const
+    {
+      const auto &grid = run.models.fluid->grid();
+      Field<dim>  result(grid.cells(), geometry.bodies().topology);
+      for_each(result.owned(), [&](const GridIndex<dim> &cell) {
+        double sum = 1;
+        for (unsigned int d = 0; d < dim; ++d)
+          sum = std::sin(12.9898 * sum + 78.233 * (cell[d] + 1) * (d + 1));
+        for_each_place(result.divided(), cell, [&](const FacePlace<dim> &place) {
+          value_at(result, cell, place.part) = 1e4 * sum;
+        });
+      });
+      return result;
+    }
+
+    /// On the bodies if they end with this velocity [N].
+    Vector
+    forces(const Vector &velocity, const Field<dim> &pressure)
+    {
+      flux->move(velocity);
+      auto result = flux->on_bodies(flux->nodal_forces(pressure));
+      result.add(1., flux->on_bodies(flux->change_of_weight()));
+      return result;
+    }
+
+    static constexpr double                dt = .1;
+    CoupledRun<dim>                        run;
+    const typename SolidModel<dim>::Matrix mass;
+    const SolidEnvironment<dim>            environment;
+    TimingTree                             timing;
+    SolidEquations<dim>                    equations;
+    FluidGeometry<dim>                     geometry;
+    const PressureNumbers<dim>             numbers;
+    std::unique_ptr<SurfaceFlux<dim>>      flux;
+  };
+
+
+  template <int dim>
+  void
+  check_stiffness()
+  {
+    INFO(dim << "D");
+    SweptStep<dim> step;
+    const auto     pressure = step.scattered_pressure();
+    const auto     here = step.scattered(.3), change = step.scattered(1.1);
+    const auto     at = [&](const double part) {
+      auto velocity = here;
+      velocity.add(part, change);
+      return step.forces(velocity, pressure);
+    };
+    // Forces are quadratic functions of velocities: this difference is the derivative.
+    auto difference = at(.5);
+    difference.add(-1., at(-.5));
+
+    step.flux->move(here);
+    auto stiffness = step.run.models.solid->matrix();
+    step.flux->subtract_stiffness(stiffness, pressure);
+    auto product = step.run.models.solid->vector();
+    stiffness.vmult(product, change);
+    CHECK(product.l2_norm() > 10);
+    difference.add(1., product);
+    CHECK(difference.l2_norm() <= 1e-10 * product.l2_norm());
+  }
+} // namespace
+
+
+TEST_CASE("The tangent knows how surfaces turn in a step by swept flux", "[coupled][mpi]")
+{
+  check_stiffness<2>();
+  check_stiffness<3>();
+}
