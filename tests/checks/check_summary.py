@@ -66,6 +66,7 @@ def check_nothing_left(program, folder):
 
 def check_failure(program, scene, folder):
     code, _, said = scene_tools.ended(program, [scene, "--output", folder, *SHORT, "--set", "Time/End=0.05", "--set",
+                                                "Time/Maximum cuts=2", "--set",
                                                 "Solid numerics/Newton maximum iterations=1"])
     found = summary(folder)
     require(code == 3 and not found["ended"] and "step 1" in found["failure"] and found["failure"].split()[0] in said,
