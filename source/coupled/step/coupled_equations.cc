@@ -123,12 +123,13 @@ namespace undine
     const auto  displacement = solid.displacement(velocity);
     tangent = std::make_unique<BlockSystem::Matrix>(solid.jacobian(velocity, kind));
     // Pressures on surfaces that turn have a stiffness that may be negative: none in convex ones.
-    if (kind == Tangent::exact && (follower.is_on() || surface.has_stiffness()))
-      {
-        follower.subtract_stiffness(*tangent, solid.displacement_factor(), displacement);
-        surface.subtract_stiffness(*tangent, fluid.field(x.block(1)));
-        fix_rows_and_columns(*tangent, model.all_fixed());
-      }
+    const bool is_exact = kind == Tangent::exact;
+    if (is_exact && follower.is_on())
+      follower.subtract_stiffness(*tangent, solid.displacement_factor(), displacement);
+    if (is_exact && surface.has_stiffness())
+      surface.subtract_stiffness(*tangent, fluid.field(x.block(1)));
+    if (is_exact && (follower.is_on() || surface.has_stiffness()))
+      fix_rows_and_columns(*tangent, model.all_fixed());
     const auto timed = timing.section("solve linear system");
     system           = std::make_unique<const BlockSystem>(
       *tangent, surface.matrix(), surface.factor(), fluid.matrix());
