@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/fluid/convection/dual_halves.h>
 #include <undine/fluid/convection/dual_transfer.h>
+#include <undine/fluid/grid/cell_links.h>
 #include <undine/fluid/grid/field_algebra.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
-#include <limits>
-#include <optional>
-#include <utility>
 #include <vector>
 
 namespace undine
 {
   namespace
   {
-    constexpr int none = -2; ///< no place or component; -1 is a face or a cell that is whole
-
-
     /// The component below or above a place; -1: a cell that is whole.
     template <int dim>
     int
@@ -38,12 +35,15 @@ namespace undine
     , before(dual_halves(grid, topology_before))
     , now(dual_halves(grid, topology_now))
     , vicinity(vicinity)
+    , cells(grid, topology_before, topology_now, vicinity)
   {
+    find_passages();
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
         around[axis] = sums_around(axis, {{now[0][axis], now[1][axis]}});
         around[axis].exchange(1);
       }
+    find_relays();
   }
 
 
@@ -72,18 +72,24 @@ namespace undine
   }
 
 
-  /// The places of a face on a topology.
+  /// The places of a face that belong to a component below it (end 0) or above.
   template <int dim>
-  std::vector<typename DualTransfer<dim>::Opening>
-  DualTransfer<dim>::openings(const SubLattice<dim> *divided,
+  std::vector<Opening<dim>>
+  DualTransfer<dim>::openings(const DualHalves<dim> &halves,
                               const unsigned int     axis,
-                              const GridIndex<dim>  &face) const
+                              const GridIndex<dim>  &face,
+                              const unsigned int     end,
+                              const int              component) const
   {
-    std::vector<Opening> result;
+    const auto               &half    = halves[end][axis];
+    const auto               *divided = half.divided();
+    std::vector<Opening<dim>> result;
     for_each_place(divided, face, [&](const FacePlace<dim> &one) {
+      if (component_at(half, one, end) != component)
+        return;
       if (one.part < 0)
         result.push_back(
-          {one.part, vicinity.place(grid.faces(axis)->point(face)), grid.face_area(axis, face)});
+          {-1, vicinity.place(grid.faces(axis)->point(face)), grid.face_area(axis, face)});
       else
         result.push_back({one.part,
                           vicinity.place(divided->all()[one.part].place),
@@ -93,177 +99,205 @@ namespace undine
   }
 
 
-  /// The place on the same face that a place has become; part `none`: there is no such. Places and
-  /// successors are one to one, the nearest ones first. The only ones of a face are the same if
-  /// they overlap and no surface has passed between: their centroids may lie in a body.
   template <int dim>
-  FacePlace<dim>
-  DualTransfer<dim>::successor(const unsigned int axis, const FacePlace<dim> &place) const
+  void
+  DualTransfer<dim>::find_passages()
   {
-    auto old_places = openings(before[0][axis].divided(), axis, place.face),
-         new_places = openings(now[0][axis].divided(), axis, place.face);
-    if (old_places.size() == 1 && new_places.size() == 1 &&
-        old_places[0].area + new_places[0].area > grid.face_area(axis, place.face) &&
-        !vicinity.parts(old_places[0].centre.point, new_places[0].centre.point))
-      return {place.face, new_places[0].part};
-    while (true)
+    for (const auto &route : cells.routes())
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        for (const unsigned int end : {0, 1})
+          find_passages(axis, end, route);
+    // Bodies may touch, or have touched, the faces of cells that are kept from the other side.
+    for_each(known_points(*grid.cells()), [&](const GridIndex<dim> &cell) {
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        for (const unsigned int end : {0, 1})
+          if (!is_uncut(axis, moved<dim>(cell, axis, 1 - end)) && cells.is_kept(cell))
+            find_passages(axis, end, {{cell, -1}, -1, 1.});
+    });
+  }
+
+
+  /// The half below (end 0) or above faces normal to `axis`, if this rank owns the face or the
+  /// cell.
+  template <int dim>
+  void
+  DualTransfer<dim>::find_passages(const unsigned int                       axis,
+                                   const unsigned int                       end,
+                                   const typename CellTransfer<dim>::Route &route)
+  {
+    const auto &cell = route.from.cell;
+    const auto  face = moved<dim>(cell, axis, 1 - static_cast<int>(end));
+    if (!grid.cells()->owned().contains(cell) && !grid.faces(axis)->owned().contains(face))
+      return;
+    const auto old_ones = openings(before, axis, face, end, route.from.component),
+               new_ones = openings(now, axis, face, end, route.to);
+    std::vector<bool> is_left(old_ones.size(), false);
+    const auto add = [&](const std::size_t k, const std::optional<int> &part, const double share) {
+      passages[axis].push_back(
+        {{face, old_ones[k].part}, end, {cell, route.to}, part, share * route.share});
+    };
+    for (const auto &one : successions(old_ones, new_ones, grid.face_area(axis, face), vicinity))
       {
-        std::size_t i = 0, j = 0;
-        double      nearest = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < old_places.size(); ++k)
-          for (std::size_t l = 0; l < new_places.size(); ++l)
-            if (const double distance =
-                  old_places[k].centre.point.distance(new_places[l].centre.point);
-                distance < nearest && vicinity.leads_to(old_places[k].centre, new_places[l].centre))
-              {
-                nearest = distance;
-                i       = k;
-                j       = l;
-              }
-        if (nearest == std::numeric_limits<double>::infinity())
-          return {place.face, none};
-        if (old_places[i].part == place.part)
-          return {place.face, new_places[j].part};
-        old_places.erase(old_places.begin() + i);
-        new_places.erase(new_places.begin() + j);
+        is_left[one.before] = true;
+        add(one.before, new_ones[one.now].part, one.share);
+      }
+    for (std::size_t k = 0; k < old_ones.size(); ++k)
+      if (!is_left[k])
+        add(k, {}, 1.);
+  }
+
+
+  /// Does a half go from a whole face to the same one, and nowhere else?
+  template <int dim>
+  bool
+  DualTransfer<dim>::stays(const unsigned int    axis,
+                           const GridIndex<dim> &face,
+                           const unsigned int    end) const
+  {
+    return is_uncut(axis, face) && cells.is_kept(moved<dim>(face, axis, static_cast<int>(end) - 1));
+  }
+
+
+  template <int dim>
+  void
+  DualTransfer<dim>::stay(Halves            &result,
+                          Field<dim>        &excess,
+                          const unsigned int axis,
+                          const Amounts     &amounts) const
+  {
+    const auto &my_faces = grid.faces(axis)->owned();
+    const auto &my_cells = grid.cells()->owned();
+    for_each(known_points(*grid.cells()), [&](const GridIndex<dim> &cell) {
+      for (const unsigned int end : {0, 1})
+        {
+          const auto face = moved<dim>(cell, axis, 1 - static_cast<int>(end));
+          if (!stays(axis, face, end))
+            continue;
+          if (my_faces.contains(face))
+            result[end](face) = amounts.staying[end](face);
+          if (my_cells.contains(cell))
+            excess(cell) += amounts.leaving[end](face);
+        }
+    });
+  }
+
+
+  /// What is in components that have been covered, taken to those that it was joined to.
+  template <int dim>
+  Field<dim>
+  DualTransfer<dim>::excess_of_covered(const unsigned int axis, const Amounts &amounts) const
+  {
+    if (!cells.any_is_covered())
+      return Field<dim>(grid.cells(), now[0][axis].topology());
+    Field<dim> result(grid.cells(), before[0][axis].topology());
+    for_each_cell_place(result, [&](const PressurePlace<dim> &place) {
+      if (!cells.is_covered(place))
+        return;
+      for (const unsigned int end : {0, 1})
+        for (const auto &one : openings(before,
+                                        axis,
+                                        moved<dim>(place.cell, axis, 1 - static_cast<int>(end)),
+                                        end,
+                                        place.component))
+          {
+            const FacePlace<dim> from{moved<dim>(place.cell, axis, 1 - static_cast<int>(end)),
+                                      one.part};
+            value_at(result, place) +=
+              value_at(amounts.staying[end], from) + value_at(amounts.leaving[end], from);
+          }
+    });
+    return cells.transfer(result);
+  }
+
+
+  template <int dim>
+  void
+  DualTransfer<dim>::follow_passages(Halves            &result,
+                                     Field<dim>        &excess,
+                                     const unsigned int axis,
+                                     const Amounts     &amounts) const
+  {
+    const auto &my_faces = grid.faces(axis)->owned();
+    const auto &my_cells = grid.cells()->owned();
+    for (const auto &one : passages[axis])
+      {
+        const double staying = one.share * value_at(amounts.staying[one.end], one.from);
+        const double leaving = one.share * value_at(amounts.leaving[one.end], one.from);
+        if (one.part && my_faces.contains(one.from.face))
+          value_at(result[one.end], one.from.face, *one.part) += staying;
+        if (my_cells.contains(one.to.cell))
+          value_at(excess, one.to) += one.part ? leaving : leaving + staying;
       }
   }
 
 
-  /// The nearest one of a cell now, `on_side`: on the same side of the surfaces, that has places
-  /// along the axis; -1 if the cell is whole.
-  template <int dim>
-  int
-  DualTransfer<dim>::component_for(const unsigned int                       axis,
-                                   const GridIndex<dim>                    &cell,
-                                   const typename BodyVicinity<dim>::Place &from,
-                                   const bool                               on_side) const
-  {
-    const auto leads_to = [&](const dealii::Point<dim> &place) {
-      return !on_side || vicinity.leads_to(from, vicinity.place(place));
-    };
-    const auto *divided = around[axis].divided();
-    if (is_whole(divided, cell))
-      return leads_to(grid.cells()->point(cell)) ? -1 : none;
-    int    result  = none;
-    double nearest = std::numeric_limits<double>::infinity();
-    for_each_part(*divided, cell, [&](const int component) {
-      const auto  &place    = divided->all()[component].place;
-      const double distance = place.distance(from.point);
-      if (around[axis].parts()[component] > 0 && distance < nearest && leads_to(place))
-        {
-          nearest = distance;
-          result  = component;
-        }
-    });
-    return result;
-  }
-
-
-  /// Where a half that does not stay goes: to what its cell has on its side of the surfaces, or the
-  /// cell beyond the face. A centroid may lie in a body, which hides it, though no surface has
-  /// passed over it: then the side does not count.
-  template <int dim>
-  typename DualTransfer<dim>::Destination
-  DualTransfer<dim>::destination(const unsigned int    axis,
-                                 const FacePlace<dim> &place,
-                                 const unsigned int    end) const
-  {
-    const auto from   = vicinity.place(centre_before(axis, place, end));
-    const auto home   = moved<dim>(place.face, axis, end == 0 ? -1 : 0);
-    const auto beyond = moved<dim>(place.face, axis, end == 0 ? 0 : -1);
-    const auto find   = [&](const bool on_side) -> std::optional<Destination> {
-      for (const auto &cell : {home, beyond})
-        if (cell == home || !grid.at_boundary(axis, place.face))
-          if (const int component = component_for(axis, cell, from, on_side); component != none)
-            return Destination{cell, component};
-      return {};
-    };
-    auto result = find(true);
-    if (!result && !vicinity.is_swept(from))
-      result = find(false);
-    return result.value_or(Destination{home, none});
-  }
-
-
-  /// Of what was in the cell below or above a place.
-  template <int dim>
-  dealii::Point<dim>
-  DualTransfer<dim>::centre_before(const unsigned int    axis,
-                                   const FacePlace<dim> &place,
-                                   const unsigned int    end) const
-  {
-    const int component = component_at(before[end][axis], place, end);
-    if (component >= 0)
-      return before[end][axis].topology()->cells.all()[component].place;
-    auto      result = grid.faces(axis)->point(place.face);
-    const int cell   = place.face[axis] + static_cast<int>(end) - 1;
-    result[axis] += (end == 0 ? -0.5 : 0.5) * grid.cell_width(axis, cell);
-    return result;
-  }
-
-
-  /// What stays goes to where its place is now.
+  /// In proportion to the areas between them.
   template <int dim>
   void
-  DualTransfer<dim>::stay(Halves &result, const unsigned int axis, const Amounts &amounts) const
+  DualTransfer<dim>::find_relays()
   {
-    for_each(grid.faces(axis)->owned(), [&](const GridIndex<dim> &face) {
-      for_each_place(before[0][axis].divided(), face, [&](const FacePlace<dim> &place) {
-        const auto to = is_uncut(axis, face) ? place : successor(axis, place);
-        for (const unsigned int end : {0, 1})
-          if (to.part != none)
-            value_at(result[end], to.face, to.part) += value_at(amounts.staying[end], place);
-      });
-    });
+    const auto &open = now[0][0].topology();
+    for (unsigned int axis = 0; open && axis < dim; ++axis)
+      {
+        Field<dim> ways(grid.cells(), open); // [m^(dim-1)]
+        for (unsigned int d = 0; d < dim; ++d)
+          for (int k = 0; k < static_cast<int>(open->pieces[d].size()); ++k)
+            for (const unsigned int end : {0, 1})
+              if (open->pieces[d][k].components[end] >= 0 &&
+                  open->pieces[d][k].components[1 - end] != FluidTopology<dim>::outside)
+                {
+                  const auto from   = end_of_piece(*open, d, k, end),
+                             to     = end_of_piece(*open, d, k, 1 - end);
+                  const double area = open->faces[d].all()[k].measure;
+                  if (!(area > 0) || value_at(around[axis], from) > 0 ||
+                      !(value_at(around[axis], to) > 0))
+                    continue;
+                  if (grid.cells()->owned().contains(from.cell))
+                    value_at(ways, from) += area;
+                  if (grid.cells()->owned().contains(to.cell))
+                    relays[axis].push_back({from, to, area});
+                }
+        ways.exchange(1);
+        for (auto &one : relays[axis])
+          one.share /= value_at(ways, one.from);
+        has_relays[axis] =
+          dealii::Utilities::MPI::max<unsigned int>(!relays[axis].empty(), grid.communicator()) > 0;
+      }
   }
 
 
-  /// What does not stay is the `excess` of cells and their components.
   template <int dim>
   void
-  DualTransfer<dim>::collect(Field<dim>        &excess,
-                             const unsigned int axis,
-                             const Amounts     &amounts) const
+  DualTransfer<dim>::relay(Field<dim> &excess, const unsigned int axis) const
   {
-    for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
-      for (const unsigned int side : {0, 1})
-        for (const unsigned int end : {0, 1})
-          {
-            const auto face = moved<dim>(cell, axis, side);
-            for_each_place(before[0][axis].divided(), face, [&](const FacePlace<dim> &place) {
-              double leaving = value_at(amounts.leaving[end], place);
-              if (!is_uncut(axis, face) && successor(axis, place).part == none)
-                leaving += value_at(amounts.staying[end], place);
-              if (leaving == 0)
-                return;
-              const auto to = destination(axis, place, end);
-              if (to.cell == cell && to.component != none)
-                value_at(excess, cell, to.component) += leaving;
-            });
-          }
-    });
+    if (!has_relays[axis])
+      return;
+    for (const auto &one : relays[axis])
+      value_at(excess, one.to) += one.share * value_at(excess, one.from);
+    excess.exchange(1);
   }
 
 
-  /// In proportion to volumes.
   template <int dim>
   void
-  DualTransfer<dim>::distribute(Halves            &result,
+  DualTransfer<dim>::distribute(Halves            &halves,
+                                const unsigned int axis,
                                 const Field<dim>  &excess,
-                                const unsigned int axis) const
+                                const Halves      &weights,
+                                const Field<dim>  &around) const
   {
     for (const unsigned int end : {0, 1})
       for_each(grid.faces(axis)->owned(), [&](const GridIndex<dim> &face) {
         const auto cell = moved<dim>(face, axis, static_cast<int>(end) - 1);
         if (!excess.stored().contains(cell))
           return;
-        for_each_place(result[end].divided(), face, [&](const FacePlace<dim> &place) {
-          const int    component = component_at(result[end], place, end);
+        for_each_place(halves[end].divided(), face, [&](const FacePlace<dim> &place) {
+          const int    component = component_at(halves[end], place, end);
           const double surplus   = value_at(excess, cell, component);
-          if (surplus != 0)
-            value_at(result[end], face, place.part) +=
-              surplus * value_at(now[end][axis], place) / value_at(around[axis], cell, component);
+          const double weight    = value_at(weights[end], place);
+          if (surplus != 0 && weight != 0)
+            value_at(halves[end], face, place.part) +=
+              surplus * weight / value_at(around, cell, component);
         });
       });
   }
@@ -293,11 +327,12 @@ namespace undine
         leaving.exchange(1);
         result[end] = Field<dim>(grid.faces(axis), now[end][axis].topology());
       }
-    Field<dim> excess(grid.cells(), now[0][axis].topology());
-    stay(result, axis, amounts);
-    collect(excess, axis, amounts);
+    auto excess = excess_of_covered(axis, amounts);
+    stay(result, excess, axis, amounts);
+    follow_passages(result, excess, axis, amounts);
     excess.exchange(1);
-    distribute(result, excess, axis);
+    relay(excess, axis);
+    distribute(result, axis, excess, {{now[0][axis], now[1][axis]}}, around[axis]);
     for (auto &half : result)
       half.exchange(1);
     return result;

@@ -2,6 +2,8 @@
 #include <undine/fluid/convection/moved_dual_volumes.h>
 #include <undine/fluid/grid/field_algebra.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 namespace undine
@@ -14,6 +16,18 @@ namespace undine
     double start;  ///< V^0
     double inert;  ///< V~, in which the rate of the velocity was found
   };
+
+
+  namespace
+  {
+    /// Halves.
+    template <int dim>
+    double
+    of_both(const DualHalves<dim> &halves, const unsigned int axis, const FacePlace<dim> &place)
+    {
+      return value_at(halves[0][axis], place) + value_at(halves[1][axis], place);
+    }
+  } // namespace
 
 
   template <int dim>
@@ -60,6 +74,59 @@ namespace undine
   }
 
 
+  /// Was the volume of a place more than a negligible share of the present one?
+  template <int dim>
+  bool
+  MovedDualVolumes<dim>::had_volume(const unsigned int     axis,
+                                    const FacePlace<dim>  &place,
+                                    const DualHalves<dim> &volumes) const
+  {
+    constexpr double negligible = 1e-2;
+    return of_both(volumes, axis, place) > negligible * of_both(transfer.now, axis, place);
+  }
+
+
+  /// What places that had no volume have of momentum besides that with `velocity` is given to the
+  /// others of their components, in proportion to the volumes of these.
+  template <int dim>
+  typename MovedDualVolumes<dim>::Halves
+  MovedDualVolumes<dim>::given_away(const Field<dim>      &velocity,
+                                    const Halves          &momenta,
+                                    const DualHalves<dim> &volumes) const
+  {
+    const unsigned int axis   = velocity.lattice().normal_axis();
+    Halves             excess = momenta, weights = momenta, result;
+    unsigned int       n = 0;
+    for (const unsigned int end : {0, 1})
+      {
+        result[end] = Field<dim>(velocity.shared_lattice(), velocity.topology());
+        for_each(velocity.owned(), [&](const GridIndex<dim> &face) {
+          for_each_place(velocity.divided(), face, [&](const FacePlace<dim> &place) {
+            const double volume = value_at(volumes[end][axis], place);
+            const bool   holds  = had_volume(axis, place, volumes);
+            auto        &rest   = value_at(excess[end], face, place.part);
+            rest                = holds ? 0. : rest - volume * value_at(velocity, place);
+            n += rest != 0;
+            value_at(weights[end], face, place.part) = holds ? std::max(0., volume) : 0.;
+          });
+        });
+      }
+    if (dealii::Utilities::MPI::max(n, transfer.grid.communicator()) == 0)
+      return result;
+    for (const unsigned int end : {0, 1})
+      {
+        excess[end].exchange(1);
+        weights[end].exchange(1);
+      }
+    auto in_cells = transfer.sums_around(axis, excess),
+         around   = transfer.sums_around(axis, weights);
+    in_cells.exchange(1);
+    around.exchange(1);
+    transfer.distribute(result, axis, in_cells, weights, around);
+    return result;
+  }
+
+
   /// momenta / volumes on all faces that are or were cut or have just ceased to be, where there has
   /// been a volume.
   template <int dim>
@@ -68,17 +135,17 @@ namespace undine
                                        const Halves          &momenta,
                                        const DualHalves<dim> &volumes) const
   {
-    constexpr double   negligible = 1e-2; // of the present volume
-    const unsigned int axis       = moved.lattice().normal_axis();
-    const auto         volume     = [&](const DualHalves<dim> &of, const FacePlace<dim> &place) {
-      return value_at(of[0][axis], place) + value_at(of[1][axis], place);
-    };
+    const unsigned int axis  = moved.lattice().normal_axis();
+    const auto         given = given_away(moved, momenta, volumes);
     for_each(moved.owned(), [&](const GridIndex<dim> &face) {
       for_each_place(moved.divided(), face, [&](const FacePlace<dim> &place) {
-        const double then = volume(volumes, place), present = volume(transfer.now, place);
-        if (then > negligible * present && !(then == present && transfer.is_uncut(axis, face)))
-          value_at(moved, face, place.part) =
-            (value_at(momenta[0], place) + value_at(momenta[1], place)) / then;
+        if (!had_volume(axis, place, volumes))
+          return;
+        const double then = of_both(volumes, axis, place);
+        auto        &v    = value_at(moved, face, place.part);
+        if (!transfer.is_uncut(axis, face) || then != of_both(transfer.now, axis, place))
+          v = (value_at(momenta[0], place) + value_at(momenta[1], place)) / then;
+        v += (value_at(given[0], place) + value_at(given[1], place)) / then;
       });
     });
     set_means(moved, transfer.grid);

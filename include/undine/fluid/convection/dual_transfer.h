@@ -2,6 +2,7 @@
 #ifndef undine_fluid_convection_dual_transfer_h
 #define undine_fluid_convection_dual_transfer_h
 
+#include <undine/fluid/advection/cell_transfer.h>
 #include <undine/fluid/grid/face_place.h>
 #include <undine/fluid/grid/fluid_state.h>
 #include <undine/fluid/grid/mac_grid.h>
@@ -9,17 +10,19 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace undine
 {
   /// Brings what the halves of dual volumes hold from one topology of the fluid to another one,
-  /// while surfaces have moved. Each half goes to the same face, and to the nearest piece of it on
-  /// the same side of the surfaces, as long as there is one. What finds none, or is to leave its
-  /// place, goes to all places of its component, in proportion to their volumes, or to those beyond
-  /// the face. Nothing crosses a surface, however thin a body is, but where one passes over a whole
-  /// face and both cells beside it; nothing is lost but what finds no place in the next cell
-  /// either.
+  /// while surfaces have moved. A half belongs to a component of a cell and goes where that goes
+  /// (CellTransfer), whatever axis its face is normal to, so that components get the same volume
+  /// along every axis: to the same face and what its piece there has become, or, where there is
+  /// none or it is to leave its place, to all places of the component, in proportion to their
+  /// volumes. From a component that has no place along the axis it goes on to those that it is
+  /// joined to. Nothing crosses a surface, however thin a body is, and nothing is lost but what has
+  /// been covered with all that it was joined to.
   template <int dim>
   class DualTransfer
   {
@@ -49,6 +52,16 @@ namespace undine
     Field<dim>
     sums_around(const unsigned int axis, const Halves &halves) const;
 
+    /// To what there is on faces normal to `axis`, `halves`, add what there is of components now,
+    /// `excess`, in proportion to `weights`, which are sums_around() cells and components `around`.
+    /// One ghost layer of both fields must be up to date. Not collective.
+    void
+    distribute(Halves            &halves,
+               const unsigned int axis,
+               const Field<dim>  &excess,
+               const Halves      &weights,
+               const Field<dim>  &around) const;
+
     /// Whether a face was and is open all over, and so are the cells beside it.
     bool
     is_uncut(const unsigned int axis, const GridIndex<dim> &face) const;
@@ -66,47 +79,56 @@ namespace undine
       Halves staying, leaving;
     };
 
-    void
-    stay(Halves &result, const unsigned int axis, const Amounts &amounts) const;
-    void
-    collect(Field<dim> &excess, const unsigned int axis, const Amounts &amounts) const;
-    void
-    distribute(Halves &result, const Field<dim> &excess, const unsigned int axis) const;
-    FacePlace<dim>
-    successor(const unsigned int axis, const FacePlace<dim> &place) const;
-
-    /// A place of a face.
-    struct Opening
+    /// Where a share of a half goes.
+    struct Passage
     {
-      int                               part;
-      typename BodyVicinity<dim>::Place centre;
-      double                            area; ///< [m^(dim-1)]
+      FacePlace<dim>     from;
+      unsigned int       end;   ///< the half below (0) or above (1)
+      PressurePlace<dim> to;    ///< component now
+      std::optional<int> part;  ///< of its face that it has become, if any; -1: the face is whole
+      double             share; ///< [1]
     };
 
-    std::vector<Opening>
-    openings(const SubLattice<dim> *divided,
+    void
+    find_passages();
+    void
+    find_passages(const unsigned int                       axis,
+                  const unsigned int                       end,
+                  const typename CellTransfer<dim>::Route &route);
+    std::vector<Opening<dim>>
+    openings(const DualHalves<dim> &halves,
              const unsigned int     axis,
-             const GridIndex<dim>  &face) const;
+             const GridIndex<dim>  &face,
+             const unsigned int     end,
+             const int              component) const;
+    bool
+    stays(const unsigned int axis, const GridIndex<dim> &face, const unsigned int end) const;
+    void
+    stay(Halves &result, Field<dim> &excess, const unsigned int axis, const Amounts &amounts) const;
+    Field<dim>
+    excess_of_covered(const unsigned int axis, const Amounts &amounts) const;
+    void
+    follow_passages(Halves            &result,
+                    Field<dim>        &excess,
+                    const unsigned int axis,
+                    const Amounts     &amounts) const;
+    void
+    find_relays();
+    void
+    relay(Field<dim> &excess, const unsigned int axis) const;
 
-    struct Destination
+    /// From a component without a place along an axis to one that it is joined to, now.
+    struct Relay
     {
-      GridIndex<dim> cell;
-      int            component; ///< -1: the cell is whole
+      PressurePlace<dim> from, to;
+      double             share; ///< [1]
     };
 
-    Destination
-    destination(const unsigned int axis, const FacePlace<dim> &place, const unsigned int end) const;
-    int
-    component_for(const unsigned int                       axis,
-                  const GridIndex<dim>                    &cell,
-                  const typename BodyVicinity<dim>::Place &from,
-                  const bool                               on_side) const;
-    dealii::Point<dim>
-    centre_before(const unsigned int    axis,
-                  const FacePlace<dim> &place,
-                  const unsigned int    end) const;
-
-    const BodyVicinity<dim> &vicinity;
+    const BodyVicinity<dim>              &vicinity;
+    const CellTransfer<dim>               cells;
+    std::array<std::vector<Passage>, dim> passages;     ///< of all halves that do not simply stay
+    std::array<std::vector<Relay>, dim>   relays;       ///< to components of this rank
+    std::array<bool, dim>                 has_relays{}; ///< on any rank
   };
 } // namespace undine
 

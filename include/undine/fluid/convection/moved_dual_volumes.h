@@ -63,8 +63,16 @@ namespace undine
     half(const unsigned int axis, const FacePlace<dim> &place, const unsigned int end) const;
     DualHalves<dim>
     rates_since(const DualHalves<dim> &then, const double time) const;
+    bool
+    had_volume(const unsigned int     axis,
+               const FacePlace<dim>  &place,
+               const DualHalves<dim> &volumes) const;
     void
     set_quotients(Field<dim> &moved, const Halves &momenta, const DualHalves<dim> &volumes) const;
+    Halves
+    given_away(const Field<dim>      &velocity,
+               const Halves          &momenta,
+               const DualHalves<dim> &volumes) const;
 
     const DualTransfer<dim>     transfer;
     const DualVolumeRates<dim> &kept;

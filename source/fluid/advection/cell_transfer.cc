@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/advection/cell_transfer.h>
 #include <undine/fluid/grid/cell_links.h>
 #include <undine/fluid/grid/field_algebra.h>
-#include <undine/fluid/scalars/cell_transfer.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -28,7 +28,8 @@ namespace undine
     , vicinity(vicinity)
     , levels(grid.cells(), before)
   {
-    for_each(grid.cells()->owned(), [&](const GridIndex<dim> &cell) {
+    levels.exchange(1);
+    for_each(known_points(*grid.cells()), [&](const GridIndex<dim> &cell) {
       if (!is_kept(cell))
         find_routes(cell);
     });
@@ -36,7 +37,6 @@ namespace undine
   }
 
 
-  /// Is a cell open all over, before and now, and has no surface passed over it in between?
   template <int dim>
   bool
   CellTransfer<dim>::is_kept(const GridIndex<dim> &cell) const
@@ -50,12 +50,12 @@ namespace undine
 
 
   template <int dim>
-  typename CellTransfer<dim>::Openings
+  std::vector<Opening<dim>>
   CellTransfer<dim>::openings(const SubLattice<dim> *divided, const GridIndex<dim> &cell) const
   {
     if (is_whole(divided, cell))
       return {{-1, vicinity.place(grid.cells()->point(cell)), grid.cell_volume(cell)}};
-    Openings result;
+    std::vector<Opening<dim>> result;
     for_each_part(*divided, cell, [&](const int part) {
       const auto &one = divided->all()[part];
       result.push_back({part, vicinity.place(one.place), one.measure});
@@ -64,68 +64,22 @@ namespace undine
   }
 
 
-  /// The only ones of a cell are the same if they overlap and no surface has passed between: their
-  /// centroids may lie in a body.
-  template <int dim>
-  bool
-  CellTransfer<dim>::leads_to(const Openings &old_ones,
-                              const Openings &new_ones,
-                              const Opening  &from,
-                              const Opening  &to) const
-  {
-    const auto volume = grid.cell_volume(grid.cell_at(from.centre.point));
-    if (old_ones.size() == 1 && new_ones.size() == 1 && from.measure + to.measure > volume &&
-        !vicinity.parts(from.centre.point, to.centre.point))
-      return true;
-    return vicinity.leads_to(from.centre, to.centre);
-  }
-
-
-  /// Each component now takes from the nearest one on its side; of several that take from the same
-  /// each does so in proportion to its volume. One from which none takes goes to the nearest.
   template <int dim>
   void
   CellTransfer<dim>::find_routes(const GridIndex<dim> &cell)
   {
     const auto old_ones = openings(levels.divided(), cell),
                new_ones = openings(now ? &now->cells : nullptr, cell);
-    const auto nearest  = [&](const Openings &among, const Opening &to, const auto &leads) {
-      int    result   = -1;
-      double distance = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < among.size(); ++k)
-        if (const double d = among[k].centre.point.distance(to.centre.point);
-            d < distance && leads(among[k]))
-          {
-            distance = d;
-            result   = k;
-          }
-      return result;
-    };
-    std::vector<double> taken(old_ones.size(), 0.);
-    std::vector<int>    sources;
-    for (const auto &to : new_ones)
+    std::vector<bool> is_left(old_ones.size(), false);
+    for (const auto &one : successions(old_ones, new_ones, grid.cell_volume(cell), vicinity))
       {
-        sources.push_back(nearest(
-          old_ones, to, [&](const auto &from) { return leads_to(old_ones, new_ones, from, to); }));
-        if (sources.back() >= 0)
-          taken[sources.back()] += to.measure;
+        is_left[one.before] = true;
+        all_routes.push_back(
+          {{cell, old_ones[one.before].part}, new_ones[one.now].part, one.share});
       }
-    for (std::size_t j = 0; j < new_ones.size(); ++j)
-      if (const int k = sources[j]; k >= 0)
-        routes.push_back(
-          {{cell, old_ones[k].part}, new_ones[j].part, new_ones[j].measure / taken[k]});
     for (std::size_t k = 0; k < old_ones.size(); ++k)
-      if (!(taken[k] > 0))
-        {
-          const PressurePlace<dim> from{cell, old_ones[k].part};
-          const int                j = nearest(new_ones, old_ones[k], [&](const auto &to) {
-            return leads_to(old_ones, new_ones, old_ones[k], to);
-          });
-          if (j >= 0)
-            routes.push_back({from, new_ones[j].part, 1.});
-          else
-            value_at(levels, from) = nowhere;
-        }
+      if (!is_left[k])
+        value_at(levels, cell, old_ones[k].part) = nowhere;
   }
 
 
@@ -188,8 +142,10 @@ namespace undine
       if (is_kept(cell))
         result(cell) = collected(cell);
     });
-    for (const auto &route : routes) // of all other cells
-      value_at(result, route.from.cell, route.to) += route.share * value_at(collected, route.from);
+    for (const auto &route : all_routes) // of all other cells
+      if (result.owned().contains(route.from.cell))
+        value_at(result, route.from.cell, route.to) +=
+          route.share * value_at(collected, route.from);
     return result;
   }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_scalars_cell_transfer_h
-#define undine_fluid_scalars_cell_transfer_h
+#ifndef undine_fluid_advection_cell_transfer_h
+#define undine_fluid_advection_cell_transfer_h
 
 #include <undine/fluid/grid/mac_grid.h>
 #include <undine/fluid/grid/pressure_numbers.h>
-#include <undine/fluid/visibility/body_vicinity.h>
+#include <undine/fluid/visibility/openings.h>
 
 #include <memory>
 #include <vector>
@@ -32,42 +32,51 @@ namespace undine
     Field<dim>
     transfer(const Field<dim> &amounts) const;
 
-  private:
-    /// A component, or a whole cell.
-    struct Opening
-    {
-      int                               part; ///< -1: the cell is whole
-      typename BodyVicinity<dim>::Place centre;
-      double                            measure; ///< [m^dim]
-    };
-    using Openings = std::vector<Opening>;
-
-    /// Where what was in a component goes within its cell.
+    /// Where a share of what was in a component goes within its cell.
     struct Route
     {
       PressurePlace<dim> from;
-      int                to;
+      int                to;    ///< component; -1: the cell is whole now
       double             share; ///< [1]
     };
 
+    /// Those of the cells of this rank and of the layer around them, but for cells that are kept.
+    const std::vector<Route> &
+    routes() const
+    {
+      return all_routes;
+    }
+
+    /// Is a cell open all over, before and now, and has no surface passed over it in between?
     bool
     is_kept(const GridIndex<dim> &cell) const;
-    Openings
+
+    /// Has any component been covered, on any rank?
+    bool
+    any_is_covered() const
+    {
+      return levels.has_lattice();
+    }
+
+    /// Has what was in a component of this rank no place left in its cell?
+    bool
+    is_covered(const PressurePlace<dim> &place) const
+    {
+      return any_is_covered() && value_at(levels, place) > 0;
+    }
+
+  private:
+    std::vector<Opening<dim>>
     openings(const SubLattice<dim> *divided, const GridIndex<dim> &cell) const;
     void
     find_routes(const GridIndex<dim> &cell);
-    bool
-    leads_to(const Openings &old_ones,
-             const Openings &new_ones,
-             const Opening  &from,
-             const Opening  &to) const;
     void
     find_levels();
 
     const MacGrid<dim>                       &grid;
     std::shared_ptr<const FluidTopology<dim>> before, now;
     const BodyVicinity<dim>                  &vicinity;
-    std::vector<Route>                        routes;
+    std::vector<Route>                        all_routes;
 
     /// Of what has been covered: through how many others it goes to what is left, 0 if it is; and
     /// the area of the pieces towards the next [m^(dim-1)]. Empty if nothing has been covered.
