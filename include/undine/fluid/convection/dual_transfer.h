@@ -2,11 +2,11 @@
 #ifndef undine_fluid_convection_dual_transfer_h
 #define undine_fluid_convection_dual_transfer_h
 
-#include <undine/fluid/advection/cell_transfer.h>
 #include <undine/fluid/grid/face_place.h>
 #include <undine/fluid/grid/fluid_state.h>
 #include <undine/fluid/grid/mac_grid.h>
 #include <undine/fluid/visibility/body_vicinity.h>
+#include <undine/fluid/visibility/cell_transfer.h>
 
 #include <functional>
 #include <memory>

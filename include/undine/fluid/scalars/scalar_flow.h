@@ -2,9 +2,9 @@
 #ifndef undine_fluid_scalars_scalar_flow_h
 #define undine_fluid_scalars_scalar_flow_h
 
-#include <undine/fluid/advection/cell_transfer.h>
 #include <undine/fluid/advection/characteristic_tracer.h>
 #include <undine/fluid/pressure/projection.h>
+#include <undine/fluid/visibility/cell_transfer.h>
 
 #include <optional>
 

@@ -35,8 +35,8 @@ namespace
   }
 
 
-  /// What of the momentum that the ball gives the fluid does not get, or gets besides, in a period,
-  /// in proportion to all that is exchanged.
+  /// What of the momentum that the ball gives the fluid does not get, or gets besides, step by step
+  /// in a period, in proportion to all that is exchanged.
   template <int dim>
   double
   lost(const std::string &scene)
@@ -47,10 +47,10 @@ namespace
       {
         run.step();
         const double given = run.column("momentum by obstacles x");
-        sum += given - run.column("momentum gain x");
+        sum += std::abs(given - run.column("momentum gain x"));
         exchanged += std::abs(given);
       }
-    return std::abs(sum) / exchanged;
+    return sum / exchanged;
   }
 
 
@@ -112,10 +112,11 @@ TEST_CASE("Convection in flux form leaves the fluid the momentum that an obstacl
   SECTION("2D")
   {
     for (const double dt : {1. / 12, 1. / 25, 1. / 50})
-      CHECK(lost<2>(swinging_ball<2>(24, dt, flux_form())) < 4e-3);
+      CHECK(lost<2>(swinging_ball<2>(24, dt, flux_form())) < 1e-6);
   }
   SECTION("3D")
   {
-    CHECK(lost<3>(swinging_ball<3>(10, 1. / 25, flux_form())) < 4e-3);
+    // Components whose volume is extrapolated to less than nothing may have no other to give to.
+    CHECK(lost<3>(swinging_ball<3>(10, 1. / 25, flux_form())) < 5e-5);
   }
 }

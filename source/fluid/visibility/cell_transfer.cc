@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/fluid/advection/cell_transfer.h>
 #include <undine/fluid/grid/cell_links.h>
 #include <undine/fluid/grid/field_algebra.h>
+#include <undine/fluid/visibility/cell_transfer.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef undine_fluid_advection_cell_transfer_h
-#define undine_fluid_advection_cell_transfer_h
+#ifndef undine_fluid_visibility_cell_transfer_h
+#define undine_fluid_visibility_cell_transfer_h
 
 #include <undine/fluid/grid/mac_grid.h>
 #include <undine/fluid/grid/pressure_numbers.h>
