@@ -26,11 +26,14 @@ namespace undine
     , before(before)
     , now(now)
     , vicinity(vicinity)
+    , known(known_points(*grid.cells()))
     , levels(grid.cells(), before)
   {
+    kept.reserve(known.size());
     levels.exchange(1);
-    for_each(known_points(*grid.cells()), [&](const GridIndex<dim> &cell) {
-      if (!is_kept(cell))
+    for_each(known, [&](const GridIndex<dim> &cell) {
+      kept.push_back(remains(cell));
+      if (!kept.back())
         find_routes(cell);
     });
     find_levels();
@@ -39,7 +42,7 @@ namespace undine
 
   template <int dim>
   bool
-  CellTransfer<dim>::is_kept(const GridIndex<dim> &cell) const
+  CellTransfer<dim>::remains(const GridIndex<dim> &cell) const
   {
     if (!is_whole(before ? &before->cells : nullptr, cell) ||
         !is_whole(now ? &now->cells : nullptr, cell))

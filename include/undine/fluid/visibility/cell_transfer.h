@@ -6,6 +6,7 @@
 #include <undine/fluid/grid/pressure_numbers.h>
 #include <undine/fluid/visibility/openings.h>
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -47,9 +48,13 @@ namespace undine
       return all_routes;
     }
 
-    /// Is a cell open all over, before and now, and has no surface passed over it in between?
+    /// Is a cell open all over, before and now, and has no surface passed over it in between? Of
+    /// the same cells.
     bool
-    is_kept(const GridIndex<dim> &cell) const;
+    is_kept(const GridIndex<dim> &cell) const
+    {
+      return kept[known.position(cell)] != 0;
+    }
 
     /// Has any component been covered, on any rank?
     bool
@@ -66,6 +71,8 @@ namespace undine
     }
 
   private:
+    bool
+    remains(const GridIndex<dim> &cell) const;
     std::vector<Opening<dim>>
     openings(const SubLattice<dim> *divided, const GridIndex<dim> &cell) const;
     void
@@ -76,6 +83,8 @@ namespace undine
     const MacGrid<dim>                       &grid;
     std::shared_ptr<const FluidTopology<dim>> before, now;
     const BodyVicinity<dim>                  &vicinity;
+    IndexBox<dim>                             known; ///< cells of this rank and a layer more
+    std::vector<std::uint8_t>                 kept;  ///< of these
     std::vector<Route>                        all_routes;
 
     /// Of what has been covered: through how many others it goes to what is left, 0 if it is; and
