@@ -43,9 +43,15 @@ def identity(study, case, program_digest):
 
 
 def message_of(text):
-    """Why a run has failed, without the advice that follows."""
+    """Why a run has failed, without the advice that follows; of several mistakes all."""
     error = re.search(r"Error: (.*?)(?=\n|\Z)", text, re.S)
-    return error[1].strip() if error else (text.strip().splitlines() or ["no message"])[-1]
+    if not error:
+        return (text.strip().splitlines() or ["no message"])[-1]
+    message = error[1].strip()
+    if message.endswith("mistakes in the scene:"):
+        mistakes = re.findall(r"^(?:\S+\.prm\S*|command line): .*$", text[error.end():], re.M)
+        message += " " + "; ".join(mistake.rstrip(".") for mistake in mistakes)
+    return message
 
 
 def reason(result):

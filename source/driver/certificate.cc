@@ -14,6 +14,7 @@ namespace undine
     constexpr double       part_of_potential = 1e-3; // less than this is rounding of particles
     constexpr double       rounding          = 1e-6; // of the largest force or velocity
     constexpr double       many_redone       = 0.01; // of all steps
+    constexpr unsigned int fewest_steps      = 7;    // in which energy can be seen to grow
 
     // Of the energy that grows: then they are what shakes the fluid, which often has most of it.
     constexpr double share_of_bodies = 0.1;
@@ -307,9 +308,16 @@ namespace undine
       return "failed";
     if (growth())
       return "growing";
-    if (n_steps == 0)
-      return "undecided";
-    return apparent_growth() ? "undecided" : "stable";
+    const bool is_undecided = n_steps == 0 || apparent_growth() || is_too_short_to_tell();
+    return is_undecided ? "undecided" : "stable";
+  }
+
+
+  /// Has a law been broken in fewer steps than rules of growth need?
+  bool
+  Certificate::is_too_short_to_tell() const
+  {
+    return n_steps < fewest_steps && !violated().empty();
   }
 
 
@@ -364,6 +372,9 @@ namespace undine
                          redone());
     if (n_steps == 0)
       return "undecided: no step has been made";
+    if (is_too_short_to_tell())
+      return fmt::format(
+        "undecided: {} step(s) are too few to see what grows{}", n_steps, violated());
     std::string died_away;
     if (const auto gone = past())
       died_away = fmt::format("; what grew from {:.6g} to {:.6g} s ({}) has died away",

@@ -22,6 +22,7 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <sstream>
 
 namespace undine
 {
@@ -152,11 +153,7 @@ namespace undine
         {
           throw Interruption(failure_report(error, state, scene, folder, log, "", ""));
         }
-      catch (const InputError &error)
-        {
-          throw InputError(failure_report(error, state, scene, folder, log));
-        }
-      catch (const Error &error)
+      catch (const Error &error) // what the scene asks for may be impossible only now
         {
           throw SolveError(failure_report(error, state, scene, folder, log));
         }
@@ -521,9 +518,20 @@ namespace undine
     print_values(const std::string &text)
     {
       const Expression<3> expression(text);
-      dealii::Point<3>    place;
-      for (double time = 0; std::cin >> place[0] >> place[1] >> place[2] >> time;)
-        std::cout << fmt::format("{:.17g}\n", expression.value(place, time));
+      std::string         line;
+      for (unsigned int number = 1; std::getline(std::cin, line); ++number)
+        {
+          std::istringstream numbers(line);
+          dealii::Point<3>   place;
+          double             time = 0;
+          if (!(numbers >> place[0] >> place[1] >> place[2] >> time) || !(numbers >> std::ws).eof())
+            throw InputError(
+              fmt::format("line {} of the standard input, '{}', is not four numbers.\n"
+                          "  Allowed: x y z [m] and t [s], separated by spaces.",
+                          number,
+                          line));
+          std::cout << fmt::format("{:.17g}\n", expression.value(place, time));
+        }
     }
 
 

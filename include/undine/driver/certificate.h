@@ -91,6 +91,8 @@ namespace undine
     apparent_growth() const;
     std::optional<Growth>
     past() const;
+    bool
+    is_too_short_to_tell() const;
     std::string
     violated() const;
     std::string

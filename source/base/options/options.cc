@@ -123,10 +123,7 @@ namespace undine
   {
     if (!key.empty())
       return store->file.find(path + key) != nullptr;
-    const auto &paths = store->file.paths();
-    return std::any_of(paths.begin(), paths.end(), [&](const std::string &other) {
-      return other.compare(0, path.size(), path) == 0;
-    });
+    return store->file.mentions(path);
   }
 
 
@@ -153,7 +150,7 @@ namespace undine
     const std::string place      = assignment != nullptr ? assignment->place : store->file.name();
     return InputError(place + ": " + section_label(path) +
                       (key.empty() ? "" : ", key '" + key + "'") + ": " + what +
-                      (hint.empty() ? "." : ".\n  " + hint));
+                      (what.back() == '?' ? "" : ".") + (hint.empty() ? "" : "\n  " + hint));
   }
 
 

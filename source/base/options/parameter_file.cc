@@ -234,6 +234,15 @@ namespace undine
   }
 
 
+  bool
+  ParameterFile::mentions(const std::string &section) const
+  {
+    return std::any_of(section_order.begin(), section_order.end(), [&](const std::string &other) {
+      return other.compare(0, section.size(), section) == 0;
+    });
+  }
+
+
   void
   ParameterFile::set(const std::string &text)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/coupled/step/fluid_side.h>
+#include <undine/coupled/step/outside_domain.h>
 #include <undine/coupled/step/physics.h>
 #include <undine/fluid/model/fluid_quantities.h>
 #include <undine/operators/body_forces.h>
@@ -204,6 +205,7 @@ namespace undine
       {
         report.warn(cut->cut_report().subject, cut->cut_report().message);
         state.surface_positions = models.surface->positions(state.solid, time);
+        report.warn("outside", note_of_what_is_outside(models, state.surface_positions));
       }
     if (cut)
       viscous_coupling.keep_loads(state, *cut, environment.gravity, time);

@@ -105,8 +105,10 @@ namespace undine
         "Pa",
         Allowed::anything(),
         "Reduced pressure p - rho g.x of the kind 'pressure', which needs it; of the kind "
-        "'outflow' that of the fluid at rest outside, 0 by default. Bodies that reach out there "
-        "have it around them.");
+        "'outflow' that of the fluid at rest outside, 0 by default: with gravity the pressure p is "
+        "then rho g.x there, which pulls at what is compressible and at what stands on walls. Of "
+        "an open surface under air at the height H above the origin it is rho |g| H. Bodies that "
+        "reach out there have it around them.");
       boundary.has_region = options.given("Region");
       boundary.kind       = kinds().at(kind);
       for (const auto &side : sides)

@@ -135,7 +135,7 @@ namespace undine
       return part;
     }
 
-    /// True if the scene assigns this key, or anything in this section if `key` is empty.
+    /// True if the scene assigns this key; without one, if it has this section, even an empty one.
     bool
     given(const std::string &key = "") const;
 

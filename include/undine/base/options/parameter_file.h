@@ -59,6 +59,10 @@ namespace undine
     find(const std::string &path) const;
     /// @}
 
+    /// Is there such a section, "Bodies/", or one in it, even if it is empty?
+    bool
+    mentions(const std::string &section) const;
+
     /// The names of the subsections of `path` that the scene mentions, in order of appearance.
     std::vector<std::string>
     subsections(const std::string &path) const;
