@@ -3,6 +3,7 @@
 
 #include "executors.h"
 
+#include <undine/particles/fluid/pair_coefficient.h>
 #include <undine/particles/setup/disorder.h>
 #include <undine/particles/setup/make_constants.h>
 
@@ -335,4 +336,33 @@ TEST_CASE("A particle of the fluid behind a wall does not keep pressures from ot
                                                                              : NAN;
   });
   CHECK(std::abs(left) < .1 * speed);
+}
+
+
+// The matrix in single precision has no larger entries than that: coefficients of forces were
+// larger where particles come closer than they do with the collisions of a free surface.
+TEST_CASE("No pair has a larger coefficient than the matrix can hold", "[particles]")
+{
+  ParticleScene<2> scene(.01);
+  close_box<2>(scene, cube<2>(12));
+  fill<2>(scene, cube<2>(12), [](const Point<2> &) { return Point<2>::zero(); });
+  const auto constants = make_constants<2, float>(scene.setup);
+  const Tag  fluid     = Tag::of(Kind::fluid, 0);
+  for (const float distance : {0.f, .05f, .2f, .4f, 1.f})
+    {
+      Place<2, float> places[2]   = {};
+      places[0]                   = {{{.05f, .05f}}, fluid};
+      places[1]                   = {{{.05f + distance * constants.spacing, .05f}}, fluid};
+      const int count             = 1;
+      int       indices[32 * 2]   = {};
+      indices[list_slot(0, 0, 1)] = 1;
+      const Neighbours<2, float> neighbours{
+        constants.grid, constants.reach, 1, places, &count, indices};
+      neighbours.for_each(0, [&](const int, const Pair<2, float> &pair) {
+        CHECK(pressure_coefficient(constants, fluid, pair) <=
+              largest_coefficient(constants) * 1.0001f);
+        CHECK(pair.weight_over_square() * distance * constants.spacing <=
+              pair.weight / (pair.closest * constants.reach) * 1.0001f);
+      });
+    }
 }
