@@ -153,7 +153,11 @@ namespace undine
         {
           throw Interruption(failure_report(error, state, scene, folder, log, "", ""));
         }
-      catch (const Error &error) // what the scene asks for may be impossible only now
+      catch (const InputError &error)
+        {
+          throw InputError(failure_report(error, state, scene, folder, log));
+        }
+      catch (const Error &error)
         {
           throw SolveError(failure_report(error, state, scene, folder, log));
         }
@@ -522,8 +526,10 @@ namespace undine
       for (unsigned int number = 1; std::getline(std::cin, line); ++number)
         {
           std::istringstream numbers(line);
-          dealii::Point<3>   place;
-          double             time = 0;
+          if ((numbers >> std::ws).eof()) // an empty line
+            continue;
+          dealii::Point<3> place;
+          double           time = 0;
           if (!(numbers >> place[0] >> place[1] >> place[2] >> time) || !(numbers >> std::ws).eof())
             throw InputError(
               fmt::format("line {} of the standard input, '{}', is not four numbers.\n"
