@@ -3,7 +3,6 @@
 
 #include "executors.h"
 
-#include <undine/particles/fluid/pair_coefficient.h>
 #include <undine/particles/setup/disorder.h>
 #include <undine/particles/setup/make_constants.h>
 
@@ -266,103 +265,5 @@ TEST_CASE("Bodies in a full box are compressed below and swell above", "[particl
       const auto &volumes = engine->balance().body_volumes;
       CHECK(volumes[1] - volumes[0] == Approx(.2).margin(.03));
       CHECK(volumes[0] + volumes[1] == Approx(2.0125).margin(.01)); // swells by more: (P9)
-    }
-}
-
-
-// Through two layers of a wall pressures acted before: the fluid behind it went the other way.
-TEST_CASE("A thin plate takes along the fluid on both of its sides", "[particles]")
-{
-  const double     l0 = .01, speed = .1;
-  const int        length = 12, width = 3 * length;
-  ParticleScene<2> scene(l0);
-  const Point<2>   centre = {{width * l0 / 2, width * l0 / 2}};
-  WallPaths<2>     paths;
-  const double     time     = l0 / 2 / speed; // moved by half a spacing
-  const auto       is_plate = [&](const Point<2> &x) {
-    return std::abs(x[0] - centre[0]) < l0 && std::abs(x[1] - centre[1]) < length * l0 / 2;
-  };
-  scene.for_each_point(cube<2>(0), cube<2>(width), [&](const Point<2> &x) {
-    if (!is_plate(x))
-      return;
-    scene.add(x, Kind::wall, moving_material, Point<2>::zero());
-    paths.push_back(
-      {x, along<2>(0, speed * time), along<2>(0, speed), along<2>(0, speed), Kind::wall});
-  });
-  scene.setup.n_moving = static_cast<int>(paths.size());
-  scene.for_each_point(cube<2>(0), cube<2>(width), [&](const Point<2> &x) {
-    if (!is_plate(x))
-      scene.add(x, Kind::fluid, 0, Point<2>::zero());
-  });
-  close_box<2>(scene, cube<2>(width));
-  scene.setup.is_full                  = true;
-  scene.setup.numerics.faces_tolerance = 1e-3;
-  disorder(scene.setup, scene.state);
-  const auto engine = scene.engine();
-  engine->move_walls(paths);
-  engine->advance(time);
-  const auto state = state_of(*engine);
-  for (const int side : {-1, 1})
-    {
-      const double along_x = mean(state.tags.size(), [&](const std::size_t i) {
-        const double ahead = side * (state.positions[i][0] - centre[0] - l0 / 2) - l0;
-        const double aside = std::abs(state.positions[i][1] - centre[1]);
-        const bool counts  = state.tags[i].kind() == Kind::fluid && ahead > 0 && ahead < 1.5 * l0 &&
-                            aside < length * l0 / 6;
-        return counts ? state.velocities[i][0] : NAN;
-      });
-      CHECK(along_x == Approx(.9 * speed).epsilon(.1));
-    }
-}
-
-
-// A particle behind a wall has no neighbour with a pressure. Its source was on a diagonal of 1e-6,
-// and the solver done with the others' before it had begun.
-TEST_CASE("A particle of the fluid behind a wall does not keep pressures from others",
-          "[particles]")
-{
-  const double     l0 = .01, speed = .1;
-  ParticleScene<2> scene(l0);
-  const auto       size = cube<2>(12);
-  close_box<2>(scene, size);
-  fill<2>(scene, size, [&](const Point<2> &) { return along<2>(0, speed); });
-  scene.add({{6.5 * l0, -3.4 * l0}}, Kind::fluid, 0, along<2>(1, -speed)); // behind the wall
-  scene.setup.numerics.largest_sub_step = 1e-3;
-  const auto engine                     = scene.engine();
-  engine->advance(1e-3);
-  const auto   state = state_of(*engine);
-  const double left  = mean(state.tags.size(), [&](const std::size_t i) {
-    return state.tags[i].kind() == Kind::fluid && state.positions[i][1] > 0 ? state.velocities[i][0]
-                                                                             : NAN;
-  });
-  CHECK(std::abs(left) < .1 * speed);
-}
-
-
-// The matrix in single precision has no larger entries than that: coefficients of forces were
-// larger where particles come closer than they do with the collisions of a free surface.
-TEST_CASE("No pair has a larger coefficient than the matrix can hold", "[particles]")
-{
-  ParticleScene<2> scene(.01);
-  close_box<2>(scene, cube<2>(12));
-  fill<2>(scene, cube<2>(12), [](const Point<2> &) { return Point<2>::zero(); });
-  const auto constants = make_constants<2, float>(scene.setup);
-  const Tag  fluid     = Tag::of(Kind::fluid, 0);
-  for (const float distance : {0.f, .05f, .2f, .4f, 1.f})
-    {
-      Place<2, float> places[2]   = {};
-      places[0]                   = {{{.05f, .05f}}, fluid};
-      places[1]                   = {{{.05f + distance * constants.spacing, .05f}}, fluid};
-      const int count             = 1;
-      int       indices[32 * 2]   = {};
-      indices[list_slot(0, 0, 1)] = 1;
-      const Neighbours<2, float> neighbours{
-        constants.grid, constants.reach, 1, places, &count, indices};
-      neighbours.for_each(0, [&](const int, const Pair<2, float> &pair) {
-        CHECK(pressure_coefficient(constants, fluid, pair) <=
-              largest_coefficient(constants) * 1.0001f);
-        CHECK(pair.weight_over_square() * distance * constants.spacing <=
-              pair.weight / (pair.closest * constants.reach) * 1.0001f);
-      });
     }
 }

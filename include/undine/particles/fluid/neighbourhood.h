@@ -3,7 +3,6 @@
 #define undine_particles_fluid_neighbourhood_h
 
 #include <undine/particles/fluid/inward_directions.h>
-#include <undine/particles/fluid/pair_coefficient.h>
 #include <undine/particles/fluid/stored_correction.h>
 #include <undine/particles/math/matrix.h>
 #include <undine/particles/model/constants.h>
@@ -64,14 +63,13 @@ namespace undine::particles
       auto                    side   = Vector<dim, Real>::zero();
       auto                    moment = SymmetricMatrix<dim, Real>::diagonal(0);
       Real                    n = 0, f = 0;
-      bool                    has_faces = false;
+      bool                    moves = tag.is_free(); // or touches what does
       BodiesAround<dim, Real> bodies;
       neighbours.for_each(i, [&](const int, const Pair<dim, Real> &pair) {
         n += pair.weight;
         f += filling(pair.square / (constants.reach * constants.reach));
         bodies.add(pair);
-        has_faces =
-          has_faces || (pair.tag.kind() != Kind::dummy && !is_apart(constants, tag, pair));
+        moves = moves || pair.tag.is_free();
         side += (pair.weight * pair.inverse_distance) * pair.r;
         if (pair.tag.kind() != Kind::dummy || tag.kind() == Kind::wall)
           moment.add_square(pair.weight_over_square(), pair.r);
@@ -85,7 +83,7 @@ namespace undine::particles
       if (!constants.is_full)
         result.fillings[i] += constants.surface_lack * norm_square(side);
       result.coverages[i]   = coverage;
-      const bool unknown    = constants.is_full ? has_faces && tag.material() != opening_material
+      const bool unknown    = constants.is_full ? moves && tag.material() != opening_material
                                                 : has_pressure(tag, n, coverage > 0);
       result.is_unknown[i]  = unknown ? 1 : 0;
       const Real share      = tag.kind() == Kind::solid ? Real(1) : coverage;

@@ -16,20 +16,15 @@ namespace undine::particles
     return (static_cast<std::size_t>(i >> 5) * capacity + k) * 32 + (i & 31);
   }
 
-  /// One neighbour j of a particle i. Closer ones than `closest` have the weight that they have
-  /// there, and what is weighted by it vanishes with r: one that has no bound makes faces of any
-  /// size, and the fluid fast by them.
+  /// One neighbour j of a particle i.
   template <int dim, class Real>
   struct Pair
   {
     Vector<dim, Real> r;                ///< x_j - x_i [m]
     Real              square;           ///< |r|^2 [m^2]
-    Real              inverse_distance; ///< 1 / |r|, at most 1 / (closest * r_e) [1/m]
-    Real              weight;           ///< w = r_e / |r| - 1, at most largest_weight [1]
+    Real              inverse_distance; ///< 1 / |r| [1/m]
+    Real              weight;           ///< w = r_e / |r| - 1 [1]
     Tag               tag;              ///< of j
-
-    static constexpr Real closest        = Real(0.19); ///< of the reach, 0.4 spacings [1]
-    static constexpr Real largest_weight = 1 / closest - 1;
 
     /// w / |r|^2 [1/m^2]
     UNDINE_HOST_DEVICE
@@ -113,12 +108,11 @@ namespace undine::particles
          const More              &more) const
     {
       Pair<dim, Real> pair;
-      pair.r      = wraps ? grid.difference(other.x, x) : other.x - x;
-      pair.square = norm_square(pair.r) + Real(1e-12) * reach * reach;
-      pair.inverse_distance =
-        minimum(inverse_square_root(pair.square), 1 / (Pair<dim, Real>::closest * reach));
-      pair.weight = reach * pair.inverse_distance - 1;
-      pair.tag    = other.tag;
+      pair.r                = wraps ? grid.difference(other.x, x) : other.x - x;
+      pair.square           = norm_square(pair.r) + Real(1e-12) * reach * reach;
+      pair.inverse_distance = inverse_square_root(pair.square);
+      pair.weight           = reach * pair.inverse_distance - 1;
+      pair.tag              = other.tag;
       if (pair.weight > 0)
         f(j, pair, more);
     }

@@ -4,7 +4,6 @@
 
 #include <undine/particles/execution/atomics.h>
 #include <undine/particles/fluid/neighbourhood.h>
-#include <undine/particles/fluid/pair_coefficient.h>
 #include <undine/particles/pressure/pressure_matrix.h>
 #include <undine/particles/pressure/virtual_faces.h>
 
@@ -19,6 +18,36 @@ namespace undine::particles
   {
     return constants.fluid_density * constants.spread * constants.number_density / (2 * dim);
   }
+
+  /// The pair's coefficient in the pressure equation, k_ij [1]. Where a full domain has openings
+  /// bodies heavier than the fluid count as fluid there, as walls do: the fluid at the edge of a
+  /// thin body is accelerated more than coefficients of a heavy one say, so that its velocity would
+  /// be corrected several times too much, and the stream through the openings with it.
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE
+  Real
+  pressure_coefficient(const Constants<dim, Real> &constants,
+                       const Tag                   tag,
+                       const Pair<dim, Real>      &pair)
+  {
+    if (tag.material() == 0 && pair.tag.material() == 0) // mostly, and a quotient takes long
+      return pair.weight;
+    const Real ratio        = constants.fluid_density / constants.mean_density(tag, pair.tag);
+    const bool has_openings = constants.is_full && !constants.is_closed;
+    return pair.weight * (has_openings ? maximum(Real(1), ratio) : ratio);
+  }
+
+
+  /// The largest of them: that of the largest weight that a collision leaves, at the smallest mean
+  /// density.
+  template <int dim, class Real>
+  Real
+  largest_coefficient(const Constants<dim, Real> &constants)
+  {
+    const Real closest = constants.collision_distance / 2;
+    return (constants.reach / closest - 1) * constants.fluid_density / constants.lightest_density;
+  }
+
 
   /// Fills the matrix of the pressure equation, its diagonal and that of the equation for the
   /// potentials of the virtual faces,
@@ -81,14 +110,13 @@ namespace undine::particles
     void
     fill_row(const int i) const
     {
-      const Tag  tag       = neighbours.places[i].tag;
-      const auto M         = neighbourhood.corrections[i].matrix();
-      const auto v         = motions[i].v;
-      const bool closes    = faces_diagonal != nullptr;
-      const bool may_close = closes && (tag.is_free() || constants.is_full);
-      const Real coverage  = may_close ? neighbourhood.coverages[i] : Real(0);
-      auto       gap       = Vector<dim, Real>::zero();
-      int        count     = 0;
+      const Tag  tag      = neighbours.places[i].tag;
+      const auto M        = neighbourhood.corrections[i].matrix();
+      const auto v        = motions[i].v;
+      const bool closes   = faces_diagonal != nullptr;
+      const Real coverage = closes && tag.is_free() ? neighbourhood.coverages[i] : Real(0);
+      auto       gap      = Vector<dim, Real>::zero();
+      int        count    = 0;
       Real       sum = 0, flow = 0;
       bool       reached = true, has_given = false;
       struct Other
@@ -101,8 +129,6 @@ namespace undine::particles
       };
       neighbours.for_each(
         i, fetch, [&](const int j, const Pair<dim, Real> &pair, const Other &other) {
-          if (is_apart(constants, tag, pair))
-            return;
           const auto plain = (faces.factor * pair.weight_over_square()) * pair.r;
           if (pair.tag.kind() == Kind::dummy || is_cut_off(pair.tag, other.M))
             {
@@ -134,7 +160,7 @@ namespace undine::particles
       if (closes)
         {
           faces_diagonal[i] = maximum(sum, Real(1e-6));
-          gaps[i]           = (is_firm(constants, tag) ? mobility(constants, tag) : coverage) * gap;
+          gaps[i]           = coverage * gap;
         }
       neighbourhood.is_beside_given[i] = has_given ? 1 : 0;
     }
@@ -223,7 +249,7 @@ namespace undine::particles
         return sum;
       const Vector<dim, Real> L = faces.potentials[i];
       neighbours.for_each(i, [&](const int j, const Pair<dim, Real> &pair) {
-        if (pair.tag.kind() == Kind::fluid && !is_apart(constants, tag, pair))
+        if (pair.tag.kind() == Kind::fluid)
           sum += pressure_coefficient(constants, tag, pair) *
                  ((motions[j].v - v) * (L - Vector<dim, Real>(faces.potentials[j])));
       });

@@ -60,8 +60,7 @@ namespace undine::particles
   /// The accelerations by pressure, a_i = -(2 / rho_i) sum_j P_ij a_ij with the pressure at the
   /// middle
   ///     P_ij = (rho_j P_i + rho_i P_j) / (rho_i + rho_j)
-  /// that makes both particles of a pair accelerate alike (the mean where one is firm: the other
-  /// accelerates alone), and virtual faces a_ij by PairForce;
+  /// that makes both particles of a pair accelerate alike, and virtual faces a_ij by PairForce;
   /// then the correction of velocity and place (P7b), and a shift towards even spacing, next to the
   /// free surface along it: across, it would push the surface outwards. LocalShift makes it
   /// where the fluid is alone. For bodies the acceleration is only kept.
@@ -194,8 +193,7 @@ namespace undine::particles
         i, fetch, [&](const int, const Pair<dim, Real> &pair, const Other &other) {
           const Vector<dim, Real> plain = pair.weight_over_square() * pair.r;
           sum.add(pair, plain, other.side.surface());
-          if (pair.tag.kind() == Kind::dummy || is_left_to_elasticity(tag, pair.tag) ||
-              is_apart(constants, tag, pair))
+          if (pair.tag.kind() == Kind::dummy || is_left_to_elasticity(tag, pair.tag))
             return;
           auto face  = faces.factor * plain;
           Real value = twice_pressure(tag, pair.tag, P, other.pressure);
@@ -233,8 +231,7 @@ namespace undine::particles
     twice_pressure(const Tag tag, const Tag other, const Real P_i, const Real P_j) const
     {
       Real value = P_i + P_j;
-      if (tag.material() != other.material() && !is_firm(constants, tag) &&
-          !is_firm(constants, other))
+      if (tag.material() != other.material())
         {
           const Real a = constants.density(tag);
           const Real b = constants.density(other);
@@ -309,9 +306,7 @@ namespace undine::particles
         place.x += rest * (motion.v - (1 - constants.path_weight) * dt *
                                         constants.fluid_acceleration(place.x));
       motion.v += dt * acceleration;
-      // A stream that starts at once is faster than the sub-step was made for.
-      const auto way = (constants.path_weight * dt * dt) * acceleration;
-      place.x += constants.is_full ? limited(way, Real(0.2) * constants.spacing) : way;
+      place.x += (constants.path_weight * dt * dt) * acceleration;
       atomic_maximum(&control->largest_speed,
                      static_cast<float>(square_root(norm_square(motion.v))));
     }
