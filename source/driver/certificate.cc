@@ -14,7 +14,7 @@ namespace undine
     constexpr double       part_of_potential = 1e-3; // less than this is rounding of particles
     constexpr double       rounding          = 1e-6; // of the largest force or velocity
     constexpr double       many_redone       = 0.01; // of all steps
-    constexpr unsigned int fewest_steps      = 7;    // in which energy can be seen to grow
+    constexpr unsigned int fewest_steps      = 6;    // of the shortest window of (V2)
 
     // Of the energy that grows: then they are what shakes the fluid, which often has most of it.
     constexpr double share_of_bodies = 0.1;
