@@ -237,9 +237,11 @@ namespace undine
   bool
   ParameterFile::mentions(const std::string &section) const
   {
-    return std::any_of(section_order.begin(), section_order.end(), [&](const std::string &other) {
-      return other.compare(0, section.size(), section) == 0;
-    });
+    const auto is_within = [&](const std::string &other) {
+      return other.size() > section.size() && other.compare(0, section.size(), section) == 0;
+    };
+    return std::any_of(order.begin(), order.end(), is_within) ||
+           std::any_of(section_order.begin(), section_order.end(), is_within);
   }
 
 

@@ -135,7 +135,8 @@ namespace undine
       return part;
     }
 
-    /// True if the scene assigns this key; without one, if it has this section, even an empty one.
+    /// True if the scene assigns this key; without one, if it assigns anything in this section or
+    /// mentions one within it, even an empty one.
     bool
     given(const std::string &key = "") const;
 

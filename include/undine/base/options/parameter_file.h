@@ -59,7 +59,8 @@ namespace undine
     find(const std::string &path) const;
     /// @}
 
-    /// Is there such a section, "Bodies/", or one in it, even if it is empty?
+    /// Does the scene set anything in the section, "Bodies/", or mention one within it, even an
+    /// empty one?
     bool
     mentions(const std::string &section) const;
 
