@@ -4,6 +4,7 @@ import base64
 import io
 import os
 import xml.etree.ElementTree
+import zlib
 
 import matplotlib
 import numpy
@@ -20,7 +21,7 @@ MOST_POLYGONS = 60_000  # of the fluid in a plane; finer grids are drawn by pixe
 MOST_PARTICLES = 60_000
 NOT_CARRIED = ("velocity", "pressure", "vorticity_magnitude", "component", "fluid_fraction")
 BODY, OBSTACLE, WALL = "#e07b39", "#8a8f98", "#9aa0a8"
-UNREADABLE = (OSError, ValueError, KeyError, AttributeError, xml.etree.ElementTree.ParseError)
+UNREADABLE = (OSError, ValueError, LookupError, TypeError, AttributeError, zlib.error, xml.etree.ElementTree.ParseError)
 
 
 class Moment:

@@ -7,21 +7,10 @@ Several studies also have their diagrams side by side in one picture.
 """
 import argparse
 import os
-import re
 import sys
 
 from study import analysis, campaign, description, plots, report, stability, stability_report
-
-UNITS = {"": 1, "s": 1, "min": 60, "h": 3600}
-
-
-def duration(text):
-    """Seconds of "90", "20min" or "2h"."""
-    found = re.fullmatch(r"(\d+(?:\.\d*)?)\s*(s|min|h|)", text)
-    if not found:
-        raise argparse.ArgumentTypeError(f"'{text}' is no time; examples: 90s, 20min, 2h")
-    return float(found[1]) * UNITS[found[2]]
-
+from study.duration import duration
 
 def arguments():
     parser = argparse.ArgumentParser(prog="./undine study", description="Runs a scene with many settings and tells what "

@@ -9,14 +9,15 @@ settings for the error asked for follow, and whether their run changes the value
 """
 import argparse
 import os
+import re
 import subprocess
 import sys
 import tempfile
 import time
 
 from study import earlier, knobs
-from study.__main__ import duration
 from study.description import Study
+from study.duration import duration
 from study.pilot import Pilot, Refused, quantity_of
 from study.search import Search
 from study.tables import percent, table
@@ -46,11 +47,14 @@ def report(search):
 
 
 def default_column(columns):
-    """A displacement of a probe, else what a probe measures, else a force, else the fluid's kinetic energy."""
+    """The displacement of a probe, else what a probe measures, else a force, with all components that these have, else the
+    fluid's kinetic energy."""
     for word in (" displacement ", " velocity ", " front", "pressure force ", "inetic energy"):
-        for name, values in columns.items():
-            if word in name and abs(values).max() > 0:
-                return name
+        for name in columns:
+            vector = re.sub(" [xyz]$", "", name)
+            components = [values for other, values in columns.items() if re.sub(" [xyz]$", "", other) == vector]
+            if word in name and max(abs(values).max() for values in components) > 0:
+                return vector
     raise Refused("name a column of 'statistics' with --of")
 
 
@@ -66,7 +70,7 @@ def arguments(words):
     parser = argparse.ArgumentParser(prog="./undine", description=__doc__.split("\n\n")[2])
     parser.add_argument("scene", metavar="SCENE.prm")
     parser.add_argument("--accuracy", type=share, required=True, metavar="ERROR", help="relative, such as 1%%")
-    parser.add_argument("--of", metavar="COLUMN", help="of the file 'statistics'")
+    parser.add_argument("--of", metavar="COLUMN", help="of the file 'statistics', or a vector whose components are columns")
     parser.add_argument("--as", dest="measure", choices=MEASURES, default="over time", help="what of the column is accurate")
     parser.add_argument("--within", type=duration, metavar="TIME", help="refuse what would take longer, such as 20min")
     parser.add_argument("--output", metavar="DIR")
@@ -85,12 +89,14 @@ def main(words):
         settings["Time/Tolerance"] = "0"
     study = Study("", options.scene, os.path.abspath(options.scene), 1, 0.0, 0.0, "core seconds", "all", [], settings, [])
     all_knobs = tuple(knobs.knobs_of(found))
+    if not all_knobs:
+        sys.exit("Error: nothing of this scene can be refined: no time passes, and its elements come from files of meshes")
     deadline = time.monotonic() + options.within if options.within else None
     output = options.output or found["Output/Directory"]
     with tempfile.TemporaryDirectory() as folder:
         pilot = Pilot(options.program, study, lambda columns: quantity_of(options.of or default_column(columns),
-                                                                          options.measure), folder, deadline)
-        known = earlier.load(pilot, all_knobs, found)
+                                                                          options.measure, columns), folder, deadline)
+        known = earlier.load(pilot, all_knobs, found, same_probes=not options.of)
         if known:
             print(f"{known} runs of earlier studies of this scene in '{earlier.FOLDER}' are used", file=sys.stderr)
         tries = []

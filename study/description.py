@@ -61,6 +61,7 @@ class Quantity:
     folder: str = ""
     rate: bool = False
     rate_over: float = 0
+    is_vector: bool = False  # columns are its components, instead of terms of a sum
 
     def has_reference(self):
         return bool(self.reference or self.reference_file)
@@ -98,7 +99,7 @@ class Quantity:
     def components(self):
         """Columns of each component of the quantity at each place; those of one list are added up."""
         if not self.field:
-            return [self.columns]
+            return [[name] for name in self.columns] if self.is_vector else [self.columns]
         suffixes = [""] if self.field == "pressure" else [f" {axis}" for axis in AXES[:len(self.lower)]]
         return [[f"{self.probe(k)} {FIELD_COLUMNS[self.field]}{suffix}"]
                 for suffix in suffixes for k in range(len(self.points()))]
@@ -162,6 +163,14 @@ def variation(name, section):
     return Variation(name, section["Kind"], names, settings, numbers(section["Lengths"]))
 
 
+def row(text):
+    """{column: value} of "column = value, ..."; ends the program."""
+    parts = [[word.strip() for word in part.split("=", 1)] for part in split(text, ",")]
+    if any(len(part) != 2 for part in parts):
+        sys.exit(f"Error: 'Reference row = {text}': allowed are 'column = value', with ',' between")
+    return dict(parts)
+
+
 def quantity(name, section, folder):
     text = section.get
     file = os.path.normpath(os.path.join(folder, text("Reference file"))) if text("Reference file") else ""
@@ -170,7 +179,7 @@ def quantity(name, section, folder):
         float(text("Share of step")), float(text("From")), float(text("Until")), int(text("Periods")), text("Period of"),
         "" if text("Field") == "none" else text("Field"), text("Body"), numbers(text("Lower corner")),
         numbers(text("Upper corner")), numbers(text("Points")), split(text("Reference"), ";"), file,
-        text("Reference column"), dict(split(part, "=") for part in split(text("Reference row"), ",")),
+        text("Reference column"), row(text("Reference row")),
         text("Reference times"), float(text("Reference factor")), float(text("Scale")), section, folder,
         truth(text("Rate", "false")), float(text("Rate over", "0")))
 

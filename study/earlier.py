@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from study import knobs, runs
 from study.cases import of_scene
 from study.description import numbers
-from study.pilot import Setting
+from study.pilot import Refused, Setting
 
 FOLDER = os.path.join("output", "studies")
 SAME = 1e-9  # relative, of factors
@@ -48,9 +48,14 @@ def setting_of(all_knobs, scene, parameters):
     return None if None in factors else Setting(all_knobs, factors)
 
 
-def load(pilot, all_knobs, scene, folder=FOLDER):
+def probes(parameters):
+    return {key: value for key, value in parameters.items() if key.startswith("Probes/")}
+
+
+def load(pilot, all_knobs, scene, folder=FOLDER, same_probes=False):
     """Give the pilot all runs of its scene, with these parameters, that studies in a folder have kept, if they are of the same
-    program; their number."""
+    program and have the columns of its quantity; their number. `same_probes`: only those with the probes of the scene, where
+    the columns of the first decide what the quantity is."""
     digest, found = runs.digest_of_file(pilot.program), 0
     for path in sorted(glob.glob(os.path.join(folder, "*", "cases", "*", "result.json"))):
         with open(path) as file:
@@ -62,7 +67,11 @@ def load(pilot, all_knobs, scene, folder=FOLDER):
             continue
         parameters = knobs.parameters(pilot.program, pilot.study.scene, [f"{key}={value}" for key, value in settings.items()])
         setting = setting_of(all_knobs, scene, parameters)
-        if setting and setting not in pilot.values:
+        if not setting or setting in pilot.values or (same_probes and probes(parameters) != probes(scene)):
+            continue
+        try:
             pilot.take(setting, result, case)
             found += 1
+        except Refused:  # it has recorded other columns
+            pilot.forget(setting)
     return found

@@ -40,8 +40,9 @@ class LinearTheory:
             campaign = Campaign(self.found.program, self.study, [*self.results, *cases],
                                 os.path.join(self.found.folder, "linear theory"), self.found.jobs, self.found.within)
             self.results = campaign.carry_out()
-            cases = [one.with_value(self.found.axis, self.found.position_between(one, other)) for _, one, other in self.pairs()
-                     if self.found.number(other) > WITHIN * self.found.number(one)]
+            middles = [one.with_value(self.found.axis, self.found.position_between(one, other)) for _, one, other in self.pairs()
+                       if self.found.number(other) > WITHIN * self.found.number(one)]
+            cases = [case for case in middles if case not in self.results]
         return self
 
     def boundaries(self):

@@ -58,7 +58,7 @@ def inline_svg(text, name):
     svg = text[text.index("<svg"):]
     prefix = re.sub(r"\W", "_", name)  # identifiers of several pictures must not meet
     svg = re.sub(r'id="', f'id="{prefix}_', svg)
-    return re.sub(r'(href="#|url\(#)', rf"\1{prefix}_", svg)
+    return re.sub(r'(href="#|url\(#)', rf"\g<1>{prefix}_", svg)
 
 
 def figure(found, name, path):

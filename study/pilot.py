@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from study import quantities, runs
 from study.columns import NotEvaluated, read
-from study.description import Quantity
+from study.description import AXES, Quantity
 
 
 class Refused(Exception):
@@ -34,10 +34,11 @@ class Setting:
         return Setting(self.knobs, self.factors[:k] + (factor,) + self.factors[k + 1:])
 
 
-def quantity_of(name, measure):
-    """The quantity to be accurate: one column."""
+def quantity_of(name, measure, columns=()):
+    """The quantity to be accurate: one column, or the vector of the columns that are its components."""
+    components = [f"{name} {axis}" for axis in AXES if f"{name} {axis}" in columns] if name not in columns else []
     texts = dict.fromkeys(("unit", "period_of", "field", "body", "reference_file", "reference_column", "reference_times"), "")
-    return Quantity(name=name, columns=[name], factor=1.0, evaluate=measure, share_of_step=1.0, start=0.0, until=0.0,
+    return Quantity(name=name, columns=components or [name], is_vector=True, factor=1.0, evaluate=measure, share_of_step=1.0, start=0.0, until=0.0,
                     periods=0, lower=[], upper=[], n_points=[], reference=[], reference_row={}, reference_factor=1.0,
                     scale=0.0, **texts)
 
@@ -98,6 +99,12 @@ class Pilot:
             self.values[setting] = quantities.evaluate(self.quantity, columns)
         except NotEvaluated as reason:
             raise Refused(str(reason)) from reason
+
+    def forget(self, setting):
+        """That a run has been taken which does not have the quantity."""
+        self.costs.pop(setting, None)
+        if not self.values:
+            self.quantity = None
 
     def times(self, settings):
         """Those of the run with the longest steps."""

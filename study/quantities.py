@@ -69,7 +69,7 @@ def series(quantity, columns):
 
 def passages(quantity, times, values, columns):
     """Bounds of the last whole periods; all passages if there is no number of them."""
-    signal = values[:, 0]
+    signal = values[:, numpy.ptp(values, axis=0).argmax()]  # the component that moves most
     if quantity.period_of:
         signal = numpy.interp(times, columns["Time"], column(columns, quantity.period_of))
     found = upward_passages(times, signal)

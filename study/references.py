@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the quantities of a study are compared with."""
 import csv
+import math
 import subprocess
 from dataclasses import dataclass, field
 
@@ -100,6 +101,9 @@ def limit_of_all(study, values, base):
     """From one case. Each refinement adds its own correction, which holds for errors small enough to be a sum of terms of
     each length."""
     result = AllLimits(values[base].copy())
+    if not study.refinements():
+        result.uncertainty = math.inf
+        result.warnings.append("nothing is refined: how far the values are from a limit is not known")
     for axis in study.refinements():
         found = convergence.limit(*along(study, values, base, axis))
         result.value += found.value - values[base]
@@ -156,9 +160,15 @@ def make(program, study, quantity, times, values):
     if quantity.reference:
         found = by_expression(program, quantity, times)
     elif quantity.reference_file:
-        found = by_file(quantity, times)
+        try:
+            found = by_file(quantity, times)
+        except (TypeError, ValueError) as error:
+            raise NoReference(f"'{quantity.reference_file}' holds what is no number: {error}") from error
     else:
         found = by_finest(study, values)
+    n_components = next(iter(values.values())).shape[1]
+    if found.values.shape[1] != n_components:
+        raise NoReference(f"the reference of '{quantity.name}' has {found.values.shape[1]} component(s) in the place of {n_components}")
     if not numpy.isfinite(found.values).all():
         raise NoReference("the reference is no finite number at all times")
     return found

@@ -146,12 +146,12 @@ class Search:
     def expected_error(self):
         """Of the last setting, with parts that cancel each other."""
         model = self.levels[-1].model
-        return self.error * model.sum(self.setting.factors) / model.error(self.setting.factors)
+        return self.error * model.sum(self.setting.factors) / (model.error(self.setting.factors) or 1.0)  # nothing changes: no error has parts
 
     def parts(self):
         """Of the error of the last setting."""
         model = self.levels[-1].model
-        scale = self.error / model.error(self.setting.factors)
+        scale = self.error / (model.error(self.setting.factors) or 1.0)  # nothing changes: no error has parts
         return [scale * part.size * (factor / part.factor) ** -part.order for part, factor in
                 zip(model.parts, self.setting.factors)]
 

@@ -2,6 +2,7 @@
 """Maps of stability: where along the ranges of a study runs are stable, by their own verdicts; boundaries by bisection."""
 import itertools
 import math
+import time
 from dataclasses import dataclass
 
 from study import description
@@ -39,10 +40,16 @@ class StabilityMap:
     unevaluated, quantities = (), ()
 
     def __init__(self, program, study, folder, jobs, within):
-        self.program, self.study, self.folder, self.jobs, self.within = program, study, folder, jobs, within
+        self.program, self.study, self.folder, self.jobs = program, study, folder, jobs
+        self.end = None if within is None else time.monotonic() + within
         self.axis = study.ranges()[-1]
         self.results, self.n_first = {}, 0
         self.foretold = []  # boundaries by linear theory, [(line, number)]
+
+    @property
+    def within(self):
+        """Seconds that are left for all rounds of bisection together; None: no limit."""
+        return None if self.end is None else max(0.0, self.end - time.monotonic())
 
     def carry_out(self):
         sizes = [range(len(variation.names)) for variation in self.study.variations]
@@ -51,7 +58,7 @@ class StabilityMap:
         while cases:
             campaign = Campaign(self.program, self.study, [*self.results, *cases], self.folder, self.jobs, self.within)
             self.results = campaign.carry_out()
-            cases = self.middles()
+            cases = [case for case in self.middles() if case not in self.results]  # one without a verdict has no half
         if self.study.linear_theory:
             self.foretold = LinearTheory(self).carry_out(first).boundaries()
 

@@ -13,13 +13,15 @@ import unittest.mock
 import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-from study import analysis, columns, convergence, predictions, quantities, report, runs, scene_files, tables  # noqa: E402
+from study import analysis, columns, convergence, description, page, predictions, quantities, references, report, runs  # noqa: E402
+from study import scene_files, stability, tables  # noqa: E402
+from study.accuracy import default_column  # noqa: E402
 from study.cases import Case, make_cases, of_scene, ranks  # noqa: E402
 from study.columns import NotEvaluated  # noqa: E402
 from study.description import Quantity, Study, Variation, check_own_keys, flat, numbers, split, variation  # noqa: E402
 from study.error_model import ErrorModel, Part  # noqa: E402
 from study.knobs import Knob, common_length, knobs_of  # noqa: E402
-from study.pilot import Refused  # noqa: E402
+from study.pilot import Refused, quantity_of  # noqa: E402
 from study.search import Search  # noqa: E402
 
 
@@ -97,6 +99,19 @@ class Quantities(unittest.TestCase):
         self.assertAlmostEqual(self.value(evaluate="middle", periods=3), 2, 2)
         self.assertAlmostEqual(self.value(evaluate="mean", periods=3), 2, 3)
         self.assertAlmostEqual(self.value(columns=["b"], evaluate="mean", periods=2, period_of="a"), 1, 12)
+
+    def test_periods_of_a_vector_are_those_of_the_component_that_moves_most(self):
+        self.assertAlmostEqual(self.value(columns=["b", "a"], is_vector=True, evaluate="frequency"), 1.7, 4)
+
+    def test_vectors_are_known_by_their_components(self):
+        wave = self.wave()
+        rows = {"Time": wave["Time"], "tip displacement x": 0 * wave["a"], "tip displacement y": wave["a"], "tip pressure": wave["b"]}
+        self.assertEqual(default_column(rows), "tip displacement")
+        for name, columns_of in (("tip displacement", ["tip displacement x", "tip displacement y"]), ("tip pressure", ["tip pressure"]),
+                                 ("tip displacement y", ["tip displacement y"]), ("unknown", ["unknown"])):
+            self.assertEqual(quantity_of(name, "end", rows).columns, columns_of)
+        found = quantities.evaluate(quantity_of("tip displacement", "end", rows), rows)
+        numpy.testing.assert_array_equal(found.values, [[0, wave["a"][-1]]])
 
     def test_peaks_between_rows_do_not_depend_on_the_rows(self):
         for shift in (0, 0.03, 0.07):  # of rows that are 0.1 s apart or, later, 0.05 s
@@ -377,6 +392,32 @@ class Results(unittest.TestCase):
         self.assertTrue(math.isnan(found.price_of_a_digit(result)))
         self.assertIn("no order is known", report.text(found))
 
+    def test_where_nothing_is_refined_nothing_is_known(self):
+        variants = Variation("kind", "variant", ["one", "other"], [{"k": "1"}, {"k": "2"}], [])
+        found = self.analyse(lambda kind: 1 + 0.3 * kind, variants)
+        (result,) = found.quantities
+        self.assertEqual(result.uncertainty(), math.inf)
+        self.assertTrue(any("nothing is refined" in each for each in result.reference.warnings))
+        self.assertTrue(all(row.case is None for row in found.advice(result)))
+
+    def test_references_that_do_not_fit_say_why(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "table.csv")
+            with open(path, "w") as file:
+                file.write("case,drag\na,1.5\nb,\n")
+            of_row = lambda row: quantity(name="q", reference=[], reference_file=path, reference_column="drag",  # noqa: E731
+                                          reference_row={"case": row}, reference_factor=1.0)
+            for row, width, reason in (("b", 1, "no number"), ("a", 8, "1 component"), ("c", 1, "no such row")):
+                with self.assertRaisesRegex(references.NoReference, reason):
+                    references.make("", study(), of_row(row), numpy.zeros(1), {Case((0,)): numpy.zeros((1, width))})
+            made = references.make("", study(), of_row("a"), numpy.zeros(1), {Case((0,)): numpy.zeros((1, 1))})
+            self.assertEqual(made.values[0, 0], 1.5)
+        with self.assertRaisesRegex(SystemExit, "column = value"):
+            description.row("400")
+
+    def test_pictures_have_identifiers_of_any_name(self):
+        self.assertIn('href="#2nd_peak_a"', page.inline_svg('<svg><g id="a"/><use href="#a"/></svg>', "2nd peak"))
+
     def test_orders_of_errors_against_what_is_exact(self):
         for exact, shown in (("", math.nan), ("1", 2.0)):
             found = self.analyse(lambda i: 1 + 0.2 / 4 ** i, refinement("dt", [4, 2, 1]))
@@ -386,6 +427,36 @@ class Results(unittest.TestCase):
             ((_, _, own, against),) = found.orders(result)
             self.assertAlmostEqual(own, 2)
             numpy.testing.assert_allclose(against, shown)
+
+
+class FakeCampaign:
+    """Runs that are stable below 3, and of which those next to it, which bisection asks for, have no verdict."""
+
+    made = []
+
+    def __init__(self, _, of_study, cases, folder, jobs, within):
+        self.study, self.cases = of_study, cases
+        FakeCampaign.made.append((len(cases), within))
+
+    def result(self, case):
+        number = self.study.variations[0].lengths[case.index[0]]
+        verdict = "stable" if number < 3 else "growing"
+        return {"failure": "", "stopped": 1.5 < number < 8, "verdict": "" if 1.5 < number < 8 else verdict}
+
+    def carry_out(self):
+        return {case: self.result(case) for case in self.cases}
+
+
+class Maps(unittest.TestCase):
+    def test_bisection_ends_at_runs_without_a_verdict_and_within_the_time(self):
+        along = Variation("h", "range", ["1", "10"], [{"Time/Step": "1"}, {"Time/Step": "10"}], [1.0, 10.0])
+        FakeCampaign.made = []
+        with unittest.mock.patch.object(stability, "Campaign", FakeCampaign):
+            found = stability.StabilityMap("", study(along), "", 1, 1000.0)
+            found.carry_out()
+        self.assertEqual([count for count, _ in FakeCampaign.made], [2, 3])
+        self.assertEqual([(each.stable, each.unstable) for each in found.boundaries()], [(1, 10)])
+        self.assertLess(FakeCampaign.made[1][1], FakeCampaign.made[0][1])
 
 
 class Accuracy(unittest.TestCase):
