@@ -87,15 +87,15 @@ def limit(lengths, values):
         return Limit(finest, UNSURE * last / (ratio - 1), math.nan, "has two values only: no order is known")
     p = observed_order(lengths, values)
     if math.isnan(p):
-        turns = alignment(values) < -ALIGNED
-        largest = max(last, norm(values[-2] - values[-3])) if turns else last
+        largest = max(last, norm(values[-2] - values[-3]))
         return Limit(finest, UNSURE * largest, math.nan,
-                     "goes up and down" if turns else "does not come closer")
+                     "goes up and down" if alignment(values) < -ALIGNED else "does not come closer")
     used = min(max(p, SMALLEST_ORDER), LARGEST_ORDER)
     share = 1 / ((lengths[-2] / lengths[-1]) ** used - 1)
     seen_twice = len(values) > 3 and abs(observed_order(lengths[:-1], values[:-1]) - p) < 0.5
     slow = p < SMALLEST_ORDER
     leads_on = alignment(values) > ALIGNED
-    factor = SURE if seen_twice and leads_on and not slow else UNSURE
+    is_chance = p > LARGEST_ORDER
+    factor = SURE if seen_twice and leads_on and not slow and not is_chance else UNSURE
     return Limit(finest + share * (values[-1] - values[-2]) if leads_on else finest, factor * share * last, p,
                  "converges slowly" if slow else "")

@@ -228,9 +228,9 @@ def csv_of(found):
 
 
 def escaped(text):
-    for sign in "&%$#_{}":
-        text = text.replace(sign, "\\" + sign)
-    return text
+    """For LaTeX."""
+    others = {"\\": r"\textbackslash{}", "^": r"\textasciicircum{}", "~": r"\textasciitilde{}"}
+    return "".join("\\" + sign if sign in "&%$#_{}" else others.get(sign, sign) for sign in text)
 
 
 def latex_of(found):

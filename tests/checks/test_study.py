@@ -56,6 +56,13 @@ class Convergence(unittest.TestCase):
             found = convergence.limit(lengths, values)
             self.assertLessEqual(abs(found.value[0, 0] - 1), found.uncertainty)
 
+    def test_a_large_difference_before_a_small_one_is_not_forgotten(self):
+        unequal = convergence.limit([1, 0.5, 0.45], [numpy.array([[x]]) for x in (0.0, 1.0, 1.9)])
+        self.assertIn("does not come closer", unequal.remark)
+        self.assertAlmostEqual(unequal.uncertainty, 3.0)
+        chance = convergence.limit([1, 0.5, 0.25, 0.125], [numpy.array([[x]]) for x in (1.0, 1e-3, 1e-6, 1e-9)])
+        self.assertAlmostEqual(chance.uncertainty, 3 * (1e-6 - 1e-9) / (2 ** 4 - 1))
+
     def test_sequences_that_do_not_converge_are_named(self):
         away = convergence.limit([1, 0.5, 0.25], [numpy.array([[x]]) for x in (1.0, 1.1, 1.3)])
         turning = convergence.limit([1, 0.5, 0.25], [numpy.array([[x]]) for x in (1.0, 1.2, 1.15)])
