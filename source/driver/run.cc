@@ -15,6 +15,7 @@
 #include <undine/driver/run_summary.h>
 #include <undine/driver/size_check.h>
 #include <undine/driver/study_file.h>
+#include <undine/fluid/model/undefined_values.h>
 #include <undine/output/checkpoint/checkpoint.h>
 #include <undine/output/files/schedule.h>
 #include <undine/scene/scene.h>
@@ -129,6 +130,23 @@ namespace undine
     }
 
 
+    /// What is undefined for the fluid (undefined_boundary_value) within a step that has failed, at
+    /// its end or that of shorter ones; empty if nothing is. Collective.
+    template <int dim>
+    std::string
+    undefined_in_step(const State<dim> &state, const Scene<dim> &scene)
+    {
+      std::string complaint;
+      if (!scene.models.fluid)
+        return complaint;
+      double dt = scene.scheme->choose_dt(state);
+      for (int halvings = 0; halvings < 9 && complaint.empty(); ++halvings, dt /= 2)
+        complaint = undefined_boundary_value(
+          *scene.models.fluid, state.fluid.pressure.topology(), state.clock.time + dt);
+      return complaint;
+    }
+
+
     /// A failed run keeps its last good state: it can be looked at, and resumed with other
     /// settings. So does one that is stopped.
     template <int dim>
@@ -159,6 +177,9 @@ namespace undine
         }
       catch (const Error &error)
         {
+          const std::string complaint = undefined_in_step(state, scene);
+          if (!complaint.empty())
+            throw InputError(failure_report(InputError(complaint), state, scene, folder, log));
           throw SolveError(failure_report(error, state, scene, folder, log));
         }
     }
@@ -313,13 +334,30 @@ namespace undine
     }
 
 
-    /// The state at the start of a run.
+    /// The state at the start of a run. Throws InputError if it cannot be found since an expression
+    /// has no value, SolveError if for another reason.
     template <int dim>
     Report
     start(State<dim> &state, Scene<dim> &scene, TimingTree &timing)
     {
       state.clock = scene.clock;
-      return scene.scheme->initialize(state, scene.models, timing);
+      try
+        {
+          return scene.scheme->initialize(state, scene.models, timing);
+        }
+      catch (const SolveError &)
+        {
+          if (!scene.models.fluid)
+            throw;
+          const auto &model     = *scene.models.fluid;
+          const auto  topology  = state.fluid.pressure.topology();
+          auto        complaint = undefined_initial_velocity(model, topology);
+          if (complaint.empty())
+            complaint = undefined_boundary_value(model, topology, state.clock.time);
+          if (complaint.empty())
+            throw;
+          throw InputError(complaint);
+        }
     }
 
 
