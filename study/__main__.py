@@ -12,6 +12,7 @@ import sys
 from study import analysis, campaign, description, plots, report, stability, stability_report
 from study.duration import duration
 
+
 def arguments():
     parser = argparse.ArgumentParser(prog="./undine study", description="Runs a scene with many settings and tells what "
                                      "accuracy costs. Finished runs are kept: the same command goes on after a stop.")

@@ -38,9 +38,9 @@ def quantity_of(name, measure, columns=()):
     """The quantity to be accurate: one column, or the vector of the columns that are its components."""
     components = [f"{name} {axis}" for axis in AXES if f"{name} {axis}" in columns] if name not in columns else []
     texts = dict.fromkeys(("unit", "period_of", "field", "body", "reference_file", "reference_column", "reference_times"), "")
-    return Quantity(name=name, columns=components or [name], is_vector=True, factor=1.0, evaluate=measure, share_of_step=1.0, start=0.0, until=0.0,
-                    periods=0, lower=[], upper=[], n_points=[], reference=[], reference_row={}, reference_factor=1.0,
-                    scale=0.0, **texts)
+    return Quantity(name=name, columns=components or [name], is_vector=True, factor=1.0, evaluate=measure, share_of_step=1.0,
+                    start=0.0, until=0.0, periods=0, lower=[], upper=[], n_points=[], reference=[], reference_row={},
+                    reference_factor=1.0, scale=0.0, **texts)
 
 
 class Pilot:

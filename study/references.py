@@ -168,7 +168,8 @@ def make(program, study, quantity, times, values):
         found = by_finest(study, values)
     n_components = next(iter(values.values())).shape[1]
     if found.values.shape[1] != n_components:
-        raise NoReference(f"the reference of '{quantity.name}' has {found.values.shape[1]} component(s) in the place of {n_components}")
+        raise NoReference(f"the reference of '{quantity.name}' has {found.values.shape[1]} component(s) in the place of "
+                          f"{n_components}")
     if not numpy.isfinite(found.values).all():
         raise NoReference("the reference is no finite number at all times")
     return found
