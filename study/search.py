@@ -144,14 +144,14 @@ class Search:
         self.refuse_what_does_not_converge()
 
     def expected_error(self):
-        """Of the last setting, with parts that cancel each other."""
+        """Of the last setting, with parts that cancel each other; zero where nothing changes anything."""
         model = self.levels[-1].model
-        return self.error * model.sum(self.setting.factors) / (model.error(self.setting.factors) or 1.0)  # nothing changes: no error has parts
+        return self.error * model.sum(self.setting.factors) / (model.error(self.setting.factors) or 1.0)
 
     def parts(self):
         """Of the error of the last setting."""
         model = self.levels[-1].model
-        scale = self.error / (model.error(self.setting.factors) or 1.0)  # nothing changes: no error has parts
+        scale = self.error / (model.error(self.setting.factors) or 1.0)
         return [scale * part.size * (factor / part.factor) ** -part.order for part, factor in
                 zip(model.parts, self.setting.factors)]
 
