@@ -120,7 +120,7 @@ def rows(made, name):
         shown = "; ".join(f"{value:.4g}" + ("" if law.keeps(value) else " (!)") for law, value in values if not math.isnan(value))
         compared = ""
         reference = made.made.get(("simultaneous", SHORTER[step]))
-        if hard.column and reference and made.is_stable(step) and not reference["result"]["failure"]:
+        if hard.column and reference and ("simultaneous", step) in made.made and made.is_stable(step) and not reference["result"]["failure"]:
             compared, close = agreement(hard, made.made["simultaneous", step]["columns"], reference["columns"], step)
             compared += "" if close else " (!)"
         wanted = "; ".join(f"{law.what}: {law.wanted:.4g}" for law in hard.laws())

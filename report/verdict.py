@@ -56,6 +56,13 @@ def of_failure(certificate, failure):
     return Verdict("bad", "failed", sentence, without_advice(failure), advice)
 
 
+def kept(certificate):
+    """Of the laws that the certificate has looked at, besides that of the energy."""
+    laws = [each.get("law", "") for each in certificate.get("margins", [])]
+    what = [word for word in ("volume", "momentum") if any(law.startswith(word) for law in laws)]
+    return f" {' and '.join(what).capitalize()} {'are' if len(what) > 1 else 'is'} conserved." if what else ""
+
+
 def negative_margins(certificate):
     return [each.get("law", "") for each in certificate.get("margins", []) if not (each.get("margin") or 0) >= 0]
 
@@ -70,7 +77,7 @@ def of_certificate(certificate, prefix):
     if violated:
         return Verdict("warning", prefix + (word or "stable"), text, advice=VIOLATED)
     if text == "stable":
-        text = "No energy appeared from nowhere; volume and momentum are conserved. This does not say how accurate the run is."
+        text = "No energy appeared from nowhere." + kept(certificate) + " This does not say how accurate the run is."
     return Verdict("good" if not prefix else "neutral", prefix + word, text)
 
 

@@ -20,7 +20,7 @@ def aim(camera, bounds, is_flat, options, aspect):
     corners = [(bounds[i], bounds[2 + j], bounds[4 + k]) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
     camera.SetFocalPoint(centre)
     camera.SetPosition([c + 2 * size * d for c, d in zip(centre, direction)])
-    camera.SetViewUp(0, 1, 0)
+    camera.SetViewUp(*((0, 1, 0) if abs(direction[1]) < 0.999999 else (0, 0, -direction[1])))
     camera.OrthogonalizeViewUp()
     if is_flat:
         half = [max(abs(place[axis]) for place in seen(camera, corners)) for axis in (0, 1)]

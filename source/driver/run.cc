@@ -3,7 +3,8 @@
 #include <undine/base/core/version.h>
 #include <undine/base/options/options_output.h>
 #include <undine/base/parallel/interruption.h>
-#include <undine/coupled/immersed/fluid_geometry.h>
+#include <undine/base/parallel/throw_together.h>
+#include <undine/coupled/step/physics.h>
 #include <undine/driver/adviser.h>
 #include <undine/driver/effects_report.h>
 #include <undine/driver/log.h>
@@ -15,7 +16,6 @@
 #include <undine/driver/run_summary.h>
 #include <undine/driver/size_check.h>
 #include <undine/driver/study_file.h>
-#include <undine/fluid/model/undefined_values.h>
 #include <undine/output/checkpoint/checkpoint.h>
 #include <undine/output/files/schedule.h>
 #include <undine/scene/scene.h>
@@ -52,6 +52,17 @@ namespace undine
     }
 
 
+    /// What the probes measure of the new state joins what the models did.
+    template <int dim>
+    void
+    ask_probes(Report &report, const State<dim> &state, const Scene<dim> &scene, TimingTree &timing)
+    {
+      const auto timed = timing.section("measure");
+      for (const auto &probe : scene.probes)
+        append(report.columns, probe->columns(scene.models, state));
+    }
+
+
     /// The whole of a simulation. `state` is at its first time, initial or resumed.
     template <int dim>
     void
@@ -69,8 +80,9 @@ namespace undine
         {
           throw_if_interrupted(scene.models.communicator());
           const double dt     = scene.scheme->choose_dt(state);
-          const Report report = scene.scheme->step(state, dt);
+          Report       report = scene.scheme->step(state, dt);
           state.clock.advance(report.dt); // what was accepted; retries happen inside step
+          ask_probes(report, state, scene, timing);
           if (report.steady)
             state.clock.end_time = state.clock.time;
           watch.step(state, report);
@@ -130,20 +142,19 @@ namespace undine
     }
 
 
-    /// What is undefined for the fluid (undefined_boundary_value) within a step that has failed, at
-    /// its end or that of shorter ones; empty if nothing is. Collective.
-    template <int dim>
+    /// About expressions of the scene that had no finite value at `since` [s] or later, with the
+    /// failure that may follow from it; empty if all had. Collective.
     std::string
-    undefined_in_step(const State<dim> &state, const Scene<dim> &scene)
+    undefined_values(const Options &options,
+                     const double   since,
+                     const Error   &failure,
+                     const MPI_Comm communicator)
     {
-      std::string complaint;
-      if (!scene.models.fluid)
-        return complaint;
-      double dt = scene.scheme->choose_dt(state);
-      for (int halvings = 0; halvings < 9 && complaint.empty(); ++halvings, dt /= 2)
-        complaint = undefined_boundary_value(
-          *scene.models.fluid, state.fluid.pressure.topology(), state.clock.time + dt);
-      return complaint;
+      std::string complaints;
+      for (const auto &complaint : options.undefined_values(since))
+        complaints += complaint + "\n";
+      complaints = first_message(complaints, communicator);
+      return complaints.empty() ? "" : complaints + "What failed: " + failure.what();
     }
 
 
@@ -153,6 +164,7 @@ namespace undine
     void
     run_keeping_last_state(State<dim>         &state,
                            Scene<dim>         &scene,
+                           const Options      &options,
                            const Watch<dim>   &watch,
                            const ResultFolder &folder,
                            Log                &log,
@@ -177,7 +189,8 @@ namespace undine
         }
       catch (const Error &error)
         {
-          const std::string complaint = undefined_in_step(state, scene);
+          const std::string complaint =
+            undefined_values(options, state.clock.time, error, scene.models.communicator());
           if (!complaint.empty())
             throw InputError(failure_report(InputError(complaint), state, scene, folder, log));
           throw SolveError(failure_report(error, state, scene, folder, log));
@@ -334,26 +347,21 @@ namespace undine
     }
 
 
-    /// The state at the start of a run. Throws InputError if it cannot be found since an expression
-    /// has no value, SolveError if for another reason.
+    /// The state at the start of a run. Throws InputError if it cannot be found and an expression
+    /// had no value, SolveError if there is no such reason.
     template <int dim>
     Report
-    start(State<dim> &state, Scene<dim> &scene, TimingTree &timing)
+    start(State<dim> &state, Scene<dim> &scene, const Options &options, TimingTree &timing)
     {
       state.clock = scene.clock;
       try
         {
           return scene.scheme->initialize(state, scene.models, timing);
         }
-      catch (const SolveError &)
+      catch (const SolveError &error)
         {
-          if (!scene.models.fluid)
-            throw;
-          const auto &model     = *scene.models.fluid;
-          const auto  topology  = state.fluid.pressure.topology();
-          auto        complaint = undefined_initial_velocity(model, topology);
-          if (complaint.empty())
-            complaint = undefined_boundary_value(model, topology, state.clock.time);
+          const std::string complaint =
+            undefined_values(options, state.clock.time, error, scene.models.communicator());
           if (complaint.empty())
             throw;
           throw InputError(complaint);
@@ -385,8 +393,9 @@ namespace undine
            TimingTree    &timing,
            const MPI_Comm communicator)
     {
-      const auto   timed = timing.section("initialise");
-      const Report first = start(state, scene, timing);
+      const auto timed = timing.section("initialise");
+      Report     first = start(state, scene, options, timing);
+      ask_probes(first, state, scene, timing);
 
       const OutputContext<dim>   context{communicator, folder, scene.models, scene.probes, timing};
       std::optional<ResumedFrom> from;
@@ -423,7 +432,7 @@ namespace undine
           auto       scene = read_scene<dim>(options, communicator);
           State<dim> state;
           TimingTree timing;
-          print_first(start(state, scene, timing), log);
+          print_first(start(state, scene, options, timing), log);
         }
       size.print(log, request.output.empty() ? "." : request.output);
       log.print("{}: {}", options.file().name(), checks);
@@ -466,6 +475,7 @@ namespace undine
         {
           run_keeping_last_state(state,
                                  scene,
+                                 options,
                                  {[&](const State<dim> &now, const Report &report) {
                                     adviser.observe(now, report);
                                     summary.observe(now.clock.time, report);

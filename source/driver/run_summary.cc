@@ -18,14 +18,14 @@ namespace undine
     {
       const auto &particles = models.particles;
       double      extent    = 0;
+      bool is_closed = particles && !particles->has_openings() && particles->setup().n_moving == 0;
+      for (unsigned int axis = 0; axis < dim && is_closed; ++axis) // else it falls again and again
+        is_closed = !particles->setup().periodic[axis] || particles->setup().gravity[axis] == 0;
       if (models.fluid)
         for (unsigned int axis = 0; axis < dim; ++axis)
           extent = std::max(
             extent, models.fluid->grid().upper()[axis] - models.fluid->grid().lower()[axis]);
-      return {inertia(models),
-              particles && !particles->has_openings() && particles->setup().n_moving == 0,
-              particles != nullptr,
-              extent};
+      return {inertia(models), is_closed, particles != nullptr, extent};
     }
   } // namespace
 

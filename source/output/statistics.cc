@@ -28,7 +28,7 @@ namespace undine
 
 
   /// The file `statistics`: a row for the initial state and for every step with how the step went,
-  /// what the models measured, and the probes.
+  /// what the models and the probes measured.
   template <int dim>
   class Statistics : public Output<dim>
   {
@@ -48,7 +48,7 @@ namespace undine
         StatisticsFile::assert_continues(context.communicator,
                                          from.directory / "statistics",
                                          state.clock.step,
-                                         all_columns(context, state, report),
+                                         all_columns(state, report),
                                          from.statistics_digest);
     }
 
@@ -72,18 +72,16 @@ namespace undine
     write(const State<dim> &state, const Report &report) override
     {
       const auto timed = context->timing.section("statistics");
-      file->append(all_columns(*context, state, report));
+      file->append(all_columns(state, report));
       context->folder.statistics_digest = file->digest();
     }
 
   private:
     static Columns
-    all_columns(const OutputContext<dim> &context, const State<dim> &state, const Report &report)
+    all_columns(const State<dim> &state, const Report &report)
     {
       Columns columns = columns_of_step(state.clock, report);
       append(columns, report.columns);
-      for (const auto &probe : context.probes)
-        append(columns, probe->columns(context.models, state));
       return columns;
     }
 

@@ -47,14 +47,15 @@ namespace undine
   MovingObstacle<dim>::instant(const double time, const double accuracy) const
   {
     Instant           result;
-    const std::size_t n = displacement.names_place() ? at_rest.size() : 1;
+    const double      first = std::max(0., time - accuracy); // there may be no meaning before
+    const std::size_t n     = displacement.names_place() ? at_rest.size() : 1;
     for (std::size_t k = 0; k < n; ++k)
       {
         const auto &place  = at_rest[k].place;
-        const auto  before = displacement.vector(place, time - accuracy);
+        const auto  before = displacement.vector(place, first);
         const auto  after  = displacement.vector(place, time + accuracy);
         result.displacements.push_back(displacement.vector(place, time));
-        result.velocities.push_back((after - before) / (2 * accuracy));
+        result.velocities.push_back((after - before) / (time + accuracy - first));
         if (!std::isfinite(result.displacements[k].norm() + result.velocities[k].norm()))
           throw SolveError(fmt::format("the 'Displacement' of the obstacle '{}' or its velocity is "
                                        "not a number at {:.6g} s.",

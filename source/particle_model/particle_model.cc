@@ -138,6 +138,12 @@ namespace undine
       {
         constants.fluid_density      = fluid->density;
         constants.fluid_bulk_modulus = fluid->bulk_modulus;
+        if (fluid->bulk_modulus > 0 && constants.numerics.source != particles::Source::divergence)
+          throw scene.section("Fluid").error(
+            "Bulk modulus",
+            "needs 'Particles/Pressure/Source = divergence': other sources take what a fluid is "
+            "compressed by for an error",
+            "Remove one of the keys.");
       }
     apply(effects, scene);
 

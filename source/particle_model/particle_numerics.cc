@@ -43,7 +43,7 @@ namespace undine
       "Reach",
       numerics.reach,
       "spacings",
-      Allowed::between(1.5, 4.5),
+      Allowed::between(1.5, 2.8),
       "Effective radius r_e of the weight r_e / r - 1: particles are neighbours within it.");
     read_machine(options);
     read_sub_steps(options.section("Sub-steps"));

@@ -10,7 +10,7 @@ import re
 import sys
 
 SUFFIXES = {".h", ".cc", ".cu", ".cuh"}
-NUMBER = r"[STFCIEPLV]\d+[a-z]?"
+NUMBER = r"[A-Z]\d+[a-z]?"
 CITED = re.compile(rf"\(({NUMBER})\)")
 TAG = re.compile(r"\\tag\{([^}]*)\}")
 LINK = re.compile(r"\]\(([^)\s]+)\)")  # its words may begin on the line before

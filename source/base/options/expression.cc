@@ -2,10 +2,14 @@
 #include <undine/base/core/errors.h>
 #include <undine/base/options/expression.h>
 
+#include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <regex>
 #include <sstream>
@@ -84,6 +88,25 @@ namespace undine
   } // namespace
 
 
+  template <int dim>
+  std::string
+  UndefinedValue<dim>::text() const
+  {
+    std::string result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result += fmt::format("{}{:.6g}", d == 0 ? "(" : ", ", place[d]);
+    return result + fmt::format(") and {:.6g} s", time);
+  }
+
+
+  template <int dim, int n_components>
+  struct Expression<dim, n_components>::Function
+  {
+    dealii::FunctionParser<dim>        parser{n_components};
+    std::optional<UndefinedValue<dim>> undefined;
+  };
+
+
   template <int dim, int n_components>
   Expression<dim, n_components>::Expression()
     : Expression(n_components == 1 ? "0" : (n_components == 2 ? "0; 0" : "0; 0; 0"))
@@ -95,7 +118,7 @@ namespace undine
   Expression<dim, n_components>::Expression(const std::string &text)
     : expression(text)
     , zero(only_zeros(text))
-    , function(std::make_shared<dealii::FunctionParser<dim>>(n_components))
+    , function(std::make_shared<Function>())
   {
     const std::string list       = semicolons(text, n_components);
     const auto        parts      = dealii::Utilities::split_string_list(list, ';');
@@ -112,10 +135,10 @@ namespace undine
     auto *const        screen = std::cerr.rdbuf(complaint.rdbuf());
     try
       {
-        function->initialize(variables<dim>(), list, {{"pi", dealii::numbers::PI}}, true);
+        function->parser.initialize(variables<dim>(), list, {{"pi", dealii::numbers::PI}}, true);
         dealii::Point<dim> somewhere;
         for (unsigned int c = 0; c < n_components; ++c)
-          function->value(somewhere, c);
+          function->parser.value(somewhere, c);
         std::cerr.rdbuf(screen);
       }
     catch (const std::exception &)
@@ -138,8 +161,20 @@ namespace undine
   {
     if (zero)
       return 0;
-    function->set_time(time);
-    return function->value(point, component);
+    function->parser.set_time(time);
+    const double result = function->parser.value(point, component);
+    if (auto &undefined = function->undefined;
+        !std::isfinite(result) && (!undefined || undefined->time < time))
+      undefined = {point, time};
+    return result;
+  }
+
+
+  template <int dim, int n_components>
+  std::optional<UndefinedValue<dim>>
+  Expression<dim, n_components>::undefined_value() const
+  {
+    return function->undefined;
   }
 
 
@@ -188,6 +223,9 @@ namespace undine
   }
 
 
+  template struct UndefinedValue<1>;
+  template struct UndefinedValue<2>;
+  template struct UndefinedValue<3>;
   template class Expression<1, 1>;
   template class Expression<2, 1>;
   template class Expression<3, 1>;

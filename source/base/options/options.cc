@@ -154,6 +154,26 @@ namespace undine
   }
 
 
+  std::vector<std::string>
+  Options::undefined_values(const double since) const
+  {
+    std::vector<std::string> result;
+    for (const auto &watched : store->watched)
+      if (const std::string where = watched.undefined_since(since); !where.empty())
+        {
+          Options section = *this;
+          section.path    = watched.section;
+          result.emplace_back(
+            section
+              .error(watched.key,
+                     "is not a finite number at " + where,
+                     "Try: an expression that has a value wherever and whenever it is needed.")
+              .what());
+        }
+    return result;
+  }
+
+
   /// What is wrong with an assignment that no part has read.
   InputError
   Options::unknown(const std::string              &full_path,

@@ -155,6 +155,8 @@ namespace undine
       last.energy + input.of_works + input.of_powers + moment * std::pow(least_way / dt, 2);
 
     Creation step;
+    if (std::isnan(last.energy))
+      return step;
     step.is_known =
       last.known || input.of_powers <= small_work_of_powers * (scale - input.of_powers);
     step.energy        = gain - input.by_means;

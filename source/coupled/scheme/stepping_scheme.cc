@@ -173,7 +173,11 @@ namespace undine
           tolerance, displacement, asked_step, shortest_step(), first_step()});
     if (steady_within > 0)
       steadiness = std::make_unique<Steadiness<dim>>(models, steady_within, steady_for);
-    if (keeps_impulses && models.fluid && models.surface)
+    if (keeps_impulses && !(models.fluid && models.surface))
+      throw InputError(
+        "'Output / Impulses' are those of bodies and obstacles in a fluid, which the "
+        "scene does not have. Try: remove the key.");
+    if (keeps_impulses)
       {
         const unsigned int n = models.surface->surface().body_names().size();
         state.impulses       = {Impulse<dim>(n), Impulse<dim>(models.has_friction() ? n : 0)};

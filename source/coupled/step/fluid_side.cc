@@ -292,7 +292,10 @@ namespace undine
     if (account)
       {
         account->add_power((forced - before) / fluid->dt);
-        account->add_power(power_of_walls(*fluid, kinetic_energy(model, velocity) - forced));
+        // In flux form diffusion also takes what leaves through openings, which finish() counts.
+        const double left =
+          fluid->carrying ? fluid->dt * kinetic_energy_outflow(model, velocity) : 0.;
+        account->add_power(power_of_walls(*fluid, kinetic_energy(model, velocity) - forced + left));
       }
     return fluid;
   }

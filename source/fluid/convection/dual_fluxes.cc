@@ -299,7 +299,7 @@ namespace undine
   void
   DualFluxes<dim>::for_each_entering(const unsigned int axis, const Entering &action) const
   {
-    for_each_side_face(grid, flow.topology(), [&](const SideFace<dim> &at, const auto &) {
+    const auto enter = [&](const SideFace<dim> &at, const auto &act) {
       const unsigned int d        = at.side.axis;
       const auto        &boundary = model.boundaries().at(at.side, at.cell);
       if (d == axis && boundary.prescribes_normal_velocity())
@@ -312,17 +312,46 @@ namespace undine
       const auto   bring   = [&](const FacePlace<dim> &to, const double rate, double brought) {
         if (genuine < 1)
           brought = genuine * brought + (1 - genuine) * value_at(motion->start[axis], to);
-        action(to, rate, brought);
+        act(to, rate, brought);
       };
       if (d == axis)
         {
           bring(place, entering, value_at((motion ? unfitted : flow)[d], place));
           return;
         }
-      const double brought = entering_velocity(boundary, d, at.face, axis);
+      const double brought = entering_velocity(boundary, d, grid.faces(d)->wrapped(at.face), axis);
       for (const auto &one : shares(beside(d, place, 1 - at.side.end), axis))
         bring(one.place, one.share * entering, brought);
-    });
+    };
+    if (flow.topology())
+      {
+        for_each_side_face(
+          grid, flow.topology(), [&](const SideFace<dim> &at, const auto &) { enter(at, action); });
+        return;
+      }
+    // Nothing is cut: each rank sees what enters its own places, also by cells of another one or by
+    // an image of its own.
+    const auto &owned     = grid.faces(axis)->owned();
+    const auto  own_place = [&](const FacePlace<dim> &to, const double rate, const double brought) {
+      if (owned.contains(to.face))
+        action(to, rate, brought);
+    };
+    for_each_side_face(
+      grid, flow.topology(), [&](const SideFace<dim> &at, const auto &) { enter(at, own_place); });
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int end = 0; end < 2 && d != axis && !grid.periodic(d); ++end)
+        {
+          const int plane   = end == 0 ? 0 : grid.cells_along()[d];
+          auto      below   = grid.faces(d)->owned();
+          below.lower[d]    = std::max(below.lower[d], plane);
+          below.upper[d]    = std::min(below.upper[d], plane + 1);
+          below.upper[axis] = below.lower[axis];
+          if (grid.periodic(axis) || below.lower[axis] > 0)
+            --below.lower[axis];
+          undine::for_each(below, [&](const GridIndex<dim> &face) {
+            enter({{d, end}, face, end == 0 ? face : moved<dim>(face, d, -1), -1}, own_place);
+          });
+        }
   }
 
 

@@ -139,7 +139,7 @@ namespace undine
     std::copy(body_fluxes.begin(), body_fluxes.end(), swept.parts().begin());
     const double         tolerance   = model.pressure_solver().divergence_tolerance;
     const double         body_speed  = swept.topology() ? largest_divergence(model, swept) : 0.;
-    const double         first_speed = largest_components(model, velocity).norm() + body_speed;
+    double               first_speed = largest_components(model, velocity).norm() + body_speed;
     Field<dim>           increment   = impulse;
     Report               report;
     const BackflowMatrix stabilised(*matrix, model, *numbers, openings);
@@ -147,7 +147,10 @@ namespace undine
     for (unsigned int round = 0; round < 8; ++round)
       {
         increment.exchange(1);
-        add(velocity, 1., pressure_acceleration(model, increment, openings));
+        const auto change = pressure_acceleration(model, increment, openings);
+        if (round == 0) // a pressure that is given may move what is at rest, and be balanced
+          first_speed += largest_components(model, change).norm();
+        add(velocity, 1., change);
         for (auto &open : openings)
           open.pressure = 0;
         exchange(velocity);
@@ -157,9 +160,10 @@ namespace undine
           add(fluxes, 1., swept);
         const double divergence = largest_divergence(model, fluxes);
         const double speed      = largest_components(model, velocity).norm() + body_speed;
-        report.divergence       = relative(divergence, speed);
         // Below 1e-4 of the speeds that cancelled there is nothing but rounding.
-        const double allowed = tolerance * std::max(speed, 1e-4 * first_speed);
+        const double size    = std::max(speed, 1e-4 * first_speed);
+        report.divergence    = relative(divergence, size);
+        const double allowed = tolerance * size;
         if (divergence <= allowed)
           return report;
 

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace undine
 {
@@ -247,7 +248,8 @@ namespace undine
       read_arrays(arrays, file, slot, communicator);
       unpack(state, models, arrays);
       if (is_monitored && !state.account)
-        state.account.emplace(); // of a run without a monitor: nothing is known yet
+        // Of a run without a monitor: nothing is known yet.
+        state.account.emplace().energy = std::numeric_limits<double>::quiet_NaN();
       if (!state.impulses)
         state.impulses = no_impulses;
       if (count_lasting_particles(state.particles) != lasting)

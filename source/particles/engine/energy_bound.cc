@@ -17,6 +17,7 @@ namespace undine::particles
       {
         const double extent = setup.upper[axis] - setup.lower[axis];
         height              = std::max(height, extent);
+        falls_around        = falls_around || (setup.periodic[axis] && setup.gravity[axis] != 0);
         source_mass *= extent;
       }
     for (std::size_t i = 0; i < state.tags.size(); ++i)
@@ -80,7 +81,7 @@ namespace undine::particles
   bool
   EnergyBound<dim>::has_sources() const
   {
-    return wall_speed > 0 || flows_in;
+    return wall_speed > 0 || flows_in || falls_around;
   }
 
 

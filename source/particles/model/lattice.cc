@@ -8,7 +8,7 @@ namespace undine::particles
   Lattice
   full_lattice(const int dim, const double reach)
   {
-    Lattice   lattice{0, 0, 0, 0};
+    Lattice   lattice{0, 0, 0, 0, 0};
     double    above = 0, side = 0; // beyond a plane through a layer
     const int layers = static_cast<int>(std::ceil(reach));
     const int width  = 2 * layers + 1;
@@ -27,7 +27,10 @@ namespace undine::particles
         const double weight = reach / distance - 1;
         lattice.number_density += weight;
         lattice.spread += weight * square;
-        lattice.filling += filling(square / (reach * reach));
+        const double square_of_q = square / (reach * reach), rest = 1 - square_of_q;
+        lattice.filling += filling(square_of_q);
+        lattice.filling_growth +=
+          2 * square_of_q * rest * rest * (3 * (1 - 0.8 * square_of_q) + 0.8 * rest) / dim;
         if (!(height > 0))
           continue;
         above += filling(square / (reach * reach));
@@ -35,6 +38,7 @@ namespace undine::particles
       }
     lattice.surface_lack = above / lattice.filling * std::pow(lattice.number_density / side, 2);
     lattice.spread /= lattice.number_density;
+    lattice.filling_growth /= lattice.filling;
     return lattice;
   }
 } // namespace undine::particles

@@ -65,6 +65,7 @@ namespace undine::particles
     constants.spread         = static_cast<Real>(lattice.spread * l0 * l0);
     constants.filling        = static_cast<Real>(lattice.filling);
     constants.surface_lack   = static_cast<Real>(lattice.surface_lack);
+    constants.filling_growth = static_cast<Real>(lattice.filling_growth);
     for (int axis = 0; axis < dim; ++axis)
       {
         constants.force.gravity[axis] = static_cast<Real>(setup.gravity[axis]);
@@ -162,11 +163,16 @@ namespace undine::particles
     const double l0       = setup.spacing;
     const double spread   = full_lattice(dim, numerics.reach).spread * l0 * l0;
     StepBounds   bounds;
-    bounds.asked = numerics.largest_sub_step > 0 ? numerics.largest_sub_step
-                                                 : std::numeric_limits<double>::max();
-    bounds.waves = longest_by_waves(setup);
+    bounds.asked    = numerics.largest_sub_step > 0 ? numerics.largest_sub_step
+                                                    : std::numeric_limits<double>::max();
+    bounds.waves    = longest_by_waves(setup);
+    double lightest = setup.fluid_density;
+    for (const auto &body : setup.bodies)
+      lightest = std::min(lightest, body.density);
+    // Half of what is stable, for bodies, which the same forces accelerate, too (P2).
     if (setup.fluid_viscosity > 0)
-      bounds.viscosity = spread / (4 * dim * setup.fluid_viscosity); // half of what is stable
+      bounds.viscosity =
+        lightest / setup.fluid_density * spread / (4 * dim * setup.fluid_viscosity);
     bounds.speed_share        = numerics.speed_share * l0;
     bounds.elastic_rate       = elastic_rate;
     bounds.elastic_share      = numerics.elastic_share;

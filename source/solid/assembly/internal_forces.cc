@@ -112,7 +112,7 @@ namespace undine
 
 
   template <int dim>
-  double
+  Vector
   rounding_of_forces(const SolidModel<dim> &model, const double size)
   {
     const auto                         &geometry = model.geometry();
@@ -134,7 +134,8 @@ namespace undine
         forces.add(geometry.dofs(cell), local);
       }
     forces.compress(dealii::VectorOperation::add);
-    return std::numeric_limits<double>::epsilon() * forces.l2_norm();
+    forces *= std::numeric_limits<double>::epsilon();
+    return forces;
   }
 
 
@@ -145,7 +146,7 @@ namespace undine
   template Matrix viscous_stiffness(                                                       \
     const SolidModel<dim> &, const Vector &, const Vector &, const double, const double);  \
   template double elastic_energy(const SolidModel<dim> &, const Vector &);                 \
-  template double rounding_of_forces(const SolidModel<dim> &, const double);
+  template Vector rounding_of_forces(const SolidModel<dim> &, const double);
 
   UNDINE_INSTANTIATE(2)
   UNDINE_INSTANTIATE(3)

@@ -9,10 +9,41 @@
 #include <undine/solid/step/solid_equations.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace undine
 {
+  namespace
+  {
+    /// Size by which a body's residual is measured, at least, in proportion to that of all forces:
+    /// what linear solvers can resolve [1].
+    constexpr double least_size = 1e-6;
+
+
+    /// Of a vector of which the norms of parts are known.
+    double
+    norm_of(const std::vector<double> &parts)
+    {
+      if (parts.size() == 1)
+        return parts[0];
+      double sum = 0;
+      for (const double part : parts)
+        sum += part * part;
+      return std::sqrt(sum);
+    }
+
+
+    /// sum += factor * more.
+    void
+    add(std::vector<double> &sum, const double factor, const std::vector<double> &more)
+    {
+      for (std::size_t k = 0; k < sum.size(); ++k)
+        sum[k] += factor * more[k];
+    }
+  } // namespace
+
+
   template <int dim>
   SolidEquations<dim>::SolidEquations(const SolidModel<dim>       &model,
                                       const Matrix                &mass,
@@ -37,12 +68,15 @@ namespace undine
     , rayleigh_damping(mass, environment, motion, begin, timing)
     , contact(environment.contact.get(), contact_start, model, old_state, time, dt, timing)
     , has_pressure(has_pressure_loads(model))
-    , own_rounding(rounding_of_forces(
-        model, old_state.displacement.linfty_norm() + dt * old_state.velocity.linfty_norm()))
+    , norms_by_body(model)
+    , largest_known(model.bodies().size(), 0.)
+    , largest_term(largest_known)
     , dead(model.vector())
     , known(model.vector())
   {
     const auto timed = timing.section("assemble forces");
+    rounding_by_body = norms_by_body(rounding_of_forces(
+      model, old_state.displacement.linfty_norm() + dt * old_state.velocity.linfty_norm()));
     timing.memory.hold("deformable bodies", mass.memory_consumption());
     find_known_forces();
   }
@@ -52,7 +86,54 @@ namespace undine
   void
   SolidEquations<dim>::note_size(const Vector &term, const double factor)
   {
-    largest_term = std::max(largest_term, std::abs(factor) * term.l2_norm());
+    const auto norms = norms_by_body(term);
+    for (std::size_t body = 0; body < norms.size(); ++body)
+      largest_term[body] = std::max(largest_term[body], std::abs(factor) * norms[body]);
+  }
+
+
+  template <int dim>
+  double
+  SolidEquations<dim>::scale() const
+  {
+    return norm_of(largest_term);
+  }
+
+
+  /// What residuals of the bodies are measured by [N].
+  template <int dim>
+  std::vector<double>
+  SolidEquations<dim>::sizes() const
+  {
+    const double        tolerance = model.numerics().newton.relative_tolerance;
+    const double        least     = least_size * scale();
+    std::vector<double> result    = largest_term;
+    for (std::size_t body = 0; body < result.size(); ++body)
+      result[body] = std::max({result[body], least, rounding_by_body[body] / tolerance});
+    return result;
+  }
+
+
+  template <int dim>
+  double
+  SolidEquations<dim>::weighted_norm(const std::vector<double> &norms) const
+  {
+    if (norms.size() == 1)
+      return norms[0];
+    const auto size = sizes();
+    double     sum  = 0;
+    for (std::size_t body = 0; body < norms.size(); ++body)
+      if (norms[body] > 0)
+        sum += std::pow(norms[body] / size[body], 2) / norms.size();
+    return scale() * std::sqrt(sum);
+  }
+
+
+  template <int dim>
+  double
+  SolidEquations<dim>::norm(const Vector &residual) const
+  {
+    return weighted_norm(norms_by_body(residual));
   }
 
 
@@ -94,7 +175,10 @@ namespace undine
   SolidEquations<dim>::find_known_forces()
   {
     if (coefficients.mass != 0)
-      own_rounding += std::numeric_limits<double>::epsilon() * inertia(model.vector()).l2_norm();
+      add(rounding_by_body,
+          std::numeric_limits<double>::epsilon(),
+          norms_by_body(inertia(model.vector())));
+    own_rounding = norm_of(rounding_by_body);
     for (const auto &level : coefficients.levels)
       {
         const Vector loads = dead_loads(model, environment, time + level.position * dt, &timing);
@@ -122,7 +206,9 @@ namespace undine
       nodal_forces = model.vector();
     nodal_forces.add(1., more);
     note_size(more, 1);
-    largest_known = std::max(largest_known, more.l2_norm());
+    const auto norms = norms_by_body(more);
+    for (std::size_t body = 0; body < norms.size(); ++body)
+      largest_known[body] = std::max(largest_known[body], norms[body]);
     dead.add(1., more);
     known.add(-1., more);
   }
@@ -290,11 +376,10 @@ namespace undine
     if (repulsion.size() > 0)
       defect.add(-1., repulsion);
     // Where nothing acts, rounding is no lack of balance.
-    const double        tolerance = model.numerics().newton.relative_tolerance;
-    const double        size      = std::max(scale(), rounding() / tolerance);
+    const auto          size = sizes();
     std::vector<double> result;
     for (const auto &force : sums_by_body(model, defect))
-      result.push_back(size > 0 ? force.norm() / size : 0);
+      result.push_back(force.norm() > 0 ? force.norm() / size[result.size()] : 0);
     return result;
   }
 

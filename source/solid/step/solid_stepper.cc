@@ -42,7 +42,7 @@ namespace undine
       evaluate(const Unknown &velocity)
       {
         residual = equations.residual(velocity);
-        return residual.l2_norm();
+        return equations.norm(residual);
       }
 
       Unknown
@@ -85,7 +85,7 @@ namespace undine
       double
       rounding() const
       {
-        return equations.rounding();
+        return equations.norm_of_rounding();
       }
 
       unsigned int

@@ -119,3 +119,47 @@ TEMPLATE_TEST_CASE_SIG(
 {
   check_spin<dim>();
 }
+
+
+TEST_CASE("Elasticity has a potential however far particles reach", "[particles]")
+{
+  for (const double reach : {1.5, 2.1, 2.5, 2.8})
+    {
+      ParticleScene<2> scene(.01);
+      scene.setup.numerics.reach = reach;
+      scene.setup.has_fluid      = false;
+      scene.set_free_space(.2);
+      scene.add_body(BodySetup());
+      scene.for_each_point(cube<2>(0), cube<2>(8), [&](const auto &x) { // sheared and stretched
+        scene.add(x, Kind::solid, 1, {{x[1] - .04, (x[1] - .04) / -2}});
+      });
+      const auto   engine = scene.engine();
+      const double before = engine->balance().kinetic_solid;
+      for (int frame = 0; frame < 10; ++frame)
+        {
+          engine->advance(.01);
+          const auto balance = engine->balance();
+          INFO("reach " << reach << ", frame " << frame);
+          CHECK(balance.kinetic_solid + balance.elastic < 1.05 * before);
+        }
+    }
+}
+
+
+TEST_CASE("A body of one layer of particles is refused", "[particles]")
+{
+  for (const int layers : {1, 2})
+    {
+      ParticleScene<2> scene(.01);
+      scene.setup.has_fluid = false;
+      scene.set_free_space(.2);
+      scene.add_body(BodySetup());
+      scene.for_each_point({{0, 0}}, {{10, layers}}, [&](const auto &x) {
+        scene.add(x, Kind::solid, 1, Point<2>::zero());
+      });
+      if (layers == 1)
+        CHECK_THROWS_AS(scene.engine(), InputError);
+      else
+        CHECK_NOTHROW(scene.engine());
+    }
+}

@@ -136,3 +136,33 @@ TEST_CASE("rollers hold one direction: a bar pulled contracts by Poisson's ratio
   CHECK(solid.column("reaction body/left x") == Approx(-10 * 0.01));
   CHECK(std::abs(solid.column("reaction body/floor y")) < 1e-12);
 }
+
+
+TEST_CASE("A soft body is as accurate beside a stiff one as alone", "[solid][mpi]")
+{
+  // The weight of the beam is 10^-9 of the forces in the block.
+  const std::string beam = "subsection body\n set Upper corner = 1, 0.05\n set Cells = 20, 1\n"
+                           "set Density = 1\n set Young's modulus = 2000\n set Poisson's ratio = "
+                           "0.3\n set Load = 0; -10*t\n"
+                           "subsection Boundaries\n" +
+                           boundary("root", "set Sides = left") + "end\nend\n";
+  const std::string block =
+    "subsection block\n set Lower corner = 0, 2\n"
+    "set Upper corner = 1, 3\n set Cells = 4, 4\n set Density = 7800\n"
+    "set Young's modulus = 2e11\n set Poisson's ratio = 0.3\n subsection Boundaries\n" +
+    boundary("root", "set Sides = left") +
+    boundary("pull",
+             "set Sides = right\n set Kind = traction\n"
+             "set Traction = 2e9; 0") +
+    "end\nend\n";
+  const auto tip = [](const std::string &bodies) {
+    Solid<2> solid("subsection Bodies\n" + bodies +
+                   "end\nsubsection Time\n set Integrator = static\nend\n");
+    for (int step = 0; step < 4; ++step)
+      solid.advance(0.25);
+    return solid.displacement({1, 0});
+  };
+  const auto alone = tip(beam), beside = tip(beam + block);
+  CHECK(alone[0] < -0.5);
+  CHECK((beside - alone).norm() < 1e-4 * alone.norm());
+}

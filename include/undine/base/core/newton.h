@@ -181,7 +181,8 @@ namespace undine
         report.residuals.push_back(residual);
       }
     report.linear_iterations = problem.linear_iterations();
-    report.scale             = problem.scale();
+    // What rounding leaves where nothing acts is no error.
+    report.scale = std::max(problem.scale(), problem.rounding() / options.relative_tolerance);
 
     if (options.fixed_iterations == 0 && !converged(residual) &&
         !may_be_rounding(problem, residual))

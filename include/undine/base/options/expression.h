@@ -2,15 +2,28 @@
 #ifndef undine_base_options_expression_h
 #define undine_base_options_expression_h
 
-#include <deal.II/base/function_parser.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace undine
 {
+  /// Where and when an expression had no finite value.
+  template <int dim>
+  struct UndefinedValue
+  {
+    dealii::Point<dim> place;    ///< [m]
+    double             time = 0; ///< [s]
+
+    /// "(1, 0.5) and 0.3 s"
+    std::string
+    text() const;
+  };
+
+
   /// A function of place x, y(, z) [m] and time t [s], written in muParser's language by the user.
   /// `n_components` expressions are separated by ';' (or by ',' where they are plain numbers).
   template <int dim, int n_components = 1>
@@ -26,6 +39,11 @@ namespace undine
     /// One component at `point` and `time`.
     double
     value(const dealii::Point<dim> &point, double time, unsigned int component = 0) const;
+
+    /// Of this expression and its copies: the latest time at which value() was not a finite number,
+    /// and the first place at that time; none: it always was.
+    std::optional<UndefinedValue<dim>>
+    undefined_value() const;
 
     /// All components at once, as a vector in space.
     dealii::Tensor<1, n_components>
@@ -47,9 +65,11 @@ namespace undine
     is_zero() const;
 
   private:
-    std::string                                  expression;
-    bool                                         zero;
-    std::shared_ptr<dealii::FunctionParser<dim>> function; ///< shared: copies read the same text
+    struct Function;
+
+    std::string               expression;
+    bool                      zero;
+    std::shared_ptr<Function> function; ///< shared: copies read the same text
   };
 } // namespace undine
 

@@ -7,6 +7,7 @@
 #include <undine/base/options/parameter_file.h>
 #include <undine/base/options/values.h>
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -86,6 +87,7 @@ namespace undine
                           "the value '" + *text + "' " + reason.what(),
                           allowed_values(variable, unit, allowed)));
           }
+      watch(key, variable);
       record({"",
               key,
               write_value(variable),
@@ -194,6 +196,11 @@ namespace undine
     void
     throw_mistakes() const;
 
+    /// Of expressions that had no finite value on this rank at `since` [s] or later: a sentence
+    /// each, with section, key, place and time.
+    std::vector<std::string>
+    undefined_values(double since) const;
+
     const std::vector<Entry> &
     entries() const;
 
@@ -201,6 +208,15 @@ namespace undine
     file() const;
 
   private:
+    /// An expression that the scene may have given.
+    struct Watched
+    {
+      std::string section;
+      std::string key;
+      /// "(1, 0) and 0.3 s": where it had no finite value, if at that time [s] or later.
+      std::function<std::string(double)> undefined_since;
+    };
+
     struct Store
     {
       ParameterFile            file;
@@ -210,6 +226,8 @@ namespace undine
       std::vector<std::string> mistakes;
       std::vector<std::string> unjudged;          ///< sections in which any key may be right
       std::set<std::string>    sections_of_names; ///< whose subsections the scene names
+
+      std::vector<Watched> watched; ///< see undefined_values()
     };
 
     Options() = default;
@@ -235,6 +253,25 @@ namespace undine
 
     const std::string *
     assigned_text(const std::string &key) const;
+
+    /// See undefined_values(). @{
+    template <class Value>
+    void
+    watch(const std::string &, const Value &) const
+    {
+    }
+
+    template <int dim, int n_components>
+    void
+    watch(const std::string &key, const Expression<dim, n_components> &expression) const
+    {
+      store->watched.push_back({path, key, [expression](const double since) -> std::string {
+                                  const auto undefined = expression.undefined_value();
+                                  return undefined && undefined->time >= since ? undefined->text()
+                                                                               : "";
+                                }});
+    }
+    /// @}
 
     void
     record(Entry entry) const;

@@ -40,7 +40,7 @@ namespace undine
       work_exchange += std::max(std::abs(more), std::abs(at_end));
     }
 
-    double energy        = 0; ///< kinetic, elastic and of contact [J]
+    double energy        = 0; ///< kinetic, elastic and of contact [J]; not a number: not known
     double power         = 0; ///< sum of powers [W]
     double exchange      = 0; ///< sum of their sizes [W]
     double work          = 0; ///< sum of works in the step [J]

@@ -74,7 +74,7 @@ namespace undine
     /// At the start of a run, if the scene asks for it.
     std::optional<SplittingStability> splitting;
 
-    Columns columns; ///< energies, forces, fluxes, ... of the new state
+    Columns columns; ///< energies, forces, fluxes, probes, ... of the new state
   };
 
   /// The texts of those warnings of `now` of whose subjects there was none in `before`.

@@ -92,7 +92,7 @@ namespace undine::particles
           const auto other   = is_wall ? ElasticPoint<dim, Real>{neighbours.places[-1 - partner].x,
                                                                  Vector<dim, Real>::zero()}
                                        : point_of(partner);
-          const auto r       = neighbours.grid.difference(point.x, other.x);
+          const auto r       = distance(point.x, other.x);
           const Real square  = norm_square(r);
           const Real touch   = touching_distance(identity, is_wall ? identity : partner);
           if (square < touch * touch)
@@ -136,7 +136,7 @@ namespace undine::particles
           const int  partner = partners[list_slot(identity, k, neighbours.capacity)];
           const bool is_wall = partner < 0;
           const auto other = is_wall ? neighbours.places[-1 - partner].x : bodies.points[partner].x;
-          const auto r     = neighbours.grid.difference(point.x, other);
+          const auto r     = distance(point.x, other);
           const Real square = norm_square(r);
           const Real touch  = touching_distance(identity, is_wall ? identity : partner);
           if (!(square < touch * touch))
@@ -150,6 +150,15 @@ namespace undine::particles
     }
 
   private:
+    /// To x from y, the points of bodies, which may have gone around the box several times [m].
+    UNDINE_HOST_DEVICE
+    Vector<dim, Real>
+    distance(const Vector<dim, Real> &x, const Vector<dim, Real> &y) const
+    {
+      const auto &grid = neighbours.grid;
+      return grid.difference(grid.wrapped(x), grid.wrapped(y));
+    }
+
     /// Of the softer one; a wall does not give [N/m, in the plane per m].
     UNDINE_HOST_DEVICE
     Real

@@ -195,6 +195,7 @@ namespace undine::particles
     {
       if (purpose != ElasticRun::final || !(carry_share > 0))
         return;
+      team.sync(); // all particles are where they end
       const Real level = is_closed ? common_level(team) : Real(0);
       for_each_body_sum<4>(
         team,

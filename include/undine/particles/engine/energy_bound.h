@@ -50,7 +50,8 @@ namespace undine::particles
     double height       = 0; ///< largest extent of the box [m]
     double inflow_speed = 0; ///< [m/s]
     bool   flows_in     = false;
-    double source_mass  = 0; ///< that could flow in: of the full box [kg, in the plane per m]
+    bool   falls_around = false; ///< across periodic sides, and gains height there
+    double source_mass  = 0;     ///< that could flow in: of the full box [kg, in the plane per m]
 
     /// Of fluid and bodies, before the frames since when nothing drove them nor left the domain
     /// [J].

@@ -35,7 +35,8 @@ namespace undine::particles
   /// Kinetic energies of fluid and bodies [J], potential energy [J], momentum [kg m/s] and mass
   /// [kg], all in the plane per m of thickness. In a full domain the potential energy is that of
   /// what bodies are heavier or lighter than the fluid in their place, as their body force is
-  /// (P11): of the fluid nothing rises or sinks.
+  /// (P11): of the fluid nothing rises or sinks. With it that of a fluid which is compressed,
+  /// p^2 / (2 K) per volume.
   template <int dim, class Real>
   struct MeasureBalance
   {
@@ -66,6 +67,10 @@ namespace undine::particles
         const double displaced =
           static_cast<double>(constants.displaced_density) * constants.volume;
         sums[2] += (mass - displaced) * constants.force.potential(place.x);
+        const double pressure = particles.motions[i].pressure;
+        if (place.tag.kind() == Kind::fluid)
+          sums[2] += static_cast<double>(constants.fluid_compressibility) * pressure * pressure /
+                     2 * constants.volume;
         sums[3 + dim] += mass;
       });
       if (team.is_first())

@@ -173,7 +173,8 @@ namespace undine::particles
     load(const ParticleState<dim> &state, const int n_parked)
     {
       executor->set_threads(setup.numerics.threads);
-      n = static_cast<int>(state.positions.size()) + n_parked;
+      n                = static_cast<int>(state.positions.size()) + n_parked;
+      n_parked_at_load = n_parked;
       last_balance.reset();
       snapshot.reset();
       system.reset();
@@ -218,8 +219,9 @@ namespace undine::particles
     {
       if (n_in_layers == 0)
         return;
-      int parked = 0;
-      with_system([&](auto &present) { parked = present.count_parked(); });
+      int parked = n_parked_at_load.value_or(0);
+      if (!n_parked_at_load)
+        with_system([&](auto &present) { parked = present.count_parked(); });
       if (parked >= entering(frame))
         return;
       ParticleState<dim> state;
@@ -245,6 +247,7 @@ namespace undine::particles
     attempt(const double length, const double shortening)
     {
       last_balance.reset();
+      n_parked_at_load.reset();
       if (system != nullptr)
         {
           snapshot->save(system->arrays(), system->elastic());
@@ -328,6 +331,7 @@ namespace undine::particles
     Pace                                           pace;
     int                                            n_in_layers = 0; ///< behind inflows and openings
     double                                         inflow_speed = 0; ///< of what may enter [m/s]
+    std::optional<int>                             n_parked_at_load; ///< none: they have moved
     WallPaths<dim>                                 paths;            ///< of this frame
     EnergyBound<dim>                               energy_bound;
     mutable std::optional<Balance<dim>>            last_balance; ///< of the present particles

@@ -4,6 +4,8 @@
 
 #include <undine/particles/math/vector.h>
 
+#include <cmath>
+
 namespace undine::particles
 {
   /// The box that holds all particles, in cells no smaller than the reach of the weight: neighbours
@@ -63,7 +65,7 @@ namespace undine::particles
       return result;
     }
 
-    /// Back into the box across periodic boundaries.
+    /// Back into the box across periodic boundaries, however far x has gone.
     UNDINE_HOST_DEVICE
     Vector<dim, Real>
     wrapped(Vector<dim, Real> x) const
@@ -71,10 +73,13 @@ namespace undine::particles
       for (int axis = 0; axis < dim; ++axis)
         if (periodic[axis])
           {
+            // By whole periods, at least one: rounding must leave nothing on the wrong side.
             if (x[axis] < lower[axis])
-              x[axis] += size[axis];
+              x[axis] +=
+                size[axis] * maximum(Real(1), std::ceil((lower[axis] - x[axis]) / size[axis]));
             else if (!(x[axis] < lower[axis] + size[axis]))
-              x[axis] -= size[axis];
+              x[axis] -=
+                size[axis] * maximum(Real(1), std::floor((x[axis] - lower[axis]) / size[axis]));
           }
       return x;
     }

@@ -54,6 +54,7 @@ namespace undine::particles
     Real                spread;         ///< lambda [m^2]
     Real                filling;        ///< f0, of filling() [1]
     Real                surface_lack;   ///< of Lattice [1]
+    Real                filling_growth; ///< of Lattice [1]
 
     BodyForce<dim, Real> force;
 

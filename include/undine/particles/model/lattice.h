@@ -29,6 +29,7 @@ namespace undine::particles
     double filling;        ///< f0 = sum f [1]
     /// What a particle in a plane surface lacks of f / f0, over |sum w r / |r||^2 / n0^2 [1].
     double surface_lack;
+    double filling_growth; ///< of f / f0 over that of the density, as particles come closer [1]
   };
 
   /// `reach` is r_e in spacings.

@@ -43,7 +43,9 @@ namespace undine::particles
     }
   };
 
-  /// Move each particle to its final place, by cell and within a cell by identity.
+  /// Move each particle to its final place, by cell and within a cell by identity. Those that are
+  /// parked, after all cells, stay where they are if they are there already; others take the places
+  /// that have become free there, in their order. Many may be parked, and few come and go.
   template <int dim, class Real>
   struct MoveSorted
   {
@@ -53,6 +55,7 @@ namespace undine::particles
     Particles<dim, Real> from, to;
     int                 *where; ///< of the identities below n_solid; nullptr if there are none
     int                  n_solid;
+    int                  parked; ///< number of the cell of those that are parked
 
     UNDINE_HOST_DEVICE
     void
@@ -60,16 +63,40 @@ namespace undine::particles
     {
       const int i        = order[slot];
       const int identity = from.identities[i];
-      const int cell     = cells[i];
-      int       target   = starts[cell];
-      for (int other = starts[cell]; other < starts[cell + 1]; ++other)
-        target += from.identities[order[other]] < identity ? 1 : 0;
-      to.places[target]     = from.places[i];
+      const int target  = cells[i] == parked ? parking_place(i) : place_in_cell(cells[i], identity);
+      to.places[target] = from.places[i];
       to.motions[target]    = from.motions[i];
       to.potentials[target] = from.potentials[i];
       to.identities[target] = identity;
       if (identity < n_solid)
         where[identity] = target;
+    }
+
+  private:
+    UNDINE_HOST_DEVICE
+    int
+    place_in_cell(const int cell, const int identity) const
+    {
+      int target = starts[cell];
+      for (int other = starts[cell]; other < starts[cell + 1]; ++other)
+        target += from.identities[order[other]] < identity ? 1 : 0;
+      return target;
+    }
+
+    UNDINE_HOST_DEVICE
+    int
+    parking_place(const int i) const
+    {
+      const int begin = starts[parked], end = starts[parked + 1];
+      if (i >= begin)
+        return i;
+      int before = 0; // so many others come to park and are before it
+      for (int other = begin; other < end; ++other)
+        before += order[other] < i ? 1 : 0;
+      int target = begin;
+      while (cells[target] == parked || before-- > 0)
+        ++target;
+      return target;
     }
   };
 
@@ -104,7 +131,8 @@ namespace undine::particles
                         FillCells{cells.data(), starts.data(), counts.data(), order.data()});
       executor.for_each(
         from.n,
-        MoveSorted<dim, Real>{cells.data(), starts.data(), order.data(), from, to, where, n_solid});
+        MoveSorted<dim, Real>{
+          cells.data(), starts.data(), order.data(), from, to, where, n_solid, grid.n_cells()});
     }
 
     /// Where the sorted place of the first parked particle is.

@@ -286,17 +286,21 @@ namespace undine::particles
     Real
     fluid_source(const int i, const Tag tag, const Real dt) const
     {
-      const Real error = (neighbourhood.densities[i] / constants.number_density - 1) / (dt * dt);
+      const Real error = neighbourhood.densities[i] / constants.number_density - 1;
+      // The loss of volume that the pressure before has brought about is no error.
+      const Real loss = constants.fluid_compressibility * motions[i].pressure;
       switch (constants.source)
         {
           case Source::density:
-            return error;
+            return error / (dt * dt);
           case Source::relaxed:
-            return constants.density_share * error;
+            return constants.density_share * error / (dt * dt);
           default:
-            return (constants.is_full
-                      ? error_in_motion(dt)
-                      : share(dt) * (neighbourhood.fillings[i] - 1) + crowding(i, dt)) /
+            return ((constants.is_full ? error_in_motion(dt)
+                                       : share(dt) * (neighbourhood.fillings[i] - 1 -
+                                                      constants.filling_growth * loss) +
+                                           crowding(i, dt)) +
+                    loss) /
                      (dt * dt) -
                    divergence(i, tag) / projected_time();
         }

@@ -47,11 +47,11 @@ namespace undine
                  const dealii::TrilinosWrappers::MPI::Vector &displacement);
   /// @}
 
-  /// The norm [N] that rounding leaves of forces K(d) in balance, |d| being at most `size` [m]:
-  /// strains are exact to the rounding of d / (cell width) and of 1, stresses to that times the
-  /// material's p-wave modulus.
+  /// What rounding may leave in the nodes [N] of forces K(d) in balance, |d| being at most `size`
+  /// [m]: strains are exact to the rounding of d / (cell width) and of 1, stresses to that times
+  /// the material's p-wave modulus.
   template <int dim>
-  double
+  dealii::TrilinosWrappers::MPI::Vector
   rounding_of_forces(const SolidModel<dim> &model, double size);
 } // namespace undine
 

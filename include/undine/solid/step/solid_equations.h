@@ -2,6 +2,7 @@
 #ifndef undine_solid_step_solid_equations_h
 #define undine_solid_step_solid_equations_h
 
+#include <undine/solid/assembly/norms_by_body.h>
 #include <undine/solid/solvers/symmetry.h>
 #include <undine/solid/step/rayleigh_damping.h>
 #include <undine/solid/step/step_contact.h>
@@ -122,7 +123,9 @@ namespace undine
     /// The balance of linear momentum of each body, in which inner forces cancel, [bodies] [1]:
     ///
     ///     | sum over its nodes of  M (m u + m_u u^n + m_a a^n) + alpha M u_C
-    ///                              - loads - contact - supports |  /  scale
+    ///                              - loads - contact - supports |  /  size
+    ///
+    /// by the size of the forces on the body itself, as in norm().
     ///
     /// `reactions` are those of the same u. Collective. Throws SolveError as residual() does.
     std::vector<double>
@@ -207,16 +210,27 @@ namespace undine
     /// Size of the terms of the residual evaluated last [N], and the norm that rounding gives their
     /// sum [N]. @{
     double
-    scale() const
-    {
-      return largest_term;
-    }
+    scale() const;
     double
     rounding() const
     {
       return own_rounding;
     }
     /// @}
+
+    /// The norm of a residual in which every body counts in proportion to the forces on it: scale()
+    /// times the root mean square over the bodies of |r_b| / size_b, sizes being at least 1e-6 of
+    /// scale() and not so small that rounding would matter (T6) [N]. Of one body the l2 norm.
+    /// Collective.
+    double
+    norm(const Vector &residual) const;
+
+    /// That norm of what rounding() is the l2 norm of [N].
+    double
+    norm_of_rounding() const
+    {
+      return weighted_norm(rounding_by_body);
+    }
 
   private:
     Vector
@@ -240,6 +254,10 @@ namespace undine
     find_known_forces();
     void
     note_size(const Vector &term, double factor);
+    std::vector<double>
+    sizes() const;
+    double
+    weighted_norm(const std::vector<double> &norms) const;
 
     const SolidModel<dim>       &model;
     const Matrix                &mass;
@@ -254,10 +272,12 @@ namespace undine
     const RayleighDamping<dim>   rayleigh_damping;
     const StepContact<dim>       contact;
     const bool                   has_pressure;
-    double                       largest_known = 0; ///< size of the terms without u [N]
-    double                       largest_term  = 0; ///< of all terms [N]
-    double                       own_rounding;      ///< [N]
-    Vector                       dead;              ///< loads that do not depend on u, weighted [N]
+    const NormsByBody<dim>       norms_by_body;
+    std::vector<double>          largest_known;    ///< sizes of the terms without u, by body [N]
+    std::vector<double>          largest_term;     ///< of all terms [N]
+    std::vector<double>          rounding_by_body; ///< [N]
+    double                       own_rounding;     ///< of all [N]
+    Vector                       dead;             ///< loads that do not depend on u, weighted [N]
     Vector                       known; ///< terms of the residual without u, but for inertia [N]
   };
 } // namespace undine
