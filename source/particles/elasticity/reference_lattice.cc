@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/base/core/errors.h>
 #include <undine/particles/elasticity/explicit_steps.h>
 #include <undine/particles/elasticity/reference_lattice.h>
 #include <undine/particles/model/lattice.h>
@@ -60,18 +59,6 @@ namespace undine::particles
         moment[axis][axis] += trace > 0 ? 1e-6 * trace : 1.;
       return inverse_transpose(moment);
     }
-
-
-    /// Has it as many directions as space?
-    template <int dim>
-    bool
-    is_regular(const Matrix<dim, double> &moment)
-    {
-      double trace = 0;
-      for (int axis = 0; axis < dim; ++axis)
-        trace += moment[axis][axis];
-      return determinant(moment) > 1e-6 * std::pow(trace / dim, dim);
-    }
   } // namespace
 
 
@@ -122,7 +109,6 @@ namespace undine::particles
     inside.assign(n, 0);
     inverse_moments.resize(n);
     std::vector<std::vector<int>> neighbours(n);
-    std::vector<char>             fills_space(materials.size(), 0);
     for (int i = 0; i < n; ++i)
       {
         auto   moment = Matrix<dim, double>::diagonal(0);
@@ -154,8 +140,7 @@ namespace undine::particles
         for (int axis = 0; axis < dim; ++axis)
           trace += moment[axis][axis];
         points[i].inverse_mean = static_cast<Real>(trace > 0 ? dim / trace : 0.);
-        fills_space[bodies[i]] |= is_regular(moment);
-        const auto inverse = inverse_of_moment(moment);
+        const auto inverse     = inverse_of_moment(moment);
         for (int a = 0; a < dim; ++a)
           for (int b = 0; b < dim; ++b)
             inverse_moments[i][a][b] = static_cast<Real>(inverse[a][b]);
@@ -164,10 +149,6 @@ namespace undine::particles
     for (int i = 0; i < n; ++i)
       for (int k = 0; k < capacity; ++k)
         indices[list_slot(i, k, capacity)] = k < counts[i] ? neighbours[i][k] : i;
-    for (std::size_t body = 0; body < materials.size(); ++body)
-      if (!fills_space[body] && starts[body] < starts[body + 1])
-        throw InputError("a body is one particle thick: nothing tells how it deforms across that. "
-                         "Try: a smaller 'Particles/Spacing', or a body of two layers or more.");
   }
 
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -46,6 +47,31 @@ namespace undine::particles
         if (i >= n || sorted[i] != static_cast<int>(i))
           throw InputError("particle " + std::to_string(i) +
                            " of the bodies or moving walls is missing.");
+    }
+
+
+    /// A body of one layer of particles has no deformation across it that anything could tell.
+    template <int dim>
+    void
+    check_layers(const Setup<dim> &setup)
+    {
+      const auto n_bodies = setup.bodies.size();
+      for (int axis = 0; axis < dim; ++axis)
+        {
+          std::vector<double> lower(n_bodies, std::numeric_limits<double>::max());
+          std::vector<double> upper(n_bodies, std::numeric_limits<double>::lowest());
+          for (std::size_t i = 0; i < setup.reference.size(); ++i)
+            {
+              const int body = setup.body_of[i];
+              lower[body]    = std::min(lower[body], setup.reference[i][axis]);
+              upper[body]    = std::max(upper[body], setup.reference[i][axis]);
+            }
+          for (std::size_t body = 0; body < n_bodies; ++body)
+            if (lower[body] <= upper[body] && upper[body] - lower[body] < setup.spacing / 2)
+              throw InputError("body " + std::to_string(body + 1) +
+                               " is one particle thick: nothing tells how it deforms across that. "
+                               "Try: a smaller 'Particles/Spacing', or a thicker body.");
+        }
     }
 
 
@@ -183,6 +209,7 @@ namespace undine::particles
     if (!(setup.spacing > 0))
       throw InputError("the spacing of the particles must be positive.");
     check_arrays(setup, state);
+    check_layers(setup);
     for (std::size_t i = 0; i < state.positions.size(); ++i)
       {
         check_tag(setup, state, i);
