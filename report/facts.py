@@ -55,6 +55,8 @@ def extent(results):
 def cost(results):
     summary, rows = results.summary, []
     costs, steps = summary.get("cost", {}), summary.get("steps", 0)
+    if summary.get("begin [s]", 0) > 0:
+        rows.append(("since", f"{summary['begin [s]']:.6g} s, where the run was taken up again"))
     wall = costs.get("wall seconds")
     if wall is not None:
         each = f", {seconds(wall / steps)} a step" if steps else ""

@@ -78,7 +78,7 @@ class Extent:
 
     def limits(self, is_bodies, field, options):
         """Ends of the colour scale of a field."""
-        if options.range and field == options.field:
+        if options.range and (field == options.field if options.field else not is_bodies):
             return options.range
         low, high = self.ranges[is_bodies, field]
         if low < 0 < high and min(-low, high) > 0.05 * max(-low, high):

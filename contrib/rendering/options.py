@@ -60,7 +60,8 @@ def add_choices(group):
     group.add_argument("--field", help="what to colour by: displacement, speed, pressure, vorticity, ...; "
                        "vectors by their length. Where a part has no such field, its default")
     group.add_argument("--range", type=numbers(2), metavar="LOW,HIGH",
-                       help="ends of the colour scale of --field (default: over all frames)")
+                       help="ends of the colour scale of --field, or of the fluid's default field (default: over "
+                       "all frames)")
     group.add_argument("--slice", type=plane, action="append", default=[], metavar="AXIS=PLACE",
                        help="in space: show the fluid on this plane, as x=0.5; may be given several times")
     group.add_argument("--vectors", action="store_true", help="arrows along the fluid's velocity")
@@ -81,7 +82,7 @@ def add_views(group):
                        help="(default: 1280x720, of two runs 1920x720)")
     group.add_argument("--camera", default=None, help="where from: " + ", ".join(DIRECTIONS) +
                        ", or X,Y,Z (a direction)")
-    group.add_argument("--zoom", type=float, default=1.0, metavar="FACTOR", help="show the middle this much larger")
+    group.add_argument("--zoom", type=positive, default=1.0, metavar="FACTOR", help="show the middle this much larger")
 
 
 def arguments(description):
@@ -106,6 +107,10 @@ def arguments(description):
         parser.error("--size is like 1280x720, --frames like 0:10 or -1:, --camera a name or X,Y,Z")
     if options.every < 1 or min(options.width, options.height) < 16:
         parser.error("--every is 1 or more, --size 16x16 or more")
+    if not isinstance(options.camera, (str, type(None))) and not any(options.camera):
+        parser.error("--camera 0,0,0 is no direction")
+    if options.range and not options.range[0] < options.range[1]:
+        parser.error("--range is LOW,HIGH with LOW below HIGH")
     check_film(parser, options)
     if options.field == "speed":
         options.field = "velocity"  # vectors are coloured by their length

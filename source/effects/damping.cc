@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/effects/effect.h>
-#include <undine/solid/mesh/solid_model.h>
 
 #include <fmt/format.h>
 
@@ -34,10 +33,6 @@ namespace undine
         throw options.error("",
                             "damping acts on bodies, but the scene has none",
                             "Remove the section or add a body.");
-      if (around.solid && !around.solid->numerics().integrator->has_inertia())
-        throw options.error("",
-                            "the integrator of the scene leaves out damping",
-                            "Remove the section, or choose another 'Time/Integrator'.");
       if (mass_coefficient == 0 && stiffness_coefficient == 0)
         throw options.error(
           "Mass coefficient",

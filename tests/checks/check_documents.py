@@ -182,7 +182,16 @@ def wrong_numbers(root, texts):
             yield f"{file.relative_to(root)}:{line}: no document defines the equation ({number})"
 
 
+def pictures_of_one_name(root):
+    """The manual keeps all pictures in one folder."""
+    seen = {}
+    for file in sorted((root / "doc").rglob("*.png")):
+        if file.relative_to(root / "doc").parts[0] != "studies" and (other := seen.setdefault(file.name, file)) != file:
+            yield f"{file.relative_to(root)}: has the name of {other.relative_to(root)}"
+
+
 def problems(root):
+    yield from pictures_of_one_name(root)
     texts = {file: without_code(file.read_text()) for file in documents(root)}
     for file, text in texts.items():
         for line, reason in [*broken_links(file, text), *wrong_formulas(text)]:
