@@ -25,6 +25,68 @@ SPACE = ["Domain/Cells=16, 8, 8", "Bodies/sheet/Cells=1, 4, 2", "Time/Step=1/30"
          "Bodies/sheet/Density=11000", "Bodies/sheet/Young's modulus=3e9"]
 # An integrator that is not stable with a heavy fluid (doc/time_integration.md); nothing goes in or out.
 UNSTABLE = ["Time/Integrator=generalised_alpha", "Time/Step=1/64", "Time/Energy monitor=warn"]
+# A box whose lid moves, with an outflow; and a tube of one row of cells, at rest under a pressure until it falls.
+LID = """
+set Title = A lid and an outflow
+set Dimension = 2
+subsection Time
+  set End  = 1
+  set Step = 0.05
+end
+subsection Domain
+  set Cells = 16, 16
+end
+subsection Fluid
+  set Density = 1
+  subsection Boundaries
+    subsection walls
+      set Sides = left, bottom
+      set Kind  = no-slip wall
+    end
+    subsection outlet
+      set Sides = right
+      set Kind  = outflow
+    end
+    subsection lid
+      set Sides    = top
+      set Kind     = moving wall
+      set Velocity = 1; 0
+    end
+  end
+end
+subsection Effects
+  subsection convection
+  end
+  subsection viscosity
+    set Dynamic viscosity = 0.01
+  end
+end
+"""
+TUBE = """
+set Title = A tube of one row
+set Dimension = 2
+subsection Time
+  set End  = 0.5
+  set Step = 0.05
+end
+subsection Domain
+  set Cells = 16, 1
+end
+subsection Fluid
+  set Density = 1
+  subsection Boundaries
+    subsection end
+      set Sides    = left
+      set Kind     = pressure
+      set Pressure = if(t<0.22,1,0)
+    end
+  end
+end
+subsection Effects
+  subsection convection
+  end
+end
+"""
 IN_TURNS = ["Scheme=time_splitting"]
 TOGETHER = ["Scheme=simultaneous"]
 
@@ -128,6 +190,24 @@ def check_account(run):
     require(code == 2 and "Energy account" in errors, f"an account without a monitor: exit code {code}\n{errors}")
 
 
+def check_chamber(run):
+    """(V11) is looked at."""
+    found, _, _ = run("hard/thin_membrane.prm", ["Time/Step=1/30", "Time/Maximum steps=5"])
+    law = [each for each in found["margins"] if each["law"] == "volume of inside"]
+    require(len(law) == 1 and 0 <= law[0]["value"] < 1e-3, f"chamber: {found}")
+
+
+def check_fluid_alone(run, folder):
+    """No step is redone for energy that leaves through an opening, and rest is no lack of divergence."""
+    for text, steps in ((LID, 20), (TUBE, 10)):
+        file = os.path.join(folder, "fluid.prm")
+        with open(file, "w") as scene:
+            scene.write(text)
+        found, _, results = run(file, [])
+        require(found["text"] == "stable" and found["steps"] == steps and found["steps redone"] == 0, f"{text}: {found}")
+        require(max(columns(results)["Fluid divergence"]) < 1e-5, f"{text}: {columns(results)['Fluid divergence']}")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         run = Runs(*sys.argv[1:3], folder)
@@ -136,6 +216,8 @@ def main():
         check_failed(run)
         check_redone(run)
         check_account(run)
+        check_chamber(run)
+        check_fluid_alone(run, folder)
 
 
 if __name__ == "__main__":
