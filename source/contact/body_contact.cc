@@ -100,22 +100,29 @@ namespace undine
                 const ContactSurfaces<dim>             &surfaces,
                 const dealii::IndexSet                 &owned)
     {
-      std::array<dealii::types::global_dof_index, dim *(dim + 1)> columns;
-      std::array<double, dim *(dim + 1)>                          values;
+      const auto                                  &bodies = surfaces.bodies();
+      std::vector<dealii::types::global_dof_index> columns;
+      std::vector<double>                          values;
       for (unsigned int i = 0; i < term.n; ++i)
         for (unsigned int a = 0; a < dim && surfaces.moves(term.nodes[i]); ++a)
           {
-            const auto row = surfaces.bodies().dofs_of_node(term.nodes[i])[a];
-            if (!owned.is_element(row))
-              continue;
-            unsigned int n = 0;
+            columns.clear();
+            values.clear();
             for (unsigned int j = 0; j < term.n; ++j)
-              for (unsigned int b = 0; b < dim && surfaces.moves(term.nodes[j]); ++b, ++n)
+              for (unsigned int b = 0; b < dim && surfaces.moves(term.nodes[j]); ++b)
+                for (const auto &share : bodies.shares(term.nodes[j]))
+                  {
+                    columns.push_back(share.dofs[b]);
+                    values.push_back(factor * share.weight * of_nodes[i][j][a][b]);
+                  }
+            for (const auto &share : bodies.shares(term.nodes[i]))
+              if (owned.is_element(share.dofs[a]))
                 {
-                  columns[n] = surfaces.bodies().dofs_of_node(term.nodes[j])[b];
-                  values[n]  = factor * of_nodes[i][j][a][b];
+                  auto of_row = values;
+                  for (auto &value : of_row)
+                    value *= share.weight;
+                  A.add(share.dofs[a], columns.size(), columns.data(), of_row.data(), false);
                 }
-            A.add(row, n, columns.data(), values.data(), false);
           }
     }
   } // namespace

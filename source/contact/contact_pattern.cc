@@ -56,14 +56,16 @@ namespace undine
     dealii::DynamicSparsityPattern entries(A.m(), A.n(), owned);
     add_entries(entries, A);
     for (const auto &pair : pairs)
-      for (const auto a : surface.dofs_of_node(pair.first))
-        for (const auto b : surface.dofs_of_node(pair.second))
-          {
-            if (owned.is_element(a))
-              entries.add(a, b);
-            if (owned.is_element(b))
-              entries.add(b, a);
-          }
+      for (const auto &first : surface.shares(pair.first))
+        for (const auto &second : surface.shares(pair.second))
+          for (const auto a : first.dofs)
+            for (const auto b : second.dofs)
+              {
+                if (owned.is_element(a))
+                  entries.add(a, b);
+                if (owned.is_element(b))
+                  entries.add(b, a);
+              }
     dealii::TrilinosWrappers::SparsityPattern pattern;
     pattern.reinit(owned, entries, solid.communicator());
     larger.reinit(pattern);

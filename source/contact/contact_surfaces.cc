@@ -2,13 +2,9 @@
 #include <undine/contact/contact_surfaces.h>
 #include <undine/surface/held_pairs.h>
 
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_values.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 namespace undine
 {
@@ -39,36 +35,6 @@ namespace undine
     }
 
 
-    /// The integrals of the shape functions over the bodies' boundary at rest, with which a uniform
-    /// pressure is in balance with a uniform stress.
-    template <int dim>
-    void
-    add_areas_of_bodies(std::vector<double>    &areas,
-                        const SolidModel<dim>  &solid,
-                        const BodySurface<dim> &surface)
-    {
-      std::unordered_map<dealii::types::global_dof_index, unsigned int> nodes;
-      for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-        nodes[surface.dofs_of_node(node)[0]] = node;
-      const auto                                  &element = solid.dof_handler().get_fe();
-      dealii::FEFaceValues<dim>                    values(solid.mapping(),
-                                       element,
-                                       dealii::QGauss<dim - 1>(element.degree + 1),
-                                       dealii::update_values | dealii::update_JxW_values);
-      std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
-      for (const auto &cell : solid.dof_handler().active_cell_iterators())
-        for (const unsigned int face : cell->face_indices())
-          if (cell->at_boundary(face))
-            {
-              values.reinit(cell, face);
-              cell->get_dof_indices(dofs);
-              for (unsigned int i = 0; i < dofs.size(); ++i)
-                if (element.system_to_component_index(i).first == 0 &&
-                    element.has_support_on_face(i, face))
-                  for (const unsigned int q : values.quadrature_point_indices())
-                    areas[nodes.at(dofs[i])] += values.shape_value(i, q) * values.JxW(q);
-            }
-    }
     /// Is the node of a body that no support moves fixed in all directions?
     template <int dim>
     bool
@@ -105,7 +71,7 @@ namespace undine
       for (const unsigned int node : all_facets.facets()[facet])
         surfaces_of_nodes[node] = all_facets.body(facet);
     rest_positions = positions(solid.vector(), 0);
-    measure(solid);
+    measure();
     all_edges = find_sharp_edges(all_facets, rest_positions);
     find_fixed(solid);
   }
@@ -132,7 +98,7 @@ namespace undine
 
   template <int dim>
   void
-  ContactSurfaces<dim>::measure(const SolidModel<dim> &solid)
+  ContactSurfaces<dim>::measure()
   {
     std::vector<double>       sums(all_facets.body_names().size());
     std::vector<unsigned int> counts(sums.size());
@@ -142,11 +108,9 @@ namespace undine
         const double area = area_vector(all_facets, facet, rest_positions).norm();
         sums[all_facets.body(facet)] += area;
         ++counts[all_facets.body(facet)];
-        if (!is_body(all_facets.body(facet)))
-          for (const unsigned int node : all_facets.facets()[facet])
-            areas[node] += area / dim;
+        for (const unsigned int node : all_facets.facets()[facet])
+          areas[node] += area / dim;
       }
-    add_areas_of_bodies(areas, solid, body_surface);
     least_size = std::numeric_limits<double>::infinity();
     for (unsigned int body = 0; body < n_bodies(); ++body)
       least_size = std::min(least_size, std::pow(sums[body] / counts[body], 1. / (dim - 1)));

@@ -142,18 +142,26 @@ namespace undine
     }
 
 
-    /// About expressions of the scene that had no finite value at `since` [s] or later, with the
-    /// failure that may follow from it; empty if all had. Collective.
+    /// About expressions of the scene that had no finite value at `since` [s] or later; empty if all
+    /// had. Collective.
+    std::string
+    undefined_values(const Options &options, const double since, const MPI_Comm communicator)
+    {
+      std::string complaints;
+      for (const auto &complaint : options.undefined_values(since))
+        complaints += complaint + "\n";
+      return first_message(complaints, communicator);
+    }
+
+
+    /// The same with the failure that may follow from it.
     std::string
     undefined_values(const Options &options,
                      const double   since,
                      const Error   &failure,
                      const MPI_Comm communicator)
     {
-      std::string complaints;
-      for (const auto &complaint : options.undefined_values(since))
-        complaints += complaint + "\n";
-      complaints = first_message(complaints, communicator);
+      const std::string complaints = undefined_values(options, since, communicator);
       return complaints.empty() ? "" : complaints + "What failed: " + failure.what();
     }
 
@@ -347,8 +355,9 @@ namespace undine
     }
 
 
-    /// The state at the start of a run. Throws InputError if it cannot be found and an expression
-    /// had no value, SolveError if there is no such reason.
+    /// The state at the start of a run. Throws InputError if an expression had no value where one
+    /// was needed, be it only to find out where something is; SolveError if the state cannot be
+    /// found and there is no such reason.
     template <int dim>
     Report
     start(State<dim> &state, Scene<dim> &scene, const Options &options, TimingTree &timing)
@@ -356,7 +365,12 @@ namespace undine
       state.clock = scene.clock;
       try
         {
-          return scene.scheme->initialize(state, scene.models, timing);
+          const auto report = scene.scheme->initialize(state, scene.models, timing);
+          const auto complaint =
+            undefined_values(options, state.clock.time, scene.models.communicator());
+          if (!complaint.empty())
+            throw InputError(complaint);
+          return report;
         }
       catch (const SolveError &error)
         {

@@ -23,10 +23,10 @@ namespace undine
           if (component < 0 || !surface.moves(entry.node))
             continue;
           const auto row = numbers.of_component(component);
-          for (unsigned int axis = 0; axis < dim; ++axis)
-            if (const auto column = surface.bodies()->dofs_of_node(entry.node)[axis];
-                !solid.all_fixed().is_element(column))
-              action(row, column, entry.value[axis]);
+          for (const auto &share : surface.bodies()->shares(entry.node))
+            for (unsigned int axis = 0; axis < dim; ++axis)
+              if (!solid.all_fixed().is_element(share.dofs[axis]))
+                action(row, share.dofs[axis], share.weight * entry.value[axis]);
         }
     }
   } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/fluid/grid/index_box.h>
 #include <undine/surface/body_surface.h>
 #include <undine/surface/face_facets.h>
 
@@ -11,6 +12,39 @@ namespace undine
 {
   namespace
   {
+    // By how much of its distance from the mean of the corners a node between them is moved on.
+    constexpr double moved_on = 1. / 3;
+
+
+    /// The corners of the cell that lie around a node of its lattice, those of the edge or face in
+    /// which it lies; none for a corner.
+    template <int dim>
+    std::vector<unsigned int>
+    corners_around(const unsigned int node, const unsigned int degree)
+    {
+      const IndexBox<dim>       lattice{{}, all_directions<dim>(degree + 1)};
+      std::vector<unsigned int> result;
+      GridIndex<dim>            place;
+      IndexBox<dim>             ends{{}, all_directions<dim>(1)}; // 0 and 1 where it is between
+      for (unsigned int d = 0, rest = node; d < dim; ++d, rest /= degree + 1)
+        {
+          place[d] = rest % (degree + 1);
+          if (place[d] % int(degree) != 0)
+            ends.upper[d] = 2;
+        }
+      if (ends.size() == 1)
+        return {};
+      for_each(ends, [&](const GridIndex<dim> &end) {
+        auto corner = place;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (ends.upper[d] == 2)
+            corner[d] = end[d] * degree;
+        result.push_back(lattice.position(corner));
+      });
+      return result;
+    }
+
+
     /// For each node of a cell's lattice (first direction fastest) its degree of freedom in the
     /// cell, by axis.
     template <int dim>
@@ -46,6 +80,7 @@ namespace undine
     const auto  facets_of_face = face_facets<dim>(element.degree);
 
     std::vector<std::array<Index, dim>>          dofs;
+    std::vector<Corners>                         corners;
     std::unordered_map<Index, unsigned int>      nodes; // by the degree of freedom of axis 0
     std::vector<typename Surface<dim>::Facet>    facets;
     std::vector<unsigned int>                    body_of_facet;
@@ -72,31 +107,77 @@ namespace undine
             cell->get_dof_indices(indices);
             for (const unsigned int face : cell->face_indices())
               if (cell->at_boundary(face))
-                for (const auto &corners : facets_of_face[face])
-                  {
-                    body_of_facet.push_back(body);
-                    facets.emplace_back();
-                    for (unsigned int k = 0; k < dim; ++k)
-                      facets.back()[k] = node_of(lattice[corners[k]]);
-                  }
+                {
+                  for (const auto &facet : facets_of_face[face])
+                    {
+                      body_of_facet.push_back(body);
+                      facets.emplace_back();
+                      for (unsigned int k = 0; k < dim; ++k)
+                        facets.back()[k] = node_of(lattice[facet[k]]);
+                    }
+                  corners.resize(dofs.size());
+                  for (const auto &facet : facets_of_face[face])
+                    for (const unsigned int node : facet)
+                      {
+                        auto &around = corners[node_of(lattice[node])];
+                        around.clear();
+                        for (const unsigned int corner : corners_around<dim>(node, element.degree))
+                          around.push_back(node_of(lattice[corner]));
+                      }
+                }
           }
       }
     const Surface<dim> surface(dofs.size(), facets, body_of_facet, names);
-    return BodySurface(model, std::move(dofs), surface);
+    return BodySurface(model, std::move(dofs), std::move(corners), surface);
   }
 
 
   template <int dim>
   BodySurface<dim>::BodySurface(const SolidModel<dim>              &model,
                                 std::vector<std::array<Index, dim>> dofs_of_nodes,
+                                std::vector<Corners>                corners_of_nodes,
                                 const Surface<dim>                 &facets)
     : dofs(std::move(dofs_of_nodes))
+    , corners(std::move(corners_of_nodes))
     , all_facets(facets)
     , communicator(model.communicator())
   {
     for (unsigned int node = 0; node < n_nodes(); ++node)
       rest_positions.push_back(model.rest_position(dofs[node][0]));
     share_out(model.locally_owned());
+  }
+
+
+  /// At rest all edges are straight (SolidModel::mapping()): there nodes are where they would be
+  /// without being moved on.
+  template <int dim>
+  template <class Values>
+  void
+  BodySurface<dim>::move_on(Values &values) const
+  {
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      if (!corners[node].empty())
+        {
+          auto mean = values[corners[node].front()];
+          for (std::size_t k = 1; k < corners[node].size(); ++k)
+            mean += values[corners[node][k]];
+          values[node] += moved_on * (values[node] - mean / double(corners[node].size()));
+        }
+  }
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::find_shares()
+  {
+    all_shares.assign(n_nodes(), {});
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      {
+        const auto &around = corners[node];
+        all_shares[node].push_back({dofs[node], around.empty() ? 1 : 1 + moved_on});
+        for (const unsigned int corner : around)
+          all_shares[node].push_back({dofs[corner], -moved_on / around.size()});
+      }
   }
 
 
@@ -134,6 +215,7 @@ namespace undine
   void
   BodySurface<dim>::share_out(const dealii::IndexSet &owned)
   {
+    find_shares();
     slots.clear();
     counts.clear();
     first.clear();
@@ -173,6 +255,7 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>> result(n_nodes());
     for (unsigned int k = 0; k < slots.size(); ++k)
       result[slots[k].node][slots[k].axis] = all[k];
+    move_on(result);
     return result;
   }
 
@@ -194,10 +277,35 @@ namespace undine
   BodySurface<dim>::add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const
   {
     AssertDimension(values.size(), n_nodes());
+    auto shared = values;
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      if (!corners[node].empty())
+        {
+          const auto more = moved_on * values[node];
+          shared[node] += more;
+          for (const unsigned int corner : corners[node])
+            shared[corner] -= more / double(corners[node].size());
+        }
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
     for (int k = first[rank]; k < first[rank] + counts[rank]; ++k)
-      vector(dofs[slots[k].node][slots[k].axis]) += values[slots[k].node][slots[k].axis];
+      vector(dofs[slots[k].node][slots[k].axis]) += shared[slots[k].node][slots[k].axis];
     vector.compress(dealii::VectorOperation::add);
+  }
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::add_derivative(Matrix                       &matrix,
+                                   const unsigned int            node,
+                                   const unsigned int            moved,
+                                   const unsigned int            axis,
+                                   const dealii::Tensor<1, dim> &change) const
+  {
+    for (const auto &row : shares(node))
+      for (unsigned int i = 0; i < dim; ++i)
+        if (matrix.in_local_range(row.dofs[i]) && change[i] != 0)
+          for (const auto &column : shares(moved))
+            matrix.add(row.dofs[i], column.dofs[axis], row.weight * column.weight * change[i]);
   }
 
 

@@ -82,8 +82,8 @@ namespace undine
       return surfaces_of_nodes[node];
     }
 
-    /// Integral of its shape function over the boundary at rest [m^(dim-1)]; of obstacles its share
-    /// of the facets, no more than nodes of bodies have.
+    /// Its share of the facets at rest [m^(dim-1)]; a node of an obstacle has no more than the most
+    /// that one of a body has.
     double
     area(const unsigned int node) const
     {
@@ -159,7 +159,7 @@ namespace undine
 
   private:
     void
-    measure(const SolidModel<dim> &solid);
+    measure();
     void
     find_fixed(const SolidModel<dim> &solid);
 

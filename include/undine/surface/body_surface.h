@@ -10,8 +10,17 @@
 
 namespace undine
 {
-  /// The boundaries of all deformable bodies: their nodes are the nodes of the finite elements on
-  /// the boundary, their facets the faces of the cells (see face_facets()).
+  /// The boundaries of all deformable bodies: their facets are the faces of the cells (see
+  /// face_facets()), with a node for each node of the finite elements on the boundary.
+  ///
+  /// Corners of cells are nodes as they are. Of quadratic elements the nodes between corners, in
+  /// edges and faces, are moved on from the mean of these corners by a third of their distance from
+  /// it (I12): with the nodes of the finite elements for corners, facets would enclose less than
+  /// the curved sides do, and a uniform pressure on them would load the corners of a side too much
+  /// and its middle too little, which bends the element. With the nodes moved on, a uniform
+  /// pressure on a plane side has the nodal forces of the finite elements, and in 2D every side
+  /// encloses exactly what the parabola does. A node is therefore a linear combination of nodes of
+  /// the finite elements (Share), by which forces in it come to these.
   ///
   /// Replicated: every rank knows all facets, and positions and velocities of all nodes. Numbers do
   /// not depend on the number of ranks: bodies in their order, nodes as a loop over the cells meets
@@ -21,7 +30,15 @@ namespace undine
   {
   public:
     using Vector = typename SolidModel<dim>::Vector;
+    using Matrix = typename SolidModel<dim>::Matrix;
     using Index  = typename SolidModel<dim>::Index;
+
+    /// How a node follows a node of the finite elements, and how much of a force in it that gets.
+    struct Share
+    {
+      std::array<Index, dim> dofs; ///< of that node
+      double                 weight;
+    };
 
     /// Collective.
     explicit BodySurface(const SolidModel<dim> &model);
@@ -55,11 +72,20 @@ namespace undine
       return dofs[node][0] != dealii::numbers::invalid_dof_index;
     }
 
-    /// The degrees of freedom of a node that moves, one for each axis.
+    /// The degrees of freedom of a node's own node of the finite elements, one for each axis; only
+    /// of nodes that move.
     const std::array<Index, dim> &
     dofs_of_node(const unsigned int node) const
     {
       return dofs[node];
+    }
+
+    /// The shares of a node that moves, of sum 1: first its own node of the finite elements, then
+    /// the corners that lie around it.
+    const std::vector<Share> &
+    shares(const unsigned int node) const
+    {
+      return all_shares[node];
     }
 
     /// The values of a vector over the locally owned degrees of freedom in all nodes, [nodes], in
@@ -76,7 +102,18 @@ namespace undine
     void
     add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const;
 
+    /// Add to the rows of this rank by how much the force in `node` changes [N/m] as `moved` moves
+    /// along `axis`. Both nodes move; the entries must be in the pattern. Not collective.
+    void
+    add_derivative(Matrix                       &matrix,
+                   unsigned int                  node,
+                   unsigned int                  moved,
+                   unsigned int                  axis,
+                   const dealii::Tensor<1, dim> &change) const;
+
   private:
+    using Corners = std::vector<unsigned int>; ///< those around a node; of corners none
+
     /// A component of a node.
     struct Slot
     {
@@ -85,15 +122,23 @@ namespace undine
 
     explicit BodySurface(const SolidModel<dim>              &model,
                          std::vector<std::array<Index, dim>> dofs,
+                         std::vector<Corners>                corners,
                          const Surface<dim>                 &facets);
 
     static BodySurface
     collect(const SolidModel<dim> &model);
 
     void
+    find_shares();
+    void
     share_out(const dealii::IndexSet &owned);
+    template <class Values>
+    void
+    move_on(Values &values) const;
 
-    std::vector<std::array<Index, dim>> dofs; ///< of each node
+    std::vector<std::array<Index, dim>> dofs;    ///< of each node's own
+    std::vector<Corners>                corners; ///< around each node
+    std::vector<std::vector<Share>>     all_shares;
     Surface<dim>                        all_facets;
     std::vector<dealii::Point<dim>>     rest_positions; ///< of nodes that do not move: their place
     MPI_Comm                            communicator;

@@ -94,12 +94,9 @@ namespace undine
             const auto change = (area_vector(facets, facet, positions) - before) / length;
             positions[moved]  = place;
             for (const unsigned int node : facets.facets()[facet])
-              for (unsigned int i = 0; i < dim && surface.moves(node); ++i)
-                if (const auto row = bodies.dofs_of_node(node)[i];
-                    tangent.in_local_range(row) && change[i] != 0)
-                  tangent.add(row,
-                              bodies.dofs_of_node(moved)[axis],
-                              factor * pressures[node] / dim * change[i]);
+              if (surface.moves(node))
+                bodies.add_derivative(
+                  tangent, node, moved, axis, factor * pressures[node] / dim * change);
           }
     tangent.compress(dealii::VectorOperation::add);
   }

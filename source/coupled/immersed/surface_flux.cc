@@ -185,30 +185,18 @@ namespace undine
                   (mean_area_vector(surface, facet, before, place) - here) / length;
                 place[moved] = after[moved];
                 for (unsigned int k = 0; k < dim; ++k)
-                  add_to_row(tangent,
-                             surface.facets()[facet][k],
-                             moved,
-                             axis,
-                             -solid.displacement_factor() * loads[facet * dim + k] * change);
+                  if (const unsigned int node = surface.facets()[facet][k]; immersed.moves(node))
+                    immersed.bodies()->add_derivative(tangent,
+                                                      node,
+                                                      moved,
+                                                      axis,
+                                                      -solid.displacement_factor() *
+                                                        loads[facet * dim + k] * change);
               }
         tangent.compress(dealii::VectorOperation::add);
       }
 
     private:
-      void
-      add_to_row(typename SurfaceFlux<dim>::Matrix &tangent,
-                 const unsigned int                 node,
-                 const unsigned int                 moved,
-                 const unsigned int                 axis,
-                 const dealii::Tensor<1, dim>      &change) const
-      {
-        const auto &bodies = *this->models.surface->bodies();
-        for (unsigned int i = 0; i < dim && this->models.surface->moves(node); ++i)
-          if (const auto row = bodies.dofs_of_node(node)[i];
-              tangent.in_local_range(row) && change[i] != 0)
-            tangent.add(row, bodies.dofs_of_node(moved)[axis], change[i]);
-      }
-
       const SolidEquations<dim>               &solid;
       const double                             dt;
       std::unique_ptr<const BoundaryFlux<dim>> mean;

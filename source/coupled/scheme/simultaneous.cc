@@ -28,7 +28,8 @@ namespace undine
   /// and light bodies that shake from stage to stage would gain energy by that.
   ///
   /// Friction and the level of pressure that follows bodies (FollowerPressure) know the pressures
-  /// of the stage before, and those of its first solution where the stage is solved again. Where
+  /// of the stage before, and those of its first solution where the stage is solved again; in the
+  /// first stage of a run nothing is known of them. Where
   /// bodies leave a stage so much faster or slower than these made friction expect that it would
   /// differ, the stage is solved again with the pressures found.
   template <int dim>
@@ -70,25 +71,26 @@ namespace undine
       if (stage.is_first)
         report.stages_again = 0;
       SolidVector found; // velocities of bodies in the last solution
+      bool        knows_pressure = state.clock.step > 0 || !stage.is_first;
       if (!stage.keeps_rates() && !models.has_friction())
         {
-          solve_once(state, stage, report, found);
+          solve_once(state, stage, report, knows_pressure, found);
           return;
         }
       State<dim>            begin         = state;
       const Report          report_before = report;
       const Budget<dim>     budget_before = budget;
       SurfacePlacement<dim> placement(models);
-      bool                  knows_pressure = false; ///< that of a solution of this stage
-      bool                  is_corrected   = false; ///< friction
-      const auto            go_back        = [&] {
+      bool                  has_own_pressure = false; ///< that of a solution of this stage
+      bool                  is_corrected     = false; ///< friction
+      const auto            go_back          = [&] {
         state = begin;
         budget.go_back_to(budget_before);
         go_back_to(report_before, report);
       };
       while (true)
         {
-          if (!is_solved(state, stage, report, placement, found))
+          if (!is_solved(state, stage, report, placement, knows_pressure, found))
             {
               fluid_side.expect(placement.retreat());
               go_back();
@@ -107,11 +109,11 @@ namespace undine
           fluid_side.expect(is_placed ? cut_at : placement.next(cut_at, places));
           // All later solutions start from the same pressures: with others each time, where bodies
           // come to would depend on more than where the grid is cut, and no place be found.
-          if (is_placed || !knows_pressure)
+          if (is_placed || !has_own_pressure)
             {
-              knows_pressure          = true;
-              begin.fluid.pressure    = state.fluid.pressure;
-              begin.solid.fluid_loads = state.solid.fluid_loads;
+              knows_pressure = has_own_pressure = true;
+              begin.fluid.pressure              = state.fluid.pressure;
+              begin.solid.fluid_loads           = state.solid.fluid_loads;
             }
           if (is_placed)
             {
@@ -136,11 +138,12 @@ namespace undine
               const Stage                 &stage,
               Report                      &report,
               const SurfacePlacement<dim> &placement,
+              const bool                   knows_pressure,
               SolidVector                 &found)
     {
       try
         {
-          solve_once(state, stage, report, found);
+          solve_once(state, stage, report, knows_pressure, found);
           return true;
         }
       catch (const SolveError &)
@@ -164,9 +167,13 @@ namespace undine
     }
 
     /// Begins with the velocities of bodies `found` before, unless these are empty, and leaves its
-    /// own there.
+    /// own there. `knows_pressure`: is the fluid's one that has been solved for?
     void
-    solve_once(State<dim> &state, const Stage &stage, Report &report, SolidVector &found)
+    solve_once(State<dim>  &state,
+               const Stage &stage,
+               Report      &report,
+               const bool   knows_pressure,
+               SolidVector &found)
     {
       budget.begin_stage(stage);
       solid_side.start(state, stage);
@@ -181,7 +188,8 @@ namespace undine
                                  timing},
                                 *fluid,
                                 state,
-                                settings.boundary_flux);
+                                settings.boundary_flux,
+                                knows_pressure);
       const auto        solid = coupled.solve(found);
       found                   = coupled.velocity_of_bodies();
       solid_side.end(state, stage);

@@ -207,8 +207,7 @@ namespace undine
         state.surface_positions = models.surface->positions(state.solid, time);
         report.warn("outside", note_of_what_is_outside(models, state.surface_positions));
       }
-    if (cut)
-      viscous_coupling.keep_loads(state, *cut, environment.gravity, time);
+    viscous_coupling.forget_loads(state);
     add_columns(report, state, projected.divergence, time);
     count_memory(state.fluid);
   }
@@ -337,27 +336,35 @@ namespace undine
                            const PressureBalance<dim> &pressures,
                            const Field<dim>           &pressure) const
   {
-    account.add_power(pressures.power_of_sides);
-    const std::size_t n_body_nodes = cut && models.solid ? models.surface->n_body_nodes() : 0;
-    if (n_body_nodes == 0)
-      account.add_power(pressures.power_of_openings);
-    if (!cut)
-      return;
-    const auto        velocities = cut->surface_velocities();
-    const std::size_t n_bodies   = models.surface->n_body_nodes();
-    const auto        are_still  = [](const auto &velocity) { return velocity.norm() == 0; };
-    if (!std::all_of(velocities.begin() + n_bodies, velocities.end(), are_still))
+    const bool   has_bodies = cut && models.solid && models.surface->n_body_nodes() > 0;
+    const double level  = has_bodies && cut->has_void_regions() ? 0 : pressures.mean_at_openings;
+    double       inflow = pressures.inflow_of_sides + pressures.inflow_of_openings;
+    account.add_power(pressures.power_of_sides - level * pressures.inflow_of_sides);
+    account.add_power(pressures.power_of_openings - level * pressures.inflow_of_openings);
+    if (cut)
       {
-        const auto forces = cut->pressure_forces(pressure);
-        double     power  = 0;
-        for (std::size_t node = n_bodies; node < velocities.size(); ++node)
-          power -= forces[node] * velocities[node];
-        account.add_power(power);
+        const auto        velocities = cut->surface_velocities();
+        const std::size_t n_bodies   = models.surface->n_body_nodes();
+        const auto        are_still  = [](const auto &velocity) { return velocity.norm() == 0; };
+        if (!std::all_of(velocities.begin() + n_bodies, velocities.end(), are_still))
+          {
+            const auto forces   = cut->pressure_forces(pressure);
+            const auto of_level = cut->uniform_pressure_forces(1);
+            double     power = 0, pushed = 0;
+            for (std::size_t node = n_bodies; node < velocities.size(); ++node)
+              {
+                power -= forces[node] * velocities[node];
+                pushed -= of_level[node] * velocities[node];
+              }
+            account.add_power(power - level * pushed);
+            inflow += pushed;
+          }
+        if (!is_carried(models))
+          account.add_doubtful_power(kinetic_energy_of_way_made(state));
       }
-    if (!is_carried(models))
-      account.add_doubtful_power(kinetic_energy_of_way_made(state));
-    if (n_body_nodes > 0)
-      add_work_on_bodies(account, state, time, pressures);
+    // What flows in of a fluid of constant volume goes out, or is the way that bodies make for it.
+    const double on_bodies = has_bodies ? add_work_on_bodies(account, state, time, level) : 0;
+    account.add_power(level * inflow - on_bodies);
   }
 
 
@@ -388,15 +395,15 @@ namespace undine
 
 
   /// The pressure of the fluid at rest at the height of the openings: a uniform one, which does no
-  /// work on the fluid, is left out of the power of openings instead. Its work and that of weight
-  /// follow from where bodies have come to. Where they bound void regions, the power of the forces
-  /// at the end of the step stands for it.
+  /// work on the fluid. Its work and that of weight follow from where bodies have come to; returns
+  /// the power that it has at the end of the step. Where bodies bound void regions, the power of
+  /// the forces at the end of the step stands for it, and zero is returned.
   template <int dim>
-  void
-  FluidSide<dim>::add_work_on_bodies(EnergyAccount              &account,
-                                     const State<dim>           &state,
-                                     const double                time,
-                                     const PressureBalance<dim> &pressures) const
+  double
+  FluidSide<dim>::add_work_on_bodies(EnergyAccount    &account,
+                                     const State<dim> &state,
+                                     const double      time,
+                                     const double      level) const
   {
     const auto &surface = *models.surface;
     // Bodies that sleep have nodes, too, which do not move.
@@ -411,13 +418,9 @@ namespace undine
     if (cut->has_void_regions())
       {
         account.add_power(power(cut->other_forces(environment.gravity, time)));
-        account.add_power(pressures.power_of_openings);
-        return;
+        return 0;
       }
-    account.add_power(pressures.power_of_openings -
-                      power(cut->uniform_pressure_forces(pressures.mean_at_openings)));
-    const StaticPressure<dim> pressure{pressures.mean_at_openings,
-                                       model.density() * environment.gravity};
+    const StaticPressure<dim> pressure{level, model.density() * environment.gravity};
     const auto                against = [&](const SolidState &bodies, const double at) {
       return work_against(pressure,
                           model.grid(),
@@ -428,6 +431,7 @@ namespace undine
     const double work    = against(state.step_begin, state.clock.time) - against(state.solid, time);
     const auto   outside = works_outside(state, time);
     account.add_work(work + (outside[0] + outside[1]) / 2, work + outside[1]);
+    return power(cut->uniform_pressure_forces(level));
   }
 
 

@@ -22,10 +22,12 @@ namespace undine
     for_each_side_face(model.grid(), open, [&](const SideFace<dim> &face, const auto &) {
       if (model.boundaries().at(face.side, face.face).is_open())
         return;
-      const double force =
-        value_at(pressure, place_inside(open, face)) * signed_area(grid, open, face);
+      const double area  = signed_area(grid, open, face);
+      const double force = value_at(pressure, place_inside(open, face)) * area;
+      const double speed = value_on(velocity, face);
       result.sides[face.side.axis] += force;
-      result.power_of_sides -= force * value_on(velocity, face);
+      result.power_of_sides -= force * speed;
+      result.inflow_of_sides -= area * speed;
     });
     double area = 0, force_on_area = 0;
     for (const auto &opening : openings)
@@ -36,13 +38,17 @@ namespace undine
         force_on_area += opening.pressure * std::abs(signed_by_side);
         result.openings[opening.side.axis] += force;
         result.power_of_openings -= force * value_on(velocity, opening);
+        result.inflow_of_openings -= signed_by_side * value_on(velocity, opening);
       }
-    const auto communicator  = grid.communicator();
-    result.sides             = dealii::Utilities::MPI::sum(result.sides, communicator);
-    result.openings          = dealii::Utilities::MPI::sum(result.openings, communicator);
-    result.power_of_sides    = dealii::Utilities::MPI::sum(result.power_of_sides, communicator);
-    result.power_of_openings = dealii::Utilities::MPI::sum(result.power_of_openings, communicator);
-    area                     = dealii::Utilities::MPI::sum(area, communicator);
+    const auto communicator = grid.communicator();
+    result.sides            = dealii::Utilities::MPI::sum(result.sides, communicator);
+    result.openings         = dealii::Utilities::MPI::sum(result.openings, communicator);
+    for (double *sum : {&result.power_of_sides,
+                        &result.power_of_openings,
+                        &result.inflow_of_sides,
+                        &result.inflow_of_openings,
+                        &area})
+      *sum = dealii::Utilities::MPI::sum(*sum, communicator);
     if (area > 0)
       result.mean_at_openings = dealii::Utilities::MPI::sum(force_on_area, communicator) / area;
     return result;

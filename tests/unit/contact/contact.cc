@@ -41,14 +41,21 @@ namespace
         size += std::abs(forces(dof));
       }
     const BodySurface<dim> surface(scene.model);
-    const auto             x = surface.positions(place);
-    const auto             f = surface.gather(forces);
-    for (unsigned int node = 0; node < x.size(); ++node)
-      for (unsigned int a = 0; a < dim; ++a)
-        for (unsigned int b = 0; b < dim; ++b)
-          moment[a][b] += x[node][a] * f[node][b] - x[node][b] * f[node][a];
-    force = dealii::Utilities::MPI::sum(force, MPI_COMM_WORLD);
-    size  = dealii::Utilities::MPI::sum(size, MPI_COMM_WORLD);
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+      if (const auto &dofs = surface.dofs_of_node(node);
+          scene.model.locally_owned().is_element(dofs[0]))
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            const double x = scene.model.rest_position(dofs[a])[a] + place(dofs[a]);
+            for (unsigned int b = 0; b < dim; ++b)
+              {
+                moment[a][b] += x * forces(dofs[b]);
+                moment[b][a] -= x * forces(dofs[b]);
+              }
+          }
+    force  = dealii::Utilities::MPI::sum(force, MPI_COMM_WORLD);
+    moment = dealii::Utilities::MPI::sum(moment, MPI_COMM_WORLD);
+    size   = dealii::Utilities::MPI::sum(size, MPI_COMM_WORLD);
     CHECK(size > 1e-3);
     CHECK(force.norm() < 1e-14 * size);
     CHECK(moment.norm() < 1e-14 * size);

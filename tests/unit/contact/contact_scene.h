@@ -104,7 +104,7 @@ namespace undine_tests
       result.add(path, change);
       return result;
     };
-    const double step   = 1e-6;
+    const double step   = 3e-7;
     const Vector forces = scene.contact.forces(place, 0);
     REQUIRE(forces.size() > 0);
     CHECK((scene.contact.energy(at(step), 0) - scene.contact.energy(at(-step), 0)) / (2 * step) ==

@@ -3,6 +3,9 @@
 #include <undine/surface/body_surface.h>
 #include <undine/surface/face_facets.h>
 
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
 #include <catch2/catch.hpp>
 #include <solid/solid_scene.h>
 
@@ -76,13 +79,60 @@ namespace
     const auto measures = measure_bodies(model, model.vector());
     // In space the faces of curved bodies are not plane: two triangles enclose a little more.
     CHECK(volumes[0] == Approx(measures[0].volume).epsilon(dim == 2 ? 1e-13 : .01));
-    if (degree == 1 && dim == 2)
-      CHECK(body_volumes(surface.surface(), positions)[0] ==
-            Approx(measure_bodies(model, displacement)[0].volume).epsilon(1e-13));
+    // In the plane every side encloses what the line or the parabola does (I12).
+    for (unsigned int body = 0; body < 2; ++body)
+      CHECK(
+        body_volumes(surface.surface(), positions)[body] ==
+        Approx(measure_bodies(model, displacement)[body].volume).epsilon(dim == 2 ? 1e-13 : .01));
 
     for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       for (unsigned int axis = 0; axis < dim; ++axis)
         REQUIRE(model.axis(surface.dofs_of_node(node)[axis]) == axis);
+  }
+
+
+  /// Forces of a uniform pressure on the facets, each of which gives equal parts to its nodes,
+  /// against the integrals of the shape functions over the sides of the box.
+  template <int dim>
+  void
+  check_uniform_pressure(const unsigned int degree)
+  {
+    INFO(dim << "D degree " << degree);
+    const auto                          model = two_bodies<dim>(degree, MPI_COMM_WORLD);
+    const BodySurface<dim>              surface(model);
+    const auto                          positions = surface.positions(model.vector());
+    std::vector<dealii::Tensor<1, dim>> on_nodes(surface.n_nodes());
+    for (unsigned int facet = 0; facet < surface.surface().facets().size(); ++facet)
+      for (const unsigned int node : surface.surface().facets()[facet])
+        on_nodes[node] += area_vector(surface.surface(), facet, positions) / dim;
+    auto forces = model.vector();
+    surface.add(forces, on_nodes);
+
+    auto                                         exact   = model.vector();
+    const auto                                  &element = model.dof_handler().get_fe();
+    dealii::FEFaceValues<dim>                    values(model.mapping(),
+                                     element,
+                                     dealii::QGauss<dim - 1>(degree + 1),
+                                     dealii::update_values | dealii::update_JxW_values |
+                                       dealii::update_normal_vectors);
+    std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
+    for (const auto &cell : model.dof_handler().active_cell_iterators())
+      for (const unsigned int face : cell->face_indices())
+        if (cell->at_boundary(face))
+          {
+            values.reinit(cell, face);
+            cell->get_dof_indices(dofs);
+            for (unsigned int i = 0; i < dofs.size(); ++i)
+              for (const unsigned int q : values.quadrature_point_indices())
+                if (model.locally_owned().is_element(dofs[i]))
+                  exact(dofs[i]) +=
+                    values.shape_value(i, q) * values.JxW(q) *
+                    values.normal_vector(q)[element.system_to_component_index(i).first];
+          }
+    exact.compress(dealii::VectorOperation::add);
+    for (const auto dof : model.locally_owned())
+      if (model.rest_position(dof)[0] < 2) // in space the sides of balls are not plane
+        REQUIRE(forces(dof) == Approx(exact(dof)).margin(1e-15));
   }
 
 
@@ -137,6 +187,14 @@ TEST_CASE("The surface of bodies is closed and encloses their volume", "[interfa
       check_surface<2>(degree);
       check_surface<3>(degree);
     }
+}
+
+
+TEST_CASE("A uniform pressure has the nodal forces of the finite elements", "[interface][mpi]")
+{
+  check_uniform_pressure<2>(1);
+  check_uniform_pressure<2>(2);
+  check_uniform_pressure<3>(2);
 }
 
 

@@ -37,12 +37,14 @@ namespace undine
     };
 
     /// `state` holds u^n and, in the fluid, v*, which gets the velocities of inflows and walls.
-    /// `boundary_flux`: `initial` or `swept`, see make_surface_flux(). Collective. Throws
-    /// InputError, SolveError.
+    /// `boundary_flux`: `initial` or `swept`, see make_surface_flux(). `knows_pressure`: is the
+    /// pressure in the fluid one that has been solved for? Collective. Throws InputError,
+    /// SolveError.
     CoupledStage(const Parts           &parts,
                  const FluidStage<dim> &fluid,
                  State<dim>            &state,
-                 const std::string     &boundary_flux);
+                 const std::string     &boundary_flux,
+                 bool                   knows_pressure);
 
     /// The state becomes that of t^{n+1}. `found`: u^{n+1} of an earlier solution of
     /// this stage; empty: there is none. Collective. Throws SolveError.
@@ -114,7 +116,7 @@ namespace undine
     Vector
     loads_besides_pressure();
     FollowerPressure<dim>
-    make_follower() const;
+    make_follower(bool knows_pressure) const;
 
     const Parts                             parts;
     const FluidStage<dim>                  &fluid;

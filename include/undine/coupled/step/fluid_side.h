@@ -99,11 +99,11 @@ namespace undine
   private:
     double
     kinetic_energy_of_way_made(const State<dim> &state) const;
-    void
-    add_work_on_bodies(EnergyAccount              &account,
-                       const State<dim>           &state,
-                       double                      time,
-                       const PressureBalance<dim> &pressures) const;
+    double
+    add_work_on_bodies(EnergyAccount    &account,
+                       const State<dim> &state,
+                       double            time,
+                       double            level) const;
     std::array<double, 2>
     works_outside(const State<dim> &state, double time) const;
     template <class Action, class Book>

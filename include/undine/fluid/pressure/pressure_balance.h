@@ -22,6 +22,11 @@ namespace undine
     double                 power_of_sides    = 0; ///< - sum a p v.n [W]
     double                 power_of_openings = 0; ///< [W]
     double                 mean_at_openings  = 0; ///< of the pressure, over their area [Pa]
+
+    /// What flows in, - sum a v.n: the power of a pressure of 1 Pa [m^dim/s]. @{
+    double inflow_of_sides    = 0;
+    double inflow_of_openings = 0;
+    /// @}
   };
 
   /// Of `pressure`, which has led to `velocity`; `openings` with the pressures that have acted.
