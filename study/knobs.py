@@ -142,10 +142,20 @@ def knobs_of(found):
     if found.get("Time/Integrator") != "static":
         result.append(Knob("time step", {"Time/Step": numbers(found["Time/Step"])}, 2.0, 1.0, False,
                            longest=float(found.get("Output/Interval", 0))))
+    planes = [key for key in ("Domain/Planes x", "Domain/Planes y", "Domain/Planes z") if found.get(key)]
+    if planes:
+        sys.exit(f"The grid is given by '{planes[0]}', which cannot be refined by a factor: the error of the grid would be left "
+                 "out. Try: 'Domain/Cells', with 'Grading' where they are to be uneven.")
     if "Domain/Cells" in found:
         result.append(Knob("cells of the fluid", {"Domain/Cells": numbers(found["Domain/Cells"])}, 2.0, dimension, True))
     elements = {key: numbers(text) for key, text in found.items()
-                if key.startswith("Bodies/") and key.count("/") == 2 and key.endswith("/Cells")}
+                if key.startswith("Bodies/") and key.count("/") == 2 and key.endswith("/Cells") and
+                found.get(key[:-len("Cells")] + "Shape", "box") == "box"}
+    others = [key.split("/")[1] for key, shape in found.items()
+              if key.startswith("Bodies/") and key.count("/") == 2 and key.endswith("/Shape") and shape != "box"]
+    if others:
+        print(f"note: the error of the elements of {', '.join(others)} is not looked at: only those of boxes can be refined by a "
+              "factor", file=sys.stderr)
     if elements:
         degree = int(found.get("Solid numerics/Element degree", "1"))
         result.append(Knob("elements of bodies", elements, degree + 1.0, dimension, True))

@@ -107,8 +107,14 @@ class Pilot:
             self.quantity = None
 
     def times(self, settings):
-        """Those of the run with the longest steps."""
-        return min((self.values[each].times for each in settings), key=len)
+        """Those of the run with the longest steps, as long as all of them last: runs that end when they are steady do not
+        end together."""
+        all_times = [self.values[each].times for each in settings]
+        if self.quantity.evaluate != "over time":
+            return min(all_times, key=len)
+        begin, end = max(times[0] for times in all_times), min(times[-1] for times in all_times)
+        slack, times = 1e-9 * abs(end), min(all_times, key=len)
+        return times[(times >= begin - slack) & (times <= end + slack)]
 
     def compare(self, settings, times):
         """Values of several settings at common times, [setting][time][component]."""

@@ -66,9 +66,11 @@ def reason(result):
 def scene_without(study, keys, folder):
     """The path of a copy of the scene without some keys, and what it needs to find other files."""
     path = os.path.join(folder, os.path.basename(study.scene))
+    text = scene_files.without(study.scene, keys)
     with open(path, "w") as file:
-        file.write(scene_files.without(study.scene, keys))
-    return path, {"Folder of files": os.path.dirname(os.path.abspath(study.scene))}
+        file.write(text)
+    named = re.search(r"^\s*set\s+Folder of files\s*=([^#\n]*)", text, re.M)
+    return path, {"Folder of files": os.path.join(os.path.dirname(os.path.abspath(study.scene)), named[1].strip() if named else "")}
 
 
 def scene_and_settings(study, case, folder):

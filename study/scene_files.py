@@ -16,10 +16,9 @@ def blocks(file):
                 block = ""
 
 
-def without(file, keys, sections=()):
-    """The text of a scene without some keys, each "Section/Key": those of an integrator that another one does not know,
-    for example. What the scene includes stands in it; names of other files remain as they are."""
-    text, sections = "", list(sections)
+def parts_of(file, sections):
+    """Of each part of a file its text, its first word, what stands after that and, where it sets one, the "Section/Key"."""
+    sections = list(sections)
     for block in blocks(file):
         found = re.match(r"\s*(subsection|set|include|end)\b([^=#\n]*)", block)
         word, rest = (found[1], found[2].strip()) if found else ("", "")
@@ -27,9 +26,19 @@ def without(file, keys, sections=()):
             sections.append(rest)
         elif word == "end":
             sections.pop()
+        yield block, word, rest, list(sections)
+
+
+def without(file, keys, sections=()):
+    """The text of a scene without some keys, each "Section/Key": those of an integrator that another one does not know,
+    for example. What the scene includes stands in it, but for what the scene itself sets anew; names of other files remain
+    as they are."""
+    text = ""
+    own = {"/".join([*inside, rest]) for _, word, rest, inside in parts_of(file, sections) if word == "set"}
+    for block, word, rest, inside in parts_of(file, sections):
         if word == "include":
-            text += without(os.path.join(os.path.dirname(file), rest), keys, sections)
-        elif word != "set" or "/".join([*sections, rest]) not in keys:
+            text += without(os.path.join(os.path.dirname(file), rest), own.union(keys), inside)
+        elif word != "set" or "/".join([*inside, rest]) not in keys:
             text += block
     return text
 

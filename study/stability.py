@@ -18,7 +18,9 @@ def verdict(result):
     if result.get("left out"):
         return ""
     if result["failure"] and not result.get("stopped"):
-        return "failed"
+        # A full disk, too little memory or a scene that is refused say nothing of stability.
+        code = result.get("exit code")
+        return "failed" if code == 3 or (code == 2 and "reached" in result) else ""
     return result.get("verdict", "")
 
 

@@ -44,14 +44,16 @@ namespace undine
           const unsigned int      node)
     {
       const auto &boundaries = solid.bodies()[body].boundaries;
-      const auto &dofs       = surface.dofs_of_node(node);
+      const auto &shares     = surface.shares(node);
       return std::none_of(boundaries.begin(),
                           boundaries.end(),
                           [](const auto &boundary) {
                             return boundary.kind == BodyBoundary<dim>::Kind::prescribed_motion;
                           }) &&
-             std::all_of(dofs.begin(), dofs.end(), [&](const auto dof) {
-               return solid.all_fixed().is_element(dof);
+             std::all_of(shares.begin(), shares.end(), [&](const auto &share) {
+               return std::all_of(share.dofs.begin(), share.dofs.end(), [&](const auto dof) {
+                 return solid.all_fixed().is_element(dof);
+               });
              });
     }
   } // namespace
@@ -133,7 +135,8 @@ namespace undine
           if (rest_gap(node, wall) <= rounding())
             fixed[surfaces_of_nodes[node]][wall] = true;
         for (unsigned int node = 0; node < body_surface.n_nodes(); ++node)
-          if (rest_gap(node, wall) < -rounding())
+          // Means of corners that are clamped are no evidence of what slides.
+          if (body_surface.has_own(node) && rest_gap(node, wall) < -rounding())
             {
               const unsigned int body = surfaces_of_nodes[node];
               reaching[body][wall]    = true;

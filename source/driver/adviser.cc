@@ -79,20 +79,15 @@ namespace undine
   void
   Adviser<dim>::measure_length(const State<dim> &state)
   {
-    const auto &lower = models.fluid->grid().lower();
-    const auto &upper = models.fluid->grid().upper();
-    if (!models.surface || state.surface_positions.empty())
-      {
-        largest.length = upper[0] - lower[0];
-        for (unsigned int axis = 1; axis < dim; ++axis)
-          largest.length = std::min(largest.length, upper[axis] - lower[axis]);
-        return;
-      }
-    const auto &surface = models.surface->surface();
-    for (unsigned int body = 0; body < surface.body_names().size(); ++body)
+    const auto        &lower    = models.fluid->grid().lower();
+    const auto        &upper    = models.fluid->grid().upper();
+    const bool         is_any   = models.surface && !state.surface_positions.empty();
+    const unsigned int n_bodies = is_any ? models.surface->surface().body_names().size() : 0;
+    for (unsigned int body = 0; body < n_bodies; ++body)
       for (unsigned int axis = 0; axis < dim; ++axis)
         {
-          double first = upper[axis], last = lower[axis];
+          double      first = upper[axis], last = lower[axis];
+          const auto &surface = models.surface->surface();
           for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
             if (surface.body(facet) == body)
               for (const auto node : surface.facets()[facet])
@@ -104,6 +99,11 @@ namespace undine
                 }
           largest.length = std::max(largest.length, last - first);
         }
+    if (largest.length > 0)
+      return;
+    largest.length = upper[0] - lower[0];
+    for (unsigned int axis = 1; axis < dim; ++axis)
+      largest.length = std::min(largest.length, upper[axis] - lower[axis]);
   }
 
 

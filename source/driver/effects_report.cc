@@ -153,19 +153,19 @@ namespace undine
                          spent.peak_bytes);
     });
     const auto numbers = json_list(advice.numbers, [](const Advice::Number &number) {
-      return fmt::format("{{\"name\": {}, \"value\": {:.6g}, \"meaning\": {}}}",
+      return fmt::format("{{\"name\": {}, \"value\": {}, \"meaning\": {}}}",
                          quoted(number.name),
-                         number.value,
+                         json_number(number.value),
                          quoted(number.meaning));
     });
     const auto remarks = json_list(advice.remarks, [](const Advice::Remark &remark) {
       return fmt::format("{{\"effect\": {}, \"on\": {}, \"matters\": {}, \"number\": {}, "
-                         "\"value\": {:.6g}, \"rule\": {}}}",
+                         "\"value\": {}, \"rule\": {}}}",
                          quoted(remark.effect),
                          remark.is_on,
                          !remark.is_on,
                          quoted(remark.number),
-                         remark.value,
+                         json_number(remark.value),
                          quoted(remark.rule));
     });
     const auto missing = json_list(advice.missing, quoted);

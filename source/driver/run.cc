@@ -1,211 +1,27 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/interruption.h>
 #include <undine/base/core/version.h>
-#include <undine/base/options/options_output.h>
-#include <undine/base/parallel/interruption.h>
-#include <undine/base/parallel/throw_together.h>
-#include <undine/coupled/step/physics.h>
 #include <undine/driver/adviser.h>
+#include <undine/driver/answers.h>
 #include <undine/driver/effects_report.h>
+#include <undine/driver/failures.h>
 #include <undine/driver/log.h>
-#include <undine/driver/measured_costs.h>
-#include <undine/driver/progress.h>
 #include <undine/driver/report_page.h>
 #include <undine/driver/run.h>
 #include <undine/driver/run_directory.h>
 #include <undine/driver/run_summary.h>
 #include <undine/driver/size_check.h>
-#include <undine/driver/study_file.h>
+#include <undine/driver/time_loop.h>
 #include <undine/output/checkpoint/checkpoint.h>
 #include <undine/output/files/schedule.h>
 #include <undine/scene/scene.h>
 
-#include <functional>
-#include <iostream>
 #include <optional>
-#include <sstream>
 
 namespace undine
 {
   namespace
   {
-    /// What watches a run.
-    template <int dim>
-    struct Watch
-    {
-      std::function<void(const State<dim> &, const Report &)> step;    ///< has led to the state
-      std::function<void(const State<dim> &)>                 outputs; ///< have been written
-    };
-
-
-    template <int dim>
-    void
-    write_outputs(const State<dim> &state,
-                  const Report     &report,
-                  Scene<dim>       &scene,
-                  TimingTree       &timing)
-    {
-      const auto timed = timing.section("output");
-      for (auto &output : scene.outputs)
-        if (output->due(state.clock))
-          output->write(state, report);
-    }
-
-
-    /// What the probes measure of the new state joins what the models did.
-    template <int dim>
-    void
-    ask_probes(Report &report, const State<dim> &state, const Scene<dim> &scene, TimingTree &timing)
-    {
-      const auto timed = timing.section("measure");
-      for (const auto &probe : scene.probes)
-        append(report.columns, probe->columns(scene.models, state));
-    }
-
-
-    /// The whole of a simulation. `state` is at its first time, initial or resumed.
-    template <int dim>
-    void
-    run_time_loop(
-      State<dim> &state, Scene<dim> &scene, const Watch<dim> &watch, Log &log, TimingTree &timing)
-    {
-      Progress      progress(log, state.clock);
-      MeasuredCosts costs(log, state.clock, scene.models.communicator());
-      scene.scheme->follow([&](const std::string &how_far) {
-        progress.within_step(how_far);
-        return !interruption_requested();
-      });
-      listen_for_interruption();
-      while (!state.clock.ended())
-        {
-          throw_if_interrupted(scene.models.communicator());
-          const double dt     = scene.scheme->choose_dt(state);
-          Report       report = scene.scheme->step(state, dt);
-          state.clock.advance(report.dt); // what was accepted; retries happen inside step
-          ask_probes(report, state, scene, timing);
-          if (report.steady)
-            state.clock.end_time = state.clock.time;
-          watch.step(state, report);
-          write_outputs(state, report, scene, timing);
-          watch.outputs(state);
-          progress.report(state.clock, report);
-          costs.observe(state.clock);
-          if (report.steady)
-            log.print("steady: of late fluid and bodies have changed by {:.2g} of what they are",
-                      *report.steady);
-        }
-    }
-
-
-    /// Write the state as a checkpoint; returns what to tell the user about it. `settings`: those
-    /// to resume with.
-    template <int dim>
-    std::string
-    keep_last_state(const State<dim>   &state,
-                    const Scene<dim>   &scene,
-                    const ResultFolder &folder,
-                    const std::string  &settings)
-    {
-      try
-        {
-          write_checkpoint(folder.path(), scene.models, state, folder.statistics_digest);
-          return fmt::format("The state before it is kept; 'undine resume {}{}' continues it.",
-                             folder.path().string(),
-                             settings);
-        }
-      catch (const Error &error)
-        {
-          return std::string("The state before it could not be kept: ") + error.what();
-        }
-    }
-
-
-    /// Keep the state before the step that was not completed; returns what to tell the user, which
-    /// is also logged, after `heading`.
-    template <int dim>
-    std::string
-    failure_report(const Error        &error,
-                   const State<dim>   &state,
-                   const Scene<dim>   &scene,
-                   const ResultFolder &folder,
-                   Log                &log,
-                   const std::string  &heading  = "Error: ",
-                   const std::string  &settings = " --set \"Section/Key=value\"")
-    {
-      const std::string message = fmt::format("step {}, which begins at {:.6g} s: {}\n{}",
-                                              state.clock.step + 1,
-                                              state.clock.time,
-                                              error.what(),
-                                              keep_last_state(state, scene, folder, settings));
-      log.record("\n" + heading + message + "\n");
-      return message;
-    }
-
-
-    /// About expressions of the scene that had no finite value at `since` [s] or later; empty if all
-    /// had. Collective.
-    std::string
-    undefined_values(const Options &options, const double since, const MPI_Comm communicator)
-    {
-      std::string complaints;
-      for (const auto &complaint : options.undefined_values(since))
-        complaints += complaint + "\n";
-      return first_message(complaints, communicator);
-    }
-
-
-    /// The same with the failure that may follow from it.
-    std::string
-    undefined_values(const Options &options,
-                     const double   since,
-                     const Error   &failure,
-                     const MPI_Comm communicator)
-    {
-      const std::string complaints = undefined_values(options, since, communicator);
-      return complaints.empty() ? "" : complaints + "What failed: " + failure.what();
-    }
-
-
-    /// A failed run keeps its last good state: it can be looked at, and resumed with other
-    /// settings. So does one that is stopped.
-    template <int dim>
-    void
-    run_keeping_last_state(State<dim>         &state,
-                           Scene<dim>         &scene,
-                           const Options      &options,
-                           const Watch<dim>   &watch,
-                           const ResultFolder &folder,
-                           Log                &log,
-                           TimingTree         &timing)
-    {
-      try
-        {
-          run_time_loop(state, scene, watch, log, timing);
-        }
-      catch (const FileError &error)
-        {
-          log.record(std::string("\nError: ") + error.what() + "\n");
-          throw;
-        }
-      catch (const Interruption &error)
-        {
-          throw Interruption(failure_report(error, state, scene, folder, log, "", ""));
-        }
-      catch (const InputError &error)
-        {
-          throw InputError(failure_report(error, state, scene, folder, log));
-        }
-      catch (const Error &error)
-        {
-          const std::string complaint =
-            undefined_values(options, state.clock.time, error, scene.models.communicator());
-          if (!complaint.empty())
-            throw InputError(failure_report(InputError(complaint), state, scene, folder, log));
-          throw SolveError(failure_report(error, state, scene, folder, log));
-        }
-    }
-
-
     /// What a run finds out about itself. The references must outlive it.
     template <int dim>
     struct Findings
@@ -257,6 +73,8 @@ namespace undine
       const bool is_stopped = dynamic_cast<const Interruption *>(&failure) != nullptr;
       const typename RunSummary<dim>::End end{failure.what(), !is_stopped};
       findings.summary.print_failure(log, clock.time, end);
+      if (is_stopped && !findings.summary.has_steps())
+        return; // what an earlier run knows of itself stays
       try_to_write(findings, folder, clock, end, communicator);
     }
 
@@ -509,97 +327,11 @@ namespace undine
           throw;
         }
       write_checkpoint(folder.path(), scene.models, state, folder.statistics_digest);
-      write_timing(folder, timing, log, communicator);
+      if (summary.has_steps())
+        write_timing(folder, timing, log, communicator);
       conclude(findings, folder, state.clock, log, communicator);
       folder.finish();
       page.finish();
-    }
-
-
-    /// The parameters of every part of a scene.
-    Options
-    all_of_scenes()
-    {
-      auto options = Options::for_reference();
-      declare_scene<3>(options);
-      declare_scene<2>(options); // adds the few keys that only plane scenes have
-      return options;
-    }
-
-
-    void
-    print_reference_of(const std::string &section)
-    {
-      if (!write_reference_of(std::cout, all_of_scenes(), section))
-        throw InputError("no section of a scene is called '" + section +
-                         "'. Try one of those that 'undine --reference' lists, or a part of its "
-                         "path, such as 'Output', 'Output/vtu' or 'viscosity'.");
-    }
-
-
-    void
-    print_reference()
-    {
-      const auto options = all_of_scenes();
-      std::cout << "# Parameters\n\nGenerated by `undine --reference`. `<name>` stands for a name "
-                   "that the scene chooses;\nan *italic condition* says when a key exists. "
-                   "Vectors are listed with three numbers; plane scenes give\ntwo.\n";
-      write_reference(std::cout, options);
-      std::cout << "\n# Parameters of studies\n\nOf `./undine study STUDY.prm`, see "
-                   "[studies](studies.md).\n";
-      const auto study = Options::for_reference();
-      read_study(study);
-      write_reference(std::cout, study);
-    }
-
-
-    void
-    print_study(const std::string &file)
-    {
-      const auto options = Options::collecting(ParameterFile(file));
-      read_study(options);
-      options.assert_all_used();
-      options.throw_mistakes();
-      write_json(std::cout, options);
-    }
-
-
-    void
-    print_parameters(const Request &request)
-    {
-      ParameterFile file(request.scene_file);
-      for (const auto &assignment : request.assignments)
-        file.set(assignment);
-      const auto options = Options::collecting(file);
-      if (read_dimension(options) == 2)
-        check_sections<2>(options);
-      else
-        check_sections<3>(options);
-      write_json(std::cout, options);
-    }
-
-
-    /// A line for each line "x y z t" of the standard input.
-    void
-    print_values(const std::string &text)
-    {
-      const Expression<3> expression(text);
-      std::string         line;
-      for (unsigned int number = 1; std::getline(std::cin, line); ++number)
-        {
-          std::istringstream numbers(line);
-          if ((numbers >> std::ws).eof()) // an empty line
-            continue;
-          dealii::Point<3> place;
-          double           time = 0;
-          if (!(numbers >> place[0] >> place[1] >> place[2] >> time) || !(numbers >> std::ws).eof())
-            throw InputError(
-              fmt::format("line {} of the standard input, '{}', is not four numbers.\n"
-                          "  Allowed: x y z [m] and t [s], separated by spaces.",
-                          number,
-                          line));
-          std::cout << fmt::format("{:.17g}\n", expression.value(place, time));
-        }
     }
 
 
@@ -611,28 +343,18 @@ namespace undine
     }
 
 
-    /// What needs no scene.
-    void
-    answer(const Request &request)
-    {
-      if (request.action == Request::Action::reference)
-        request.section.empty() ? print_reference() : print_reference_of(request.section);
-      else if (request.action == Request::Action::parameters)
-        print_parameters(request);
-      else if (request.action == Request::Action::study)
-        print_study(request.scene_file);
-      else if (request.action == Request::Action::evaluate)
-        print_values(request.expression);
-    }
-
-
     ParameterFile
     parameter_file(const Request &request)
     {
       const bool    resumed = request.action == Request::Action::resume;
       ParameterFile file(resumed ? request.directory + "/parameters.prm" : request.scene_file);
       for (const auto &assignment : request.assignments)
-        file.set(assignment);
+        if (resumed && assignment.rfind("Output/Directory", 0) == 0)
+          throw InputError(
+            "command line: a run that is resumed does not move by 'Output/Directory'. "
+            "Try: '--output NEW', which goes on in another folder.");
+        else
+          file.set(assignment);
       // The copy of the scene in the folder of the run must find the same files.
       if (file.find("Folder of files") == nullptr)
         file.set("Folder of files=" +

@@ -335,6 +335,16 @@ namespace undine
             .error("Dirichlet boundaries",
                    "the fluid has no boundary named '" + name + "'",
                    "Allowed: " + known);
+      const auto comes_in = [&](const Boundary<dim> &boundary) {
+        return field.is_listed(boundary) &&
+               (boundary.kind == BoundaryKind::inflow || boundary.is_open());
+      };
+      if (!field.dirichlet_boundaries.empty() && field.diffusivity == 0 &&
+          std::none_of(boundaries.begin(), boundaries.end(), comes_in))
+        throw options.section(field.name)
+          .error("Dirichlet boundaries",
+                 "has no effect: without diffusion nothing goes over to the fluid from a wall",
+                 "Try: a 'Diffusivity' above zero, or remove the key.");
     }
 
     TransportForm                                        form;

@@ -173,7 +173,10 @@ namespace undine
     on_first_rank(communicator, [&] {
       if (!std::filesystem::exists(path))
         return;
-      const auto kept = keep(read_file(path), last_step, path);
+      const auto text = read_file(path);
+      if (text.empty())
+        return; // of a run that was stopped before it wrote a row
+      const auto kept = keep(text, last_step, path);
       if (kept.header != header_of(columns))
         throw other_columns(path);
       const bool as_written =

@@ -151,7 +151,9 @@ namespace undine
       skipped.skip(scene, "Solid numerics", "Of particles: 'Particles / Sub-steps'.");
       skipped.skip(scene, "Coupling", "Of particles: 'Particles / Pressure'.");
       skipped.skip_all(
-        time, {"Tolerance", "Least displacement", "Maximum cuts", "Energy monitor"}, sub_steps);
+        time,
+        {"Tolerance", "Least displacement", "Maximum cuts", "Energy monitor", "Fallback"},
+        sub_steps);
       skipped.skip_all(time, {"Spectral radius", "Gamma", "Theta"}, sub_steps);
       skipped.skip_all(time, {"Steady within", "Steady for"}, "The run goes on to 'Time / End'.");
       if (!seeks_equilibrium(scene))

@@ -116,9 +116,12 @@ namespace undine
                   "What is written besides the file 'statistics', which always is.");
       if (options.is_reference())
         parts = registry.names();
-      // First: checkpoints say which of its rows they belong to.
+      // First: checkpoints say which of its rows they belong to. They come last: a run that goes on
+      // from one does not write again what belongs to the same time.
       parts.erase(std::remove(parts.begin(), parts.end(), "statistics"), parts.end());
       parts.insert(parts.begin(), "statistics");
+      std::stable_partition(
+        parts.begin(), parts.end(), [](const std::string &name) { return name != "checkpoint"; });
       for (const auto &name : parts)
         if (registry.contains(name))
           {

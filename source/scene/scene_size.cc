@@ -196,7 +196,7 @@ namespace undine
           if (size.grid.cells > 0)
             {
               auto surface = mesh;
-              surface.faces *= power(numerics.degree, dim - 1);
+              surface.faces *= numerics.degree * power(2, dim - 2); // see facets_of_element()
               add_surface<dim>(size.grid, surface, mean_width);
             }
         }

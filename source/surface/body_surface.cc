@@ -12,24 +12,35 @@ namespace undine
 {
   namespace
   {
-    // By how much of its distance from the mean of the corners a node between them is moved on.
+    // A quadratic element's node between corners: moved on from their mean by how much of its
+    // distance from it.
     constexpr double moved_on = 1. / 3;
 
+    constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
 
-    /// The corners of the cell that lie around a node of its lattice, those of the edge or face in
-    /// which it lies; none for a corner.
+
+    /// The lattice of a quadratic element.
+    template <int dim>
+    IndexBox<dim>
+    lattice()
+    {
+      return {{}, all_directions<dim>(3)};
+    }
+
+
+    /// The corners of the element that lie around a point of the lattice, those of the edge or face
+    /// in which it lies; none for a corner.
     template <int dim>
     std::vector<unsigned int>
-    corners_around(const unsigned int node, const unsigned int degree)
+    corners_around(const unsigned int point)
     {
-      const IndexBox<dim>       lattice{{}, all_directions<dim>(degree + 1)};
       std::vector<unsigned int> result;
       GridIndex<dim>            place;
       IndexBox<dim>             ends{{}, all_directions<dim>(1)}; // 0 and 1 where it is between
-      for (unsigned int d = 0, rest = node; d < dim; ++d, rest /= degree + 1)
+      for (unsigned int d = 0, rest = point; d < dim; ++d, rest /= 3)
         {
-          place[d] = rest % (degree + 1);
-          if (place[d] % int(degree) != 0)
+          place[d] = rest % 3;
+          if (place[d] == 1)
             ends.upper[d] = 2;
         }
       if (ends.size() == 1)
@@ -38,26 +49,32 @@ namespace undine
         auto corner = place;
         for (unsigned int d = 0; d < dim; ++d)
           if (ends.upper[d] == 2)
-            corner[d] = end[d] * degree;
-        result.push_back(lattice.position(corner));
+            corner[d] = 2 * end[d];
+        result.push_back(lattice<dim>().position(corner));
       });
       return result;
     }
 
 
-    /// For each node of a cell's lattice (first direction fastest) its degree of freedom in the
-    /// cell, by axis.
+    /// For each point of the lattice its degree of freedom in the cell, by axis; `none` if it is
+    /// not a node of the element.
     template <int dim>
     std::vector<std::array<unsigned int, dim>>
     dofs_of_lattice(const dealii::FiniteElement<dim> &element)
     {
       const auto lexicographic =
         dealii::FETools::hierarchic_to_lexicographic_numbering<dim>(element.degree);
-      std::vector<std::array<unsigned int, dim>> result(lexicographic.size());
+      std::array<unsigned int, dim> no_dofs;
+      no_dofs.fill(none);
+      std::vector<std::array<unsigned int, dim>> result(lattice<dim>().size(), no_dofs);
       for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
         {
-          const auto component = element.system_to_component_index(i);
-          result[lexicographic[component.second]][component.first] = i;
+          const auto     component = element.system_to_component_index(i);
+          GridIndex<dim> point;
+          for (unsigned int d = 0, rest = lexicographic[component.second]; d < dim;
+               ++d, rest /= element.degree + 1)
+            point[d] = rest % (element.degree + 1) * (2 / element.degree);
+          result[lattice<dim>().position(point)][component.first] = i;
         }
       return result;
     }
@@ -76,8 +93,8 @@ namespace undine
   BodySurface<dim>::collect(const SolidModel<dim> &model)
   {
     const auto &element        = model.dof_handler().get_fe();
-    const auto  lattice        = dofs_of_lattice<dim>(element);
-    const auto  facets_of_face = face_facets<dim>(element.degree);
+    const auto  dofs_of_points = dofs_of_lattice<dim>(element);
+    const auto  facets_of_face = facets_of_element<dim>(element.degree);
 
     std::vector<std::array<Index, dim>>          dofs;
     std::vector<Corners>                         corners;
@@ -86,15 +103,22 @@ namespace undine
     std::vector<unsigned int>                    body_of_facet;
     std::vector<std::string>                     names;
     std::vector<dealii::types::global_dof_index> indices(element.n_dofs_per_cell());
-    const auto node_of = [&](const std::array<unsigned int, dim> &dofs_in_cell) {
-      const auto found = nodes.emplace(indices[dofs_in_cell[0]], dofs.size());
-      if (found.second)
+    std::vector<unsigned int>                    numbers; // of nodes, by point
+    const auto                                   node_at = [&](const unsigned int point) {
+      const auto &dofs_in_cell = dofs_of_points[point];
+      const bool  is_own       = dofs_in_cell[0] != none;
+      if (numbers[point] == none && is_own)
+        numbers[point] = nodes.emplace(indices[dofs_in_cell[0]], dofs.size()).first->second;
+      else if (numbers[point] == none)
+        numbers[point] = dofs.size();
+      if (numbers[point] == dofs.size())
         {
           dofs.emplace_back();
-          for (unsigned int axis = 0; axis < dim; ++axis)
+          dofs.back().fill(dealii::numbers::invalid_dof_index);
+          for (unsigned int axis = 0; is_own && axis < dim; ++axis)
             dofs.back()[axis] = indices[dofs_in_cell[axis]];
         }
-      return found.first->second;
+      return numbers[point];
     };
 
     for (unsigned int body = 0; body < model.bodies().size(); ++body)
@@ -108,21 +132,21 @@ namespace undine
             for (const unsigned int face : cell->face_indices())
               if (cell->at_boundary(face))
                 {
+                  numbers.assign(dofs_of_points.size(), none);
                   for (const auto &facet : facets_of_face[face])
                     {
                       body_of_facet.push_back(body);
                       facets.emplace_back();
                       for (unsigned int k = 0; k < dim; ++k)
-                        facets.back()[k] = node_of(lattice[facet[k]]);
+                        facets.back()[k] = node_at(facet[k]);
                     }
                   corners.resize(dofs.size());
-                  for (const auto &facet : facets_of_face[face])
-                    for (const unsigned int node : facet)
+                  for (unsigned int point = 0; point < numbers.size(); ++point)
+                    if (numbers[point] != none)
                       {
-                        auto &around = corners[node_of(lattice[node])];
-                        around.clear();
-                        for (const unsigned int corner : corners_around<dim>(node, element.degree))
-                          around.push_back(node_of(lattice[corner]));
+                        corners[numbers[point]].clear();
+                        for (const unsigned int corner : corners_around<dim>(point))
+                          corners[numbers[point]].push_back(node_at(corner));
                       }
                 }
           }
@@ -143,29 +167,29 @@ namespace undine
     , communicator(model.communicator())
   {
     for (unsigned int node = 0; node < n_nodes(); ++node)
-      rest_positions.push_back(model.rest_position(dofs[node][0]));
+      {
+        own_weights.push_back(!has_dofs(node) ? 0 : corners[node].empty() ? 1 : 1 + moved_on);
+        rest_positions.push_back(has_dofs(node) ? model.rest_position(dofs[node][0])
+                                                : dealii::Point<dim>());
+      }
+    // At rest all edges are straight (SolidModel::mapping()), so that only means are missing.
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      if (!has_dofs(node))
+        rest_positions[node] = dealii::Point<dim>(mean_of_corners(node, rest_positions));
     share_out(model.locally_owned());
   }
 
 
-  /// At rest all edges are straight (SolidModel::mapping()): there nodes are where they would be
-  /// without being moved on.
   template <int dim>
-  template <class Values>
-  void
-  BodySurface<dim>::move_on(Values &values) const
+  template <class Value>
+  dealii::Tensor<1, dim>
+  BodySurface<dim>::mean_of_corners(const unsigned int node, const std::vector<Value> &values) const
   {
-    for (unsigned int node = 0; node < n_nodes(); ++node)
-      if (!corners[node].empty())
-        {
-          auto mean = values[corners[node].front()];
-          for (std::size_t k = 1; k < corners[node].size(); ++k)
-            mean += values[corners[node][k]];
-          values[node] += moved_on * (values[node] - mean / double(corners[node].size()));
-        }
+    dealii::Tensor<1, dim> sum;
+    for (const unsigned int corner : corners[node])
+      sum += values[corner];
+    return sum / double(corners[node].size());
   }
-
-
   template <int dim>
   void
   BodySurface<dim>::find_shares()
@@ -173,10 +197,12 @@ namespace undine
     all_shares.assign(n_nodes(), {});
     for (unsigned int node = 0; node < n_nodes(); ++node)
       {
-        const auto &around = corners[node];
-        all_shares[node].push_back({dofs[node], around.empty() ? 1 : 1 + moved_on});
-        for (const unsigned int corner : around)
-          all_shares[node].push_back({dofs[corner], -moved_on / around.size()});
+        if (has_dofs(node))
+          all_shares[node].push_back({dofs[node], own_weights[node]});
+        for (const unsigned int corner : corners[node])
+          if (has_dofs(corner))
+            all_shares[node].push_back(
+              {dofs[corner], (1 - own_weights[node]) / corners[node].size()});
       }
   }
 
@@ -191,11 +217,13 @@ namespace undine
     for (unsigned int node = 0; node < n_nodes(); ++node)
       {
         for (auto &dof : dofs[node])
-          dof = part.numbers()[dof];
-        if (!moves(node))
-          rest_positions[node] = places[node];
+          if (dof != dealii::numbers::invalid_dof_index)
+            dof = part.numbers()[dof];
       }
     share_out(part.model().locally_owned());
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      if (!moves(node))
+        rest_positions[node] = places[node];
   }
 
 
@@ -221,7 +249,7 @@ namespace undine
     first.clear();
     std::vector<unsigned int> mine;
     for (unsigned int node = 0; node < n_nodes(); ++node)
-      if (moves(node))
+      if (has_dofs(node))
         for (unsigned int axis = 0; axis < dim; ++axis)
           if (owned.is_element(dofs[node][axis]))
             mine.push_back(node * dim + axis);
@@ -255,7 +283,9 @@ namespace undine
     std::vector<dealii::Tensor<1, dim>> result(n_nodes());
     for (unsigned int k = 0; k < slots.size(); ++k)
       result[slots[k].node][slots[k].axis] = all[k];
-    move_on(result);
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      if (own_weights[node] != 1)
+        result[node] += (own_weights[node] - 1) * (result[node] - mean_of_corners(node, result));
     return result;
   }
 
@@ -272,24 +302,44 @@ namespace undine
   }
 
 
+  /// Each node of the finite elements gets the part `weight(share)` of the nodes that hang on it.
   template <int dim>
+  template <class Weight>
   void
-  BodySurface<dim>::add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const
+  BodySurface<dim>::add_weighted(Vector                                    &vector,
+                                 const std::vector<dealii::Tensor<1, dim>> &values,
+                                 const Weight                              &weight) const
   {
     AssertDimension(values.size(), n_nodes());
     auto shared = values;
     for (unsigned int node = 0; node < n_nodes(); ++node)
-      if (!corners[node].empty())
+      if (own_weights[node] != 1)
         {
-          const auto more = moved_on * values[node];
-          shared[node] += more;
+          shared[node] += (weight(own_weights[node]) - 1) * values[node];
           for (const unsigned int corner : corners[node])
-            shared[corner] -= more / double(corners[node].size());
+            shared[corner] += weight((1 - own_weights[node]) / corners[node].size()) * values[node];
         }
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
     for (int k = first[rank]; k < first[rank] + counts[rank]; ++k)
       vector(dofs[slots[k].node][slots[k].axis]) += shared[slots[k].node][slots[k].axis];
     vector.compress(dealii::VectorOperation::add);
+  }
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const
+  {
+    add_weighted(vector, values, [](const double share) { return share; });
+  }
+
+
+  template <int dim>
+  void
+  BodySurface<dim>::add_diagonal(Vector                                    &vector,
+                                 const std::vector<dealii::Tensor<1, dim>> &values) const
+  {
+    add_weighted(vector, values, [](const double share) { return share * share; });
   }
 
 

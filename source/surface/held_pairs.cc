@@ -28,10 +28,13 @@ namespace undine
     std::vector<unsigned int> result;
     for (unsigned int node = 0; node < bodies.n_nodes(); ++node)
       {
-        const auto &dofs = bodies.dofs_of_node(node);
-        if (std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) {
-              return solid.all_fixed().is_element(dof);
-            }))
+        const auto is_fixed = [&](const auto &share) {
+          return std::any_of(share.dofs.begin(), share.dofs.end(), [&](const auto dof) {
+            return solid.all_fixed().is_element(dof);
+          });
+        };
+        const auto &shares = bodies.shares(node);
+        if (bodies.moves(node) && std::all_of(shares.begin(), shares.end(), is_fixed))
           result.push_back(node);
       }
     return result;

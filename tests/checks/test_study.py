@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The arithmetic of studies by laws that it must obey: exact limits, orders and interpolation, honest uncertainty."""
+import contextlib
 import dataclasses
+import io
 import json
 import math
 import os
@@ -257,12 +259,12 @@ class Cases(unittest.TestCase):
             def write(name, text):
                 with open(os.path.join(folder, name), "w") as file:
                     file.write(text)
-            write("part.inc", "subsection B # set\n  set Theta = 1\nend\nset Theta = 2 # kept\n")
+            write("part.inc", "subsection B # set\n  set Theta = 1\nend\nset Theta = 2 # set anew below\nset End = 2 # kept\n")
             write("scene.prm", "set Gamma = 3\nsubsection Time\n  set Gamma = 1 + \\\n  2\n  set Theta= 4\n"
                                "  include part.inc\nend")
             self.assertEqual(scene_files.without(os.path.join(folder, "scene.prm"), {"Time/Gamma", "Time/B/Theta"}),
                              "set Gamma = 3\nsubsection Time\n  set Theta= 4\nsubsection B # set\nend\n"
-                             "set Theta = 2 # kept\nend\n")
+                             "set End = 2 # kept\nend\n")
 
     def test_phases_of_a_run(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -466,6 +468,16 @@ class Maps(unittest.TestCase):
         self.assertLess(FakeCampaign.made[1][1], FakeCampaign.made[0][1])
 
 
+    def test_what_fails_for_other_reasons_says_nothing_of_stability(self):
+        def verdict(code, **more):
+            return stability.verdict({"failure": "something", "stopped": False, "exit code": code, **more})
+
+        self.assertEqual(verdict(3), "failed")
+        self.assertEqual(verdict(2, reached=0.5), "failed")  # such as a body that comes to a wall
+        for code in (2, 4, 6, -11):
+            self.assertEqual(verdict(code), "")
+
+
 class Accuracy(unittest.TestCase):
     knobs = (Knob("step", {"Time/Step": [0.01]}, 2.0, 1.0, False), Knob("cells", {"Domain/Cells": [4000, 2000]}, 2.0, 2.0, True))
 
@@ -564,6 +576,18 @@ class Accuracy(unittest.TestCase):
         for factor in knob.choices(0.3, 4):
             long, short = (int(each) for each in knob.settings(factor)["Bodies/a/Cells"].split(","))
             self.assertLess(abs(math.log(long / short / 8)), 0.2)
+
+    def test_grids_and_elements_that_cannot_be_refined_are_named(self):
+        found = {"Dimension": "2", "Scheme": "simultaneous", "Time/Step": "0.1", "Domain/Cells": "8, 8",
+                 "Bodies/a/Cells": "2, 2", "Bodies/b/Shape": "cylinder", "Bodies/b/Cells": "3"}
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            knobs = knobs_of(found)
+        self.assertEqual(knobs[-1].values, {"Bodies/a/Cells": [2, 2]})
+        self.assertIn("elements of b", said.getvalue())
+        with self.assertRaises(SystemExit) as refused:
+            knobs_of({**found, "Domain/Planes y": "planes.txt"})
+        self.assertIn("Planes y", str(refused.exception))
 
     def test_spacings_of_particles_divide_the_domain(self):
         self.assertAlmostEqual(common_length([1, 0.8]), 0.2)

@@ -69,6 +69,14 @@ namespace undine
                             "Name boundaries of the fluid in 'Dirichlet boundaries'.");
     }
 
+    /// Is it one of those on which the scene prescribes the value?
+    bool
+    is_listed(const Boundary<dim> &boundary) const
+    {
+      return std::find(dirichlet_boundaries.begin(), dirichlet_boundaries.end(), boundary.name) !=
+             dirichlet_boundaries.end();
+    }
+
     bool
     is_dirichlet(const Boundary<dim> &boundary) const override
     {
@@ -159,13 +167,6 @@ namespace undine
     }
 
     mutable std::optional<Sources> known_sources; ///< a cache
-
-    bool
-    is_listed(const Boundary<dim> &boundary) const
-    {
-      return std::find(dirichlet_boundaries.begin(), dirichlet_boundaries.end(), boundary.name) !=
-             dirichlet_boundaries.end();
-    }
   };
 } // namespace undine
 

@@ -11,7 +11,7 @@
 namespace undine
 {
   /// The boundaries of all deformable bodies: their facets are the faces of the cells (see
-  /// face_facets()), with a node for each node of the finite elements on the boundary.
+  /// facets_of_element()), with a node for each node of the finite elements on the boundary.
   ///
   /// Corners of cells are nodes as they are. Of quadratic elements the nodes between corners, in
   /// edges and faces, are moved on from the mean of these corners by a third of their distance from
@@ -19,8 +19,9 @@ namespace undine
   /// the curved sides do, and a uniform pressure on them would load the corners of a side too much
   /// and its middle too little, which bends the element. With the nodes moved on, a uniform
   /// pressure on a plane side has the nodal forces of the finite elements, and in 2D every side
-  /// encloses exactly what the parabola does. A node is therefore a linear combination of nodes of
-  /// the finite elements (Share), by which forces in it come to these.
+  /// encloses exactly what the parabola does. Faces of linear elements in 3D have a node in their
+  /// middle, the mean of the corners, to the same end. A node is therefore a linear combination of
+  /// nodes of the finite elements (Share), by which forces in it come to these.
   ///
   /// Replicated: every rank knows all facets, and positions and velocities of all nodes. Numbers do
   /// not depend on the number of ranks: bodies in their order, nodes as a loop over the cells meets
@@ -69,19 +70,19 @@ namespace undine
     bool
     moves(const unsigned int node) const
     {
-      return dofs[node][0] != dealii::numbers::invalid_dof_index;
+      return !all_shares[node].empty();
     }
 
-    /// The degrees of freedom of a node's own node of the finite elements, one for each axis; only
-    /// of nodes that move.
-    const std::array<Index, dim> &
-    dofs_of_node(const unsigned int node) const
+    /// Is the node where a node of the finite elements is, or moved on from there? The others are
+    /// means of corners.
+    bool
+    has_own(const unsigned int node) const
     {
-      return dofs[node];
+      return own_weights[node] != 0;
     }
 
-    /// The shares of a node that moves, of sum 1: first its own node of the finite elements, then
-    /// the corners that lie around it.
+    /// The shares of a node, of sum 1: first its own node of the finite elements, if there is one,
+    /// then the corners that lie around it. Empty if it does not move.
     const std::vector<Share> &
     shares(const unsigned int node) const
     {
@@ -101,6 +102,11 @@ namespace undine
     /// locally owned degrees of freedom. Collective.
     void
     add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const;
+
+    /// Add the diagonal of a matrix over the nodes [any unit], the same on all ranks, as that of
+    /// the matrix over the degrees of freedom on which the nodes hang. Collective.
+    void
+    add_diagonal(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const;
 
     /// Add to the rows of this rank by how much the force in `node` changes [N/m] as `moved` moves
     /// along `axis`. Both nodes move; the entries must be in the pattern. Not collective.
@@ -125,6 +131,13 @@ namespace undine
                          std::vector<Corners>                corners,
                          const Surface<dim>                 &facets);
 
+    /// Is the node one of the finite elements that has degrees of freedom?
+    bool
+    has_dofs(const unsigned int node) const
+    {
+      return dofs[node][0] != dealii::numbers::invalid_dof_index;
+    }
+
     static BodySurface
     collect(const SolidModel<dim> &model);
 
@@ -132,12 +145,18 @@ namespace undine
     find_shares();
     void
     share_out(const dealii::IndexSet &owned);
-    template <class Values>
+    template <class Weight>
     void
-    move_on(Values &values) const;
+    add_weighted(Vector                                    &vector,
+                 const std::vector<dealii::Tensor<1, dim>> &values,
+                 const Weight                              &weight) const;
+    template <class Value>
+    dealii::Tensor<1, dim>
+    mean_of_corners(unsigned int node, const std::vector<Value> &values) const;
 
     std::vector<std::array<Index, dim>> dofs;    ///< of each node's own
     std::vector<Corners>                corners; ///< around each node
+    std::vector<double>                 own_weights;
     std::vector<std::vector<Share>>     all_shares;
     Surface<dim>                        all_facets;
     std::vector<dealii::Point<dim>>     rest_positions; ///< of nodes that do not move: their place

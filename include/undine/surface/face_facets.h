@@ -16,6 +16,14 @@ namespace undine
   template <int dim>
   std::array<std::vector<std::array<unsigned int, dim>>, 2 * dim>
   face_facets(const unsigned int degree);
+
+  /// The facets that stand for the faces of a finite element of degree 1 or 2, of nodes of the
+  /// lattice of a quadratic one, 3^dim: for degree 2 those of face_facets(); for degree 1 its faces
+  /// in 2D, and in 3D four triangles around the middle of each, so that the load of a uniform
+  /// pressure does not depend on a diagonal.
+  template <int dim>
+  std::array<std::vector<std::array<unsigned int, dim>>, 2 * dim>
+  facets_of_element(const unsigned int degree);
 } // namespace undine
 
 #endif

@@ -108,8 +108,11 @@ namespace undine
   void
   LinearisedBodies<dim>::prepare(const Vectors &damping)
   {
-    const auto diagonal = on_bodies(damping);
-    Matrix     damped;
+    auto diagonal = models.solid->vector();
+    models.surface->bodies()->add_diagonal(
+      diagonal, {damping.begin(), damping.begin() + models.surface->n_body_nodes()});
+    clear_fixed(diagonal, *models.solid);
+    Matrix damped;
     damped.copy_from(tangent);
     for (const auto dof : diagonal.locally_owned_elements())
       damped.add(dof, dof, diagonal(dof));

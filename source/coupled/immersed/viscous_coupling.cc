@@ -57,15 +57,6 @@ namespace undine
 
   template <int dim>
   void
-  ViscousCoupling<dim>::forget_loads(State<dim> &state) const
-  {
-    if (moves_bodies())
-      state.solid.fluid_loads = models.solid->vector();
-  }
-
-
-  template <int dim>
-  void
   ViscousCoupling<dim>::keep_loads(State<dim>                   &state,
                                    const FluidGeometry<dim>     &geometry,
                                    const dealii::Tensor<1, dim> &gravity,

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,6 +72,28 @@ namespace undine
                          100 * now.elapsed / now.frame,
                          now.dt,
                          words[which]);
+    }
+
+
+    /// Where places of single precision are so coarse that strains of bodies suffer; empty if
+    /// nowhere.
+    template <int dim>
+    std::string
+    note_of_rounding(const particles::ParticleState<dim> &state, const double spacing)
+    {
+      constexpr double much     = 3e-4; // of the spacing: the error of a strain
+      double           farthest = 0;
+      for (const auto &position : state.positions)
+        for (unsigned int d = 0; d < dim; ++d)
+          farthest = std::max(farthest, std::abs(position[d]));
+      const double rounding = std::numeric_limits<float>::epsilon() * farthest / spacing;
+      if (rounding <= much)
+        return "";
+      return fmt::format("\nnote: particles are up to {:.3g} m from the origin, where single "
+                         "precision knows their places to {:.1g} of the spacing. Try: the origin "
+                         "in the middle of the domain, or 'Precision = double'",
+                         farthest,
+                         rounding);
     }
   } // namespace
 
@@ -149,6 +173,8 @@ namespace undine
     report.note = engine->describe();
     for (const auto &remark : model->notes())
       report.note += "\nnote: " + remark;
+    if (!is_static && model->numerics().precision == particles::Precision::single_precision)
+      report.note += note_of_rounding(state.particles, model->domain().spacing);
     if (scalars->longest_frame() < frame)
       report.note +=
         fmt::format("\nnote: frames are {:.3g} s long at most, instead of 'Time / Step': "

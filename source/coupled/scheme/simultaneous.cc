@@ -4,6 +4,7 @@
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/solid_side.h>
 #include <undine/coupled/step/surface_placement.h>
+#include <undine/coupled/step/work_on_fluid.h>
 
 namespace undine
 {
@@ -28,8 +29,7 @@ namespace undine
   /// and light bodies that shake from stage to stage would gain energy by that.
   ///
   /// Friction and the level of pressure that follows bodies (FollowerPressure) know the pressures
-  /// of the stage before, and those of its first solution where the stage is solved again; in the
-  /// first stage of a run nothing is known of them. Where
+  /// of the stage before, and those of its first solution where the stage is solved again. Where
   /// bodies leave a stage so much faster or slower than these made friction expect that it would
   /// differ, the stage is solved again with the pressures found.
   template <int dim>
@@ -69,28 +69,30 @@ namespace undine
     solve_stage(State<dim> &state, const Stage &stage, Report &report) override
     {
       if (stage.is_first)
-        report.stages_again = 0;
+        {
+          report.stages_again = 0;
+          most_iterations     = 0;
+        }
       SolidVector found; // velocities of bodies in the last solution
-      bool        knows_pressure = state.clock.step > 0 || !stage.is_first;
       if (!stage.keeps_rates() && !models.has_friction())
         {
-          solve_once(state, stage, report, knows_pressure, found);
+          solve_once(state, stage, report, found);
           return;
         }
       State<dim>            begin         = state;
       const Report          report_before = report;
       const Budget<dim>     budget_before = budget;
       SurfacePlacement<dim> placement(models);
-      bool                  has_own_pressure = false; ///< that of a solution of this stage
-      bool                  is_corrected     = false; ///< friction
-      const auto            go_back          = [&] {
+      bool                  knows_pressure = false; ///< that of a solution of this stage
+      bool                  is_corrected   = false; ///< friction
+      const auto            go_back        = [&] {
         state = begin;
         budget.go_back_to(budget_before);
         go_back_to(report_before, report);
       };
       while (true)
         {
-          if (!is_solved(state, stage, report, placement, knows_pressure, found))
+          if (!is_solved(state, stage, report, placement, found))
             {
               fluid_side.expect(placement.retreat());
               go_back();
@@ -109,11 +111,11 @@ namespace undine
           fluid_side.expect(is_placed ? cut_at : placement.next(cut_at, places));
           // All later solutions start from the same pressures: with others each time, where bodies
           // come to would depend on more than where the grid is cut, and no place be found.
-          if (is_placed || !has_own_pressure)
+          if (is_placed || !knows_pressure)
             {
-              knows_pressure = has_own_pressure = true;
-              begin.fluid.pressure              = state.fluid.pressure;
-              begin.solid.fluid_loads           = state.solid.fluid_loads;
+              knows_pressure          = true;
+              begin.fluid.pressure    = state.fluid.pressure;
+              begin.solid.fluid_loads = state.solid.fluid_loads;
             }
           if (is_placed)
             {
@@ -138,12 +140,11 @@ namespace undine
               const Stage                 &stage,
               Report                      &report,
               const SurfacePlacement<dim> &placement,
-              const bool                   knows_pressure,
               SolidVector                 &found)
     {
       try
         {
-          solve_once(state, stage, report, knows_pressure, found);
+          solve_once(state, stage, report, found);
           return true;
         }
       catch (const SolveError &)
@@ -167,13 +168,9 @@ namespace undine
     }
 
     /// Begins with the velocities of bodies `found` before, unless these are empty, and leaves its
-    /// own there. `knows_pressure`: is the fluid's one that has been solved for?
+    /// own there.
     void
-    solve_once(State<dim>  &state,
-               const Stage &stage,
-               Report      &report,
-               const bool   knows_pressure,
-               SolidVector &found)
+    solve_once(State<dim> &state, const Stage &stage, Report &report, SolidVector &found)
     {
       budget.begin_stage(stage);
       solid_side.start(state, stage);
@@ -188,9 +185,9 @@ namespace undine
                                  timing},
                                 *fluid,
                                 state,
-                                settings.boundary_flux,
-                                knows_pressure);
+                                settings.boundary_flux);
       const auto        solid = coupled.solve(found);
+      most_iterations         = std::max(most_iterations, solver.most_iterations());
       found                   = coupled.velocity_of_bodies();
       solid_side.end(state, stage);
       fluid->by_contact        = coupled.velocity_by_contact();
@@ -212,7 +209,8 @@ namespace undine
              const CoupledStage<dim> &step) const
     {
       const auto measured = timing.section("measure");
-      fluid_side.add_work(account, state, time, step.pressure_balance(), step.pressure());
+      WorkOnFluid<dim>(models, fluid_side.geometry())
+        .add(account, state, time, step.pressure_balance(), step.pressure());
     }
 
     void
@@ -230,7 +228,7 @@ namespace undine
     add_solver_columns(Report &report) const
     {
       append(report.columns,
-             {{"Most iterations of a solve", "1", double(solver.most_iterations())},
+             {{"Most iterations of a solve", "1", double(most_iterations)},
               {"Stages solved again", "1", double(report.stages_again)}});
     }
 
@@ -243,6 +241,7 @@ namespace undine
     BlockSolver<dim>        solver;
     TangentSolver<dim>      motion_solver;
     BlockSolver<dim>        impulse_solver;
+    unsigned int            most_iterations = 0; ///< of one linear solve, in the step
   };
 
 

@@ -3,6 +3,7 @@
 #include <undine/coupled/scheme/stepping_scheme.h>
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/solid_side.h>
+#include <undine/coupled/step/work_on_fluid.h>
 
 #include <optional>
 
@@ -90,11 +91,12 @@ namespace undine
       if (is_judged) // by the pressure that has acted: friction corrects it in the end
         {
           const auto phase = timing.section("measure");
-          fluid_side.add_work(*report.account,
-                              state,
-                              fluid->end,
-                              projected.balance(*models.fluid, state.fluid),
-                              *pressure);
+          WorkOnFluid<dim>(models, fluid_side.geometry())
+            .add(*report.account,
+                 state,
+                 fluid->end,
+                 projected.balance(*models.fluid, state.fluid),
+                 *pressure);
         }
       solid_side.finish(state, stage, solid, report);
     }

@@ -43,8 +43,7 @@ namespace undine
   CoupledStage<dim>::CoupledStage(const Parts           &parts,
                                   const FluidStage<dim> &fluid,
                                   State<dim>            &state,
-                                  const std::string     &boundary_flux,
-                                  const bool             knows_pressure)
+                                  const std::string     &boundary_flux)
     : parts(parts)
     , fluid(fluid)
     , state(state)
@@ -71,7 +70,7 @@ namespace undine
                 equations,
                 BodiesInStage<dim>(parts.models, state, fluid.stage, fluid.end - fluid.stage.end)),
               equations.guess()))
-    , follower(make_follower(knows_pressure))
+    , follower(make_follower())
     , pressures(*parts.models.fluid, numbers, filled_rows(surface->matrix()), fluid.dt)
     , problem(*parts.models.solid,
               equations,
@@ -93,14 +92,13 @@ namespace undine
   }
 
 
-  /// By the pressure that is known before. A reduced pressure of which nothing is known is not
-  /// zero: with gravity that would be a level that depends on where the origin lies. In steps of
-  /// one stage bodies end elsewhere than where the grid was cut on purpose.
+  /// By the pressure that is known before. In steps of one stage bodies end elsewhere than where
+  /// the grid was cut on purpose.
   template <int dim>
   FollowerPressure<dim>
-  CoupledStage<dim>::make_follower(const bool knows_pressure) const
+  CoupledStage<dim>::make_follower() const
   {
-    if (!knows_pressure || !fluid.stage.keeps_rates())
+    if (!fluid.stage.keeps_rates())
       return FollowerPressure<dim>(*parts.models.surface);
     auto forces = surface->nodal_forces(state.fluid.pressure);
     for (std::size_t node = 0; node < forces.size(); ++node)

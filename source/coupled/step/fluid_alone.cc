@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/step/fluid_alone.h>
+#include <undine/coupled/step/work_on_fluid.h>
 
 #include <optional>
 
@@ -8,6 +9,7 @@ namespace undine
   template <int dim>
   FluidAlone<dim>::FluidAlone(const Models<dim> &models, Budget<dim> &budget, TimingTree &timing)
     : Physics<dim>(models.communicator())
+    , models(models)
     , model(*models.fluid)
     , budget(budget)
     , timing(timing)
@@ -61,7 +63,8 @@ namespace undine
     if (!is_judged)
       return;
     const auto phase = timing.section("measure");
-    fluid_side.add_work(*report.account, state, fluid->end, *balanced, *pressure);
+    WorkOnFluid<dim>(models, fluid_side.geometry())
+      .add(*report.account, state, fluid->end, *balanced, *pressure);
   }
 
 

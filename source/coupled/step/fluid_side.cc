@@ -3,6 +3,8 @@
 #include <undine/coupled/step/fluid_side.h>
 #include <undine/coupled/step/outside_domain.h>
 #include <undine/coupled/step/physics.h>
+#include <undine/coupled/step/work_on_fluid.h>
+#include <undine/fluid/grid/field_algebra.h>
 #include <undine/fluid/model/fluid_quantities.h>
 #include <undine/operators/body_forces.h>
 #include <undine/operators/outside_forces.h>
@@ -10,23 +12,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace undine
 {
   namespace
   {
-    /// Does the fluid carry its own momentum, and kinetic energy, along?
-    template <int dim>
-    bool
-    is_carried(const Models<dim> &models)
-    {
-      return std::any_of(models.effects.begin(), models.effects.end(), [](const auto &effect) {
-        return effect->name == "convection";
-      });
-    }
-
-
     /// a + factor b, where an empty b is zero.
     template <int dim>
     std::vector<dealii::Tensor<1, dim>>
@@ -201,15 +193,40 @@ namespace undine
     const auto projected = projection.make_divergence_free(
       state.fluid, time, cut ? cut->initial_swept_volume_flux(dt) : SweptVolumeFlux());
     report.linear_iterations += projected.iterations;
+    const double at_rest = pressure_at_rest(state.fluid, time);
+    for_each_value(state.fluid.pressure,
+                   [&](double &value, const auto &, const auto &) { value = at_rest; });
+    set_means(state.fluid.pressure, model.grid());
     if (cut)
       {
         report.warn(cut->cut_report().subject, cut->cut_report().message);
         state.surface_positions = models.surface->positions(state.solid, time);
         report.warn("outside", note_of_what_is_outside(models, state.surface_positions));
+        viscous_coupling.keep_loads(state, *cut, environment.gravity, time);
       }
-    viscous_coupling.forget_loads(state);
     add_columns(report, state, projected.divergence, time);
     count_memory(state.fluid);
+  }
+
+
+  /// What is known of the reduced pressure before one has been solved for: that of a fluid at rest
+  /// under the lowest pressure of the openings; where there are none, and a pressure loads
+  /// bodies, one with the pressure zero in the middle of the domain. Zero would be a level that
+  /// depends on where the origin lies, and which bodies feel.
+  template <int dim>
+  double
+  FluidSide<dim>::pressure_at_rest(const FluidState<dim> &fluid, const double time) const
+  {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const auto &opening : open_faces(model, fluid.velocity, bodies().topology.get(), time))
+      lowest = std::min(lowest, opening.outside);
+    lowest = dealii::Utilities::MPI::min(lowest, models.communicator());
+    if (std::isfinite(lowest))
+      return lowest;
+    if (!models.solid)
+      return 0;
+    const auto middle = (model.grid().lower() + model.grid().upper()) / 2;
+    return -model.density() * (environment.gravity * middle);
   }
 
 
@@ -294,168 +311,11 @@ namespace undine
         // In flux form diffusion also takes what leaves through openings, which finish() counts.
         const double left =
           fluid->carrying ? fluid->dt * kinetic_energy_outflow(model, velocity) : 0.;
-        account->add_power(power_of_walls(*fluid, kinetic_energy(model, velocity) - forced + left));
+        account->add_power(
+          WorkOnFluid<dim>(models, cut.get())
+            .power_of_walls(*fluid, kinetic_energy(model, velocity) - forced + left));
       }
     return fluid;
-  }
-
-
-  /// Of walls and obstacles that move, by their friction. What obstacles give follows from the
-  /// forces on them. Where walls of the domain move, too, it is taken from `gain`, what diffusion
-  /// has added to the fluid's kinetic energy [J], less what bodies have given of it and lost; what
-  /// has been dissipated does not count. What walls at rest seem to give does not, either, since
-  /// bodies and pressures have yet to act on that velocity.
-  template <int dim>
-  double
-  FluidSide<dim>::power_of_walls(const FluidStage<dim> &fluid, const double gain) const
-  {
-    const auto &boundaries = model.boundaries().all();
-    const bool  walls_move =
-      std::any_of(boundaries.begin(), boundaries.end(), [](const auto &boundary) {
-        return boundary.kind == BoundaryKind::moving_wall;
-      });
-    const auto of_nodes = [&](const std::size_t begin, const std::size_t end) {
-      double power = 0;
-      if (fluid.friction && cut)
-        for (std::size_t node = begin; node < end; ++node)
-          power -= fluid.friction->on_nodes[node] * fluid.wall_velocities[node];
-      return power;
-    };
-    const std::size_t n_bodies = models.surface ? models.surface->n_body_nodes() : 0;
-    if (walls_move)
-      return std::max(0., gain / fluid.dt - of_nodes(0, n_bodies));
-    return fluid.friction && cut ? of_nodes(n_bodies, fluid.friction->on_nodes.size()) : 0;
-  }
-
-
-  template <int dim>
-  void
-  FluidSide<dim>::add_work(EnergyAccount              &account,
-                           const State<dim>           &state,
-                           const double                time,
-                           const PressureBalance<dim> &pressures,
-                           const Field<dim>           &pressure) const
-  {
-    const bool   has_bodies = cut && models.solid && models.surface->n_body_nodes() > 0;
-    const double level  = has_bodies && cut->has_void_regions() ? 0 : pressures.mean_at_openings;
-    double       inflow = pressures.inflow_of_sides + pressures.inflow_of_openings;
-    account.add_power(pressures.power_of_sides - level * pressures.inflow_of_sides);
-    account.add_power(pressures.power_of_openings - level * pressures.inflow_of_openings);
-    if (cut)
-      {
-        const auto        velocities = cut->surface_velocities();
-        const std::size_t n_bodies   = models.surface->n_body_nodes();
-        const auto        are_still  = [](const auto &velocity) { return velocity.norm() == 0; };
-        if (!std::all_of(velocities.begin() + n_bodies, velocities.end(), are_still))
-          {
-            const auto forces   = cut->pressure_forces(pressure);
-            const auto of_level = cut->uniform_pressure_forces(1);
-            double     power = 0, pushed = 0;
-            for (std::size_t node = n_bodies; node < velocities.size(); ++node)
-              {
-                power -= forces[node] * velocities[node];
-                pushed -= of_level[node] * velocities[node];
-              }
-            account.add_power(power - level * pushed);
-            inflow += pushed;
-          }
-        if (!is_carried(models))
-          account.add_doubtful_power(kinetic_energy_of_way_made(state));
-      }
-    // What flows in of a fluid of constant volume goes out, or is the way that bodies make for it.
-    const double on_bodies = has_bodies ? add_work_on_bodies(account, state, time, level) : 0;
-    account.add_power(level * inflow - on_bodies);
-  }
-
-
-  /// Where convection does not carry the fluid along, what makes way for it gives it kinetic
-  /// energy, and what moves into it takes it away, although nothing does work:
-  ///
-  ///     int_Gamma rho |v|^2 / 2 u.n dGamma    [W],    (B5)
-  ///
-  /// n out of the fluid, with the velocities u of all surfaces. In gaps that close it is far larger
-  /// at the end of a step than in the mean.
-  template <int dim>
-  double
-  FluidSide<dim>::kinetic_energy_of_way_made(const State<dim> &state) const
-  {
-    auto velocities = cut->surface_velocities();
-    if (models.solid)
-      velocities = models.surface->with_bodies(state.solid.velocity, std::move(velocities));
-    if (std::all_of(velocities.begin(), velocities.end(), [](const auto &velocity) {
-          return velocity.norm() == 0;
-        }))
-      return 0;
-    const auto forces = cut->pressure_forces(kinetic_energy_densities(model, state.fluid.velocity));
-    double     power  = 0;
-    for (std::size_t node = 0; node < velocities.size(); ++node)
-      power += forces[node] * velocities[node];
-    return power;
-  }
-
-
-  /// The pressure of the fluid at rest at the height of the openings: a uniform one, which does no
-  /// work on the fluid. Its work and that of weight follow from where bodies have come to; returns
-  /// the power that it has at the end of the step. Where bodies bound void regions, the power of
-  /// the forces at the end of the step stands for it, and zero is returned.
-  template <int dim>
-  double
-  FluidSide<dim>::add_work_on_bodies(EnergyAccount    &account,
-                                     const State<dim> &state,
-                                     const double      time,
-                                     const double      level) const
-  {
-    const auto &surface = *models.surface;
-    // Bodies that sleep have nodes, too, which do not move.
-    const auto velocities = surface.with_bodies(
-      state.solid.velocity, typename FluidGeometry<dim>::Velocities(surface.surface().n_nodes()));
-    const auto power = [&](const auto &forces) {
-      double sum = 0;
-      for (unsigned int node = 0; node < surface.n_body_nodes(); ++node)
-        sum += forces[node] * velocities[node];
-      return sum;
-    };
-    if (cut->has_void_regions())
-      {
-        account.add_power(power(cut->other_forces(environment.gravity, time)));
-        return 0;
-      }
-    const StaticPressure<dim> pressure{level, model.density() * environment.gravity};
-    const auto                against = [&](const SolidState &bodies, const double at) {
-      return work_against(pressure,
-                          model.grid(),
-                          surface.surface(),
-                          surface.positions(bodies, at),
-                          surface.n_body_nodes());
-    };
-    const double work    = against(state.step_begin, state.clock.time) - against(state.solid, time);
-    const auto   outside = works_outside(state, time);
-    account.add_work(work + (outside[0] + outside[1]) / 2, work + outside[1]);
-    return power(cut->uniform_pressure_forces(level));
-  }
-
-
-  /// The work of what acts on bodies outside of openings, with its pressures at the begin and at
-  /// the end of the step [J].
-  template <int dim>
-  std::array<double, 2>
-  FluidSide<dim>::works_outside(const State<dim> &state, const double time) const
-  {
-    const auto &surface = *models.surface;
-    const auto  before  = surface.positions(state.step_begin, state.clock.time);
-    const auto  now     = surface.positions(state.solid, time);
-    const auto  work    = [&](const double at) {
-      const auto against = [&](const auto &positions) {
-        return work_outside(model.boundaries(),
-                            surface.surface(),
-                            positions,
-                            surface.n_body_nodes(),
-                            model.density() * environment.gravity,
-                            at);
-      };
-      return against(before) - against(now);
-    };
-    return {{work(state.clock.time), work(time)}};
   }
 
 

@@ -17,7 +17,9 @@ namespace undine
                                   account.excused,
                                   account.uncertain,
                                   account.known ? 1. : 0.,
-                                  account.balance},
+                                  account.balance,
+                                  account.level ? 1. : 0.,
+                                  account.level.value_or(0.)},
                                  communicator);
   }
 
@@ -35,7 +37,9 @@ namespace undine
     account.excused   = numbers[5];
     account.uncertain = numbers[6];
     account.known     = numbers[7] != 0;
-    account.balance   = numbers.size() > 8 ? numbers[8] : account.created; // which older ones lack
+    account.balance   = numbers[8];
+    if (numbers[9] != 0)
+      account.level = numbers[10];
     return account;
   }
 } // namespace undine

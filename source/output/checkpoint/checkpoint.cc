@@ -22,8 +22,9 @@ namespace undine
   {
     namespace fs = std::filesystem;
 
-    // Version 1 has no geometry and no digest of statistics.
-    constexpr std::uint64_t format_version = 5;
+    // Version 1 has no geometry and no digest of statistics; before version 6 the nodes of bodies'
+    // surfaces were those of the finite elements.
+    constexpr std::uint64_t format_version = 6;
 
 
     std::array<fs::path, 2>
@@ -202,6 +203,20 @@ namespace undine
     }
 
 
+    /// Take out the rates that the slot does not have, of scalars that only the flow has changed so
+    /// far: there are none yet.
+    template <int dim>
+    std::map<std::string, Field<dim>>
+    take_out(std::map<std::string, Field<dim>> &rates, const HDF5Reader &file)
+    {
+      std::map<std::string, Field<dim>> result;
+      for (auto rate = rates.begin(); rate != rates.end();)
+        if (const auto now = rate++; !file.contains(scalar_rates_array + now->first))
+          result.insert(rates.extract(now));
+      return result;
+    }
+
+
     /// `state` with the values, the time and the step of a slot.
     template <int dim>
     State<dim>
@@ -216,6 +231,11 @@ namespace undine
       read_clock(state.clock, file, version);
       if (version >= 2)
         assert_same_geometry(models, state.clock.time, file, slot);
+      if (version < 6 && models.surface && models.solid)
+        throw FileError("'" + slot.string() +
+                        "' was written by an earlier version of the program, in which the "
+                        "surfaces of bodies in a fluid had other nodes. Try: go on with that "
+                        "version, or start the run anew");
 
       const auto lasting = count_lasting_particles(state.particles); // of the scene
       if (models.particles)
@@ -237,16 +257,20 @@ namespace undine
       if (!file.contains(budget_array) || file.size(budget_array)[0] != n_rates)
         state.budget_rates = {}; // of a run without a budget, or with other effects
       const bool is_monitored = state.account.has_value();
-      if (!file.contains(account_array))
+      if (!file.contains(account_array) ||
+          (is_monitored && file.size(account_array)[0] !=
+                             pack_account(*state.account, communicator).selection.size[0]))
         state.account.reset();
       const auto no_impulses = state.impulses;
       if (no_impulses && (!file.contains(impulses_array) ||
                           file.size(impulses_array)[0] !=
                             pack_impulses(*no_impulses, communicator).selection.size[0]))
         state.impulses.reset(); // of a run without them, or with other bodies
-      auto arrays = pack(models, state);
+      auto rates_at_rest = take_out(state.fluid.scalar_rates, file);
+      auto arrays        = pack(models, state);
       read_arrays(arrays, file, slot, communicator);
       unpack(state, models, arrays);
+      state.fluid.scalar_rates.merge(rates_at_rest);
       if (is_monitored && !state.account)
         // Of a run without a monitor: nothing is known yet.
         state.account.emplace().energy = std::numeric_limits<double>::quiet_NaN();
@@ -317,7 +341,12 @@ namespace undine
     assert_finite(arrays, communicator);
     for (auto &array : geometry_arrays(models, state.clock.time))
       arrays.push_back(std::move(array));
-    on_first_rank(communicator, [&] { make_folder(directory / "checkpoint"); });
+    on_first_rank(communicator, [&] {
+      make_folder(directory / "checkpoint");
+      // The checkpoint knows its rows: a machine that stops must not keep one without them.
+      if (const auto statistics = directory / "statistics"; fs::exists(statistics))
+        reach_disk(statistics);
+    });
 
     std::vector<std::string> problems;
     const auto               whole = candidates(problems, directory, communicator);

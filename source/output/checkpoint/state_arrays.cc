@@ -208,7 +208,7 @@ namespace undine
       for (auto &scalar : fluid.scalars)
         action("fluid/scalars/" + scalar.first, scalar.second);
       for (auto &rate : fluid.scalar_rates)
-        action("fluid/scalar_rates/" + rate.first, rate.second);
+        action(scalar_rates_array + rate.first, rate.second);
     }
 
 

@@ -129,6 +129,13 @@ namespace undine
 
 
   void
+  reach_disk(const fs::path &path)
+  {
+    Descriptor(path, O_RDONLY).reach_disk();
+  }
+
+
+  void
   put_in_place(const fs::path &path)
   {
     const fs::path temporary = temporary_name(path);

@@ -23,7 +23,7 @@ namespace undine
     {
       static const std::regex pattern(
         "log\\.txt|original\\.prm|parameters\\.(prm|json)|statistics|"
-        "timing|effects\\.json|solution\\.(pvd|xdmf)|"
+        "timing|effects\\.json|summary\\.json|solution\\.(pvd|xdmf)|"
         "checkpoint/slot_[01]\\.h5|solution/[a-z]+_\\d{6,}\\.(vtu|h5)");
       return std::regex_match(name.generic_string(), pattern);
     }
@@ -222,8 +222,10 @@ namespace undine
     on_first_rank(communicator, [&] {
       if (names.count(name.generic_string()) != 0)
         return;
+      read_record(); // 'undine report' may have added a name meanwhile
       assert_ours(name);
       append_to_file(record(), "file " + name.generic_string() + "\n");
+      reach_disk(record()); // before the file that it names does
       names.insert(name.generic_string());
     });
   }

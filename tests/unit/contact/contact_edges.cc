@@ -72,7 +72,7 @@ TEST_CASE("edges of a box are sharp, those of a smooth ball ever less", "[contac
   for (const auto &edge : of_boxes)
     {
       CHECK(edge.length == Approx(.5));
-      CHECK(edge.area == Approx(2. / 3 * .125));
+      CHECK(edge.area == Approx(2. / 3 * .0625));
     }
   // Their areas together, as a share of what they would be if all were sharp.
   const auto share = [&](const unsigned int refinements) {

@@ -64,14 +64,14 @@ namespace
     check_closed(surface.surface(), positions);
     check_positions(surface.surface(), positions);
 
-    // 2^(dim-1) facets for each square of a face; a closed surface in space has twice as many
-    // triangles as nodes, minus 4.
+    // `degree` segments a face in the plane, 4 triangles for each of its edges' nodes in space; a
+    // closed surface in space has twice as many triangles as nodes, minus 4.
     unsigned int n_faces = 0;
     for (const auto &cell : model.triangulation().active_cell_iterators())
       for (const unsigned int face : cell->face_indices())
         n_faces += cell->at_boundary(face);
     const unsigned int n_facets = surface.surface().facets().size();
-    CHECK(n_facets == n_faces * std::pow(degree, dim - 1) * (dim - 1));
+    CHECK(n_facets == n_faces * degree * (dim == 2 ? 1 : 4));
     CHECK(surface.n_nodes() == (n_facets + 4 * (dim - 2) * 2) / (dim - 1));
 
     const auto volumes = body_volumes(surface.surface(), surface.positions(model.vector()));
@@ -86,8 +86,9 @@ namespace
         Approx(measure_bodies(model, displacement)[body].volume).epsilon(dim == 2 ? 1e-13 : .01));
 
     for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        REQUIRE(model.axis(surface.dofs_of_node(node)[axis]) == axis);
+      for (const auto &share : surface.shares(node))
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          REQUIRE(model.axis(share.dofs[axis]) == axis);
   }
 
 
@@ -194,6 +195,7 @@ TEST_CASE("A uniform pressure has the nodal forces of the finite elements", "[in
 {
   check_uniform_pressure<2>(1);
   check_uniform_pressure<2>(2);
+  check_uniform_pressure<3>(1);
   check_uniform_pressure<3>(2);
 }
 

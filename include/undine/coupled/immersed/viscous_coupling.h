@@ -27,11 +27,6 @@ namespace undine
     std::shared_ptr<const NoSlipSurfaces<dim>>
     walls(const FluidGeometry<dim> &geometry);
 
-    /// The loads are zero where nothing is known of the pressure: its level, which depends on where
-    /// the origin lies, cannot be left out of the others.
-    void
-    forget_loads(State<dim> &state) const;
-
     /// If friction moves bodies, the other loads of the fluid on them are kept, as they are at
     /// `time` [s] for the grid as it is cut now. Collective.
     void

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace undine
 {
@@ -52,7 +53,11 @@ namespace undine
     double excused       = 0; ///< of these what shorter steps would not avoid [J]
     double uncertain     = 0; ///< how far `created` may be off, as rules for work go [J]
     bool   known         = false;
-    double doubtful      = 0; ///< of `power`; only until the step is judged: in no checkpoint [W]
+
+    /// The uniform pressure against which bodies take their volume, at the end of the step [Pa].
+    std::optional<double> level;
+
+    double doubtful = 0; ///< of `power`; only until the step is judged: in no checkpoint [W]
   };
 } // namespace undine
 

@@ -37,14 +37,12 @@ namespace undine
     };
 
     /// `state` holds u^n and, in the fluid, v*, which gets the velocities of inflows and walls.
-    /// `boundary_flux`: `initial` or `swept`, see make_surface_flux(). `knows_pressure`: is the
-    /// pressure in the fluid one that has been solved for? Collective. Throws InputError,
-    /// SolveError.
+    /// `boundary_flux`: `initial` or `swept`, see make_surface_flux(). Collective. Throws
+    /// InputError, SolveError.
     CoupledStage(const Parts           &parts,
                  const FluidStage<dim> &fluid,
                  State<dim>            &state,
-                 const std::string     &boundary_flux,
-                 bool                   knows_pressure);
+                 const std::string     &boundary_flux);
 
     /// The state becomes that of t^{n+1}. `found`: u^{n+1} of an earlier solution of
     /// this stage; empty: there is none. Collective. Throws SolveError.
@@ -116,7 +114,7 @@ namespace undine
     Vector
     loads_besides_pressure();
     FollowerPressure<dim>
-    make_follower(bool knows_pressure) const;
+    make_follower() const;
 
     const Parts                             parts;
     const FluidStage<dim>                  &fluid;

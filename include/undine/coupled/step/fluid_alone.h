@@ -30,6 +30,7 @@ namespace undine
     void
     balance(const State<dim> &state, const typename Projection<dim>::Report &projected);
 
+    const Models<dim>     &models;
     const FluidModel<dim> &model;
     Budget<dim>           &budget;
     TimingTree            &timing;

@@ -13,7 +13,6 @@
 #include <undine/fluid/fluid_stage.h>
 #include <undine/fluid/pressure/projection.h>
 
-#include <array>
 #include <memory>
 
 namespace undine
@@ -65,18 +64,6 @@ namespace undine
       return viscous_coupling.defect();
     }
 
-    /// Add to `account`, after finish() of the last stage, the powers at the end of the step of
-    /// sides, whose balance of `pressures` that is, and of obstacles by the same `pressure` [Pa],
-    /// as it has acted; and the work of what acts on bodies through the fluid: the weight that the
-    /// reduced pressure leaves out, the mean pressure at openings, against which they take their
-    /// volume, and what is outside of openings. Collective.
-    void
-    add_work(EnergyAccount              &account,
-             const State<dim>           &state,
-             double                      time,
-             const PressureBalance<dim> &pressures,
-             const Field<dim>           &pressure) const;
-
     /// Forces of pressure, weight and friction in the nodes of all surfaces [N], after finish(), at
     /// `time` [s]; empty if there is no surface in the fluid. Collective.
     Vectors
@@ -98,14 +85,7 @@ namespace undine
 
   private:
     double
-    kinetic_energy_of_way_made(const State<dim> &state) const;
-    double
-    add_work_on_bodies(EnergyAccount    &account,
-                       const State<dim> &state,
-                       double            time,
-                       double            level) const;
-    std::array<double, 2>
-    works_outside(const State<dim> &state, double time) const;
+    pressure_at_rest(const FluidState<dim> &fluid, double time) const;
     template <class Action, class Book>
     void
     run_phase(FluidStage<dim> &fluid, const Action &act, const Book &book);
@@ -127,8 +107,6 @@ namespace undine
     bodies() const;
     typename CharacteristicTracer<dim>::Bodies
     no_slip_bodies();
-    double
-    power_of_walls(const FluidStage<dim> &fluid, double gain) const;
     void
     add_columns(Report &report, const State<dim> &state, double divergence, double time) const;
 

@@ -25,6 +25,9 @@ namespace undine
   /// The array that holds SolidState::contact_forces in a checkpoint, while bodies touch something.
   inline const std::string contact_forces_array = "solid/forces of contact";
 
+  /// The arrays that hold FluidState::scalar_rates in a checkpoint, followed by the scalar's name.
+  inline const std::string scalar_rates_array = "fluid/scalar_rates/";
+
   /// The array that holds DualVolumeRates::time in a checkpoint, if those rates are in use.
   inline const std::string volume_rate_time_array = "fluid/time of volume rates";
 

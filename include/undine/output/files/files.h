@@ -52,6 +52,10 @@ namespace undine
   void
   assert_room(const std::filesystem::path &path, std::uintmax_t bytes);
 
+  /// Returns when a file is on the disk, as far as it has been written. Throws FileError. One rank.
+  void
+  reach_disk(const std::filesystem::path &path);
+
   /// Move what was written under temporary_name(path) to `path`, after it has reached the disk: at
   /// any moment, also if the machine stops, `path` is the old file or the new one. Throws
   /// FileError. One rank.

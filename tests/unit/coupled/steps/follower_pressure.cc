@@ -62,16 +62,16 @@ namespace
       return {surface, at_rest, loads(at_rest)};
     }
 
-    /// `move(place)` in all nodes of the boundary.
+    /// `move(place)` in all nodes of the finite elements.
     template <class Move>
     Vector
     displacement(const Move &move) const
     {
-      Vectors of_nodes;
-      for (const auto &place : at_rest)
-        of_nodes.push_back(move(place));
-      auto result = run.models.solid->vector();
-      surface.add_to_bodies(result, of_nodes);
+      const auto &solid  = *run.models.solid;
+      auto        result = solid.vector();
+      for (const auto dof : solid.locally_owned())
+        result(dof) = move(solid.rest_position(dof))[solid.axis(dof)];
+      result.compress(dealii::VectorOperation::insert);
       return result;
     }
 
