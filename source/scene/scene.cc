@@ -120,8 +120,9 @@ namespace undine
       // from one does not write again what belongs to the same time.
       parts.erase(std::remove(parts.begin(), parts.end(), "statistics"), parts.end());
       parts.insert(parts.begin(), "statistics");
-      std::stable_partition(
-        parts.begin(), parts.end(), [](const std::string &name) { return name != "checkpoint"; });
+      if (!options.is_reference())
+        std::stable_partition(
+          parts.begin(), parts.end(), [](const std::string &name) { return name != "checkpoint"; });
       for (const auto &name : parts)
         if (registry.contains(name))
           {

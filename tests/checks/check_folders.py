@@ -45,23 +45,25 @@ def steps(folder):
 def check_foreign_files(program, scene, folder):
     """Somebody's files stay, and stop a run only where it would replace them."""
     results = folder / "foreign"
-    for name in ("solution/mine.txt", "checkpoint/mine.txt", "mine.txt", "statistics"):
+    for name in ("solution/mine.txt", "checkpoint/mine.txt", "mine.txt"):
         (results / name).parent.mkdir(parents=True, exist_ok=True)
         (results / name).write_text("mine")
-    before = contents(results)
     short = settings("Time/Maximum steps=2")
-    for extra in ([], ["--overwrite"]):
-        result = call(program, scene, "--output", results, *short, *extra)
-        expect("a folder with somebody's 'statistics' is refused", result.returncode == 4 and
-               "statistics" in result.stderr and "--output" in result.stderr, result)
-        expect("nothing in it has changed", contents(results) == before, result)
-
-    (results / "statistics").unlink()
+    for name in ("statistics", "summary.json"):
+        (results / name).write_text("mine")
+        before = contents(results)
+        for extra in ([], ["--overwrite"]):
+            result = call(program, scene, "--output", results, *short, *extra)
+            expect(f"a folder with somebody's '{name}' is refused", result.returncode == 4 and
+                   name in result.stderr and "--output" in result.stderr, result)
+            expect("nothing in it has changed", contents(results) == before, result)
+        (results / name).unlink()
+    before = contents(results)
     for _ in range(2):  # the second run replaces the first
         result = call(program, scene, "--output", results, *short)
         expect("a run beside files of others works", result.returncode == 0, result)
         after = contents(results)
-        expect("files of others stay", all(after[name] == b"mine" for name in before if name != "statistics"))
+        expect("files of others stay", all(after[name] == b"mine" for name in before))
     last = sorted(name for name in after if name.startswith("solution/fluid"))[-1]
     (results / "solution/fluid_000099.vtu").write_text("mine")
     result = call(program, scene, "--output", results, *short)
@@ -140,9 +142,50 @@ def check_refused_resumes(program, scenes, folder):
     result = call(program, "resume", results, *settings(more))
     expect("which can go on itself, alike", result.returncode == 0 and
            scene_tools.statistics(results) == scene_tools.statistics(branch), result)
+    before = contents(results)
+    result = call(program, "resume", results)
+    after = contents(results)
+    expect("a run at its end keeps what it knows of itself", result.returncode == 0 and
+           all(after[name] == before[name] for name in ("timing", "summary.json", "effects.json", "statistics")), result)
+    refused("another folder by a key", "--output", f"Output/Directory={folder / 'elsewhere'}")
     (results / "statistics").unlink()
     result = call(program, "resume", results, *settings("Time/Maximum steps=8"))
     expect("without 'statistics' a new one begins", result.returncode == 0 and steps(results) == [7, 8], result)
+
+
+SMOKE = """
+set Dimension = 2
+subsection Time
+  set End  = 0.4
+  set Step = 0.1
+end
+subsection Domain
+  set Cells = 8, 8
+end
+subsection Fluid
+  set Density = 1
+end
+subsection Effects
+  subsection scalar transport
+    subsection smoke
+      set Initial value = x
+    end
+  end
+end
+"""
+
+
+def check_new_rates(program, folder):
+    """What else changes a scalar than the flow may begin where a run is taken up again."""
+    scene, results = folder / "smoke.prm", folder / "smoke"
+    scene.write_text(SMOKE)
+    result = call(program, scene, "--output", results, *settings("Time/Maximum steps=2"))
+    expect("smoke drifts", result.returncode == 0 and steps(results) == [0, 1, 2], result)
+    result = call(program, "resume", results, *settings("Time/Maximum steps=4", "Effects/scalar transport/smoke/Source=1"))
+    expect("then it has a source", result.returncode == 0 and steps(results) == list(range(5)), result)
+    names, _, rows = scene_tools.parse(scene_tools.statistics(results))
+    smoke = [row[names.index("Integral of smoke")] for row in rows]
+    expect(f"which adds to it: {smoke}", abs(smoke[2] - 0.5) < 1e-9 and abs(smoke[4] - 0.7) < 1e-9)
 
 
 def check_changed_bodies(program, scenes, folder):
@@ -165,6 +208,7 @@ def main():
         check_unfinished_runs(program, scenes / "taylor_green.prm", folder)
         check_refused_resumes(program, scenes, folder)
         check_changed_bodies(program, scenes, folder)
+        check_new_rates(program, folder)
     print("folders of results: nothing lost, nothing mixed, nothing of others touched")
 
 

@@ -270,6 +270,8 @@ namespace undine
       auto arrays        = pack(models, state);
       read_arrays(arrays, file, slot, communicator);
       unpack(state, models, arrays);
+      if (!rates_at_rest.empty())
+        state.clock.after_fallback = true; // stages have no rates to go on with, as at the start
       state.fluid.scalar_rates.merge(rates_at_rest);
       if (is_monitored && !state.account)
         // Of a run without a monitor: nothing is known yet.

@@ -178,6 +178,32 @@ namespace
     CHECK(vector * velocity == Approx(2 * work).epsilon(1e-13));
     CHECK(vector.l1_norm() > 0);
   }
+
+
+  /// The diagonal of S^T D S, by the squares of shares.
+  template <int dim>
+  void
+  check_diagonal(const unsigned int degree)
+  {
+    INFO(dim << "D degree " << degree);
+    const auto                          model = two_bodies<dim>(degree, MPI_COMM_WORLD);
+    const BodySurface<dim>              surface(model);
+    std::vector<dealii::Tensor<1, dim>> values(surface.n_nodes());
+    auto                                exact = model.vector();
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          values[node][axis] = 1 + node % 7 + axis;
+          for (const auto &share : surface.shares(node))
+            if (model.locally_owned().is_element(share.dofs[axis]))
+              exact(share.dofs[axis]) += share.weight * share.weight * values[node][axis];
+        }
+    exact.compress(dealii::VectorOperation::add);
+    auto diagonal = model.vector();
+    surface.add_diagonal(diagonal, values);
+    diagonal.add(-1., exact);
+    CHECK(diagonal.linfty_norm() <= 1e-13 * exact.linfty_norm());
+  }
 } // namespace
 
 
@@ -197,6 +223,15 @@ TEST_CASE("A uniform pressure has the nodal forces of the finite elements", "[in
   check_uniform_pressure<2>(2);
   check_uniform_pressure<3>(1);
   check_uniform_pressure<3>(2);
+}
+
+
+TEST_CASE("The diagonal over nodes is that over degrees of freedom by squares", "[interface][mpi]")
+{
+  check_diagonal<2>(1);
+  check_diagonal<2>(2);
+  check_diagonal<3>(1);
+  check_diagonal<3>(2);
 }
 
 

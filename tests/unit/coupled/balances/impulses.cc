@@ -53,7 +53,7 @@ namespace
 
   template <int dim>
   std::string
-  block(const std::string &name = "block", const std::string &left = ".2")
+  block(const std::string &name = "block", const std::string &left = ".2", const double density = 2)
   {
     return body(name,
                 plane_or_space<dim>("set Lower corner = " + left +
@@ -61,7 +61,9 @@ namespace
                                     "set Lower corner = " + left +
                                       ", .41, .42\nset Upper corner = .4, .63, .63\n"
                                       "set Cells = 1, 1, 1") +
-                  "\nset Density = 2\nset Young's modulus = 1e4\nset Poisson's ratio = .3");
+                  fmt::format("\nset Density = {}\nset Young's modulus = 1e4\nset Poisson's "
+                              "ratio = .3",
+                              density));
   }
 
 
@@ -181,9 +183,10 @@ namespace
 
   template <int dim>
   void
-  check_body(const std::string &more, const std::string &form)
+  check_body(const std::string &more, const std::string &form, const double density = 2)
   {
-    Account<dim> account(steps + outputs + box<dim>(form, block<dim>()) + more);
+    Account<dim> account(steps + outputs + box<dim>(form, block<dim>("block", ".2", density)) +
+                         more);
     for (unsigned int n = 0; n < 5; ++n)
       account.step();
     check_fluid(account, "block", form);
@@ -248,8 +251,10 @@ TEST_CASE("The fluid loses the impulses of its forces on bodies, which get them"
       {
         INFO(name);
         const auto integrator = section("Time", "set Integrator = " + name);
-        check_body<2>(integrator, flux_form());
-        check_body<2>(integrator, convection());
+        // With that one light bodies shake more and more, in shorter and shorter steps.
+        const double density = name == "generalised_alpha" ? 20 : 2;
+        check_body<2>(integrator, flux_form(), density);
+        check_body<2>(integrator, convection(), density);
       }
   check_body<3>("", flux_form());
 }

@@ -28,7 +28,8 @@ namespace
                           "\nset Cells = 1, 6\nset Density = 1200\nset Young's modulus = 1e6\n"
                           "set Poisson's ratio = .3",
                         clamp("root", at(0) + "-y"))) +
-           section("Effects", section("gravity", "set Acceleration = 0, -9.81") + friction);
+           section("Effects", section("gravity", "set Acceleration = 0, -9.81") + friction) +
+           section("Output", "set Energy account = true");
   }
 } // namespace
 
@@ -43,8 +44,10 @@ TEST_CASE("Bodies under gravity do not know where the origin is", "[coupled]")
         {
           near.step();
           far.step();
-          for (const auto &name :
-               {"Fluid kinetic energy", "solid kinetic energy", "solid elastic energy"})
+          for (const auto &name : {"Fluid kinetic energy",
+                                   "solid kinetic energy",
+                                   "solid elastic energy",
+                                   "energy exchanged"})
             {
               INFO(name);
               CHECK(far.column(name) == Approx(near.column(name)).epsilon(1e-6));

@@ -204,18 +204,20 @@ check_waking_by_fluid()
     }
   CHECK(run.column("asleep b") == 1);
   CHECK(largest < 2 * slow * rest);
-  bool woke = false;
-  for (unsigned int n = 0; n < 30; ++n)
+  bool   woke = false;
+  double path = 0;
+  // Later the flow past the posts makes much of small differences.
+  for (unsigned int n = 0; n < 18; ++n)
     {
       run.step();
       awake.step();
       woke |= run.column("asleep b") == 0;
       check_closures(run, awake);
+      path = awake.column("centre of mass b x") - .25;
+      CHECK(std::abs(run.column("centre of mass b x") - .25 - path) < 2 * slow * rest);
     }
   CHECK(woke);
-  const double path = awake.column("centre of mass b x") - .25;
   CHECK(path > 2 * slow * rest);
-  CHECK(std::abs(run.column("centre of mass b x") - .25 - path) < 2 * slow * rest);
 }
 
 
