@@ -36,6 +36,7 @@ run_script() {
   prepare
   mpi_environment
   export UNDINE_PROGRAM="$program" PYTHONPATH="$python_parts" PYTHONDONTWRITEBYTECODE=1
+  export PYTHONSAFEPATH=1 # a user's own report.py in the current folder is not meant
   exec /usr/bin/python3 -m "$module" "$@"
 }
 

@@ -15,7 +15,7 @@ import sys
 import tempfile
 import time
 
-from study import earlier, knobs
+from study import earlier, knobs, runs
 from study.description import Study
 from study.duration import duration
 from study.pilot import Pilot, Refused, quantity_of
@@ -87,6 +87,9 @@ def main(words):
     if float(found.get("Time/Tolerance", 0)) > 0:
         print("note: 'Time/Tolerance' is left out of account: the step is chosen for the error", file=sys.stderr)
         settings["Time/Tolerance"] = "0"
+        found = {**found, "Time/Tolerance": "0"}  # of earlier runs only those whose step was given, too
+    # Coarse runs write nothing: they would have to land on the times of outputs.
+    written = {key: settings.pop(key) for key in ("Output/Interval", "Output/Parts") if key in settings}
     study = Study("", options.scene, os.path.abspath(options.scene), 1, 0.0, 0.0, "core seconds", "all", [], settings, [])
     all_knobs = tuple(knobs.knobs_of(found))
     if not all_knobs:
@@ -103,8 +106,8 @@ def main(words):
 
         def run_with_outputs(setting):
             tries.append(setting)
-            return pilot.run_with_outputs(setting, [options.program, options.scene, "--output", output] + [
-                "--overwrite"] * (options.overwrite or len(tries) > 1), output)
+            words = [options.program, options.scene, "--output", output, *runs.assignments(written)]
+            return pilot.run_with_outputs(setting, words + ["--overwrite"] * (options.overwrite or len(tries) > 1), output)
 
         try:
             search = Search(pilot, all_knobs, options.accuracy, run_with_outputs)

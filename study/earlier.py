@@ -65,6 +65,8 @@ def load(pilot, all_knobs, scene, folder=FOLDER, same_probes=False):
         if result["failure"] or not all(settings.values()) or os.path.basename(case) != runs.identity(
                 pilot.study, kept, digest):
             continue
+        if settings.get("Output/Interval", "0") != "0":
+            continue  # its steps have landed on outputs: they are not what 'Time/Step' says
         parameters = knobs.parameters(pilot.program, pilot.study.scene, [f"{key}={value}" for key, value in settings.items()])
         setting = setting_of(all_knobs, scene, parameters)
         if not setting or setting in pilot.values or (same_probes and probes(parameters) != probes(scene)):

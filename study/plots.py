@@ -39,7 +39,10 @@ def ordered(values):
 
 def draw_curves(axes, found, result):
     lines = curves(found, result)
-    variants, groups = ordered(key for key, _, _ in lines), ordered(others for _, others, _ in lines)
+    # The same colour and style in every diagram, also in one where all runs of another variant have failed.
+    cases, axes_but_one = sorted(found.results, key=lambda case: case.index), found.study.refinements()[:-1]
+    variants = ordered(variant(found.study, case) for case in cases)
+    groups = ordered(tuple(case.index[axis] for axis in axes_but_one) for case in cases)
     several = len(variants) > 1
     for key, others, cases in lines:
         colour = variants.index(key) if several else groups.index(others)

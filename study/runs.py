@@ -38,7 +38,7 @@ def identity(study, case, program_digest):
     """A name for the folder of a case: the same only for the same scene, settings, files that they name, and program."""
     settings = json.dumps(case.settings(study), sort_keys=True)
     parts = [scene_files.all_text(study.scene), settings, str(study.ranks), program_digest]
-    parts += scene_files.named_files(study.scene, [*case.settings(study).values()])
+    parts += scene_files.named_files(study.scene, [f"{key} = {value}" for key, value in case.settings(study).items()])
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 

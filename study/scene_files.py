@@ -50,7 +50,7 @@ def named_files(scene, values):
     folders |= {os.path.join(os.path.dirname(os.path.abspath(scene)), name.strip())
                 for text in texts for name in re.findall(r"Folder of files\s*=([^#\n]*)", text)}
     words = sorted({word.strip() for text in texts for part in re.split(r"[=\n#]", text) for word in (part, *part.split())
-                    if "." in word})
+                    if word.strip()})
     found = []
     for path in (os.path.join(folder, word) for folder in sorted(folders) for word in words):
         if len(path) < 4000 and os.path.isfile(path):
@@ -67,7 +67,7 @@ def all_text(file, seen=()):
     except OSError:
         return ""
     folder = os.path.dirname(file)
-    for name in re.findall(r"^\s*include\s+(\S+)|=\s*(\S+\.(?:msh|stl|csv))\s*$", text, re.M):
+    for name in re.findall(r"^\s*include\s+([^#\n]*[^#\s])|=\s*(\S+\.(?:msh|stl|csv))\s*$", text, re.M):
         other = os.path.join(folder, name[0] or name[1])
         if other not in seen:
             text += all_text(other, (*seen, file))

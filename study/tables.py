@@ -265,5 +265,5 @@ def data_of(found):
          "from": result.reference.source, "uncertainty": finite(result.uncertainty()), "warnings": result.reference.warnings,
          "advice": [{"error at most": each.level, "settings": each.case.settings(found.study),
                      "error": result.errors[each.case], "cost": found.cost(each.case)}
-                    for each in found.advice(result) if each.case]}
+                    for each in (found.advice(result) if found.study.combine == "all" else []) if each.case]}
         for result in found.quantities]}

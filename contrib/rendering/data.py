@@ -63,7 +63,14 @@ class Run:
     def stopped(self, time):
         """Was the run over at this time, before the end that it should have reached?"""
         end = float(self.parameters.get("Time", {}).get("End", 0))
-        return time > self.times[-1] + 1e-9 and end > self.times[-1] + 1e-9
+        return not self.has_ended() and time > self.times[-1] + 1e-9 and end > self.times[-1] + 1e-9
+
+    def has_ended(self):
+        """Has the run come to its end, which may be before 'Time/End' where it has become steady?"""
+        try:
+            return bool(json.loads((self.results / "summary.json").read_text()).get("ended"))
+        except (OSError, ValueError, AttributeError):
+            return False
 
     def label(self):
         name = self.results.resolve().name

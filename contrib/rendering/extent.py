@@ -48,6 +48,7 @@ class Extent:
         self.bounds = vtk.vtkBoundingBox()
         self.ranges = {}  # by (is_bodies, field)
         self.fields = {"speed"}  # that there are
+        self.default = set()  # of the fluid, with which it is coloured
         self.has_particles = False
 
     def add_domain(self, run):
@@ -63,6 +64,8 @@ class Extent:
         arrays = part.data.GetPointData()
         self.fields |= {arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())}
         fields = {part.colour_field(options.field)}
+        if part.is_fluid():
+            self.default |= fields
         if part.is_fluid() and (options.vectors or options.streamlines):
             fields.add("velocity")
         for field in fields - {None}:
@@ -78,7 +81,7 @@ class Extent:
 
     def limits(self, is_bodies, field, options):
         """Ends of the colour scale of a field."""
-        if options.range and (field == options.field if options.field else not is_bodies):
+        if options.range and (field == options.field if options.field else not is_bodies and field in self.default):
             return options.range
         low, high = self.ranges[is_bodies, field]
         if low < 0 < high and min(-low, high) > 0.05 * max(-low, high):

@@ -69,7 +69,8 @@ namespace undine
     std::string failure;
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       failure = call_program({"/usr/bin/python3", "-B", "-m", "report", folder.path().string()},
-                             {"PYTHONPATH=" + python_parts()},
+                             // Not a module of the user's in the current folder.
+                             {"PYTHONPATH=" + python_parts(), "PYTHONSAFEPATH=1"},
                              limit);
     return dealii::Utilities::MPI::broadcast(communicator, failure);
   }
