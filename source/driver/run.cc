@@ -356,9 +356,8 @@ namespace undine
         else
           file.set(assignment);
       // The copy of the scene in the folder of the run must find the same files.
-      if (file.find("Folder of files") == nullptr)
-        file.set("Folder of files=" +
-                 std::filesystem::absolute("." / file.folder()).lexically_normal().string());
+      file.set("Folder of files=" +
+               std::filesystem::absolute("." / file.folder()).lexically_normal().string());
       return file;
     }
   } // namespace

@@ -161,12 +161,13 @@ namespace undine
       read_title(options, scene.title);
       options.require("Dimension", dimension, "", Allowed::between(2, 3), "Of space.");
       std::string folder = options.file().folder().string();
-      options.add("Folder of files",
-                  folder,
-                  "",
-                  Allowed::anything(),
-                  "Where relative names of files, such as meshes, begin; the scene's own folder if "
-                  "not given.");
+      options.add(
+        "Folder of files",
+        folder,
+        "",
+        Allowed::anything(),
+        "Where relative names of files, such as meshes, begin, itself seen from the scene's "
+        "own folder; that folder if not given.");
       scene.clock  = read_clock(options);
       scene.scheme = options.choose<Scheme<dim>>("Scheme", "simultaneous", "How time advances.");
       scene.models.effects = read_effects<dim>(options.section("Effects"));

@@ -302,22 +302,19 @@ namespace undine
   }
 
 
-  /// Each node of the finite elements gets the part `weight(share)` of the nodes that hang on it.
   template <int dim>
-  template <class Weight>
   void
-  BodySurface<dim>::add_weighted(Vector                                    &vector,
-                                 const std::vector<dealii::Tensor<1, dim>> &values,
-                                 const Weight                              &weight) const
+  BodySurface<dim>::add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const
   {
     AssertDimension(values.size(), n_nodes());
     auto shared = values;
     for (unsigned int node = 0; node < n_nodes(); ++node)
       if (own_weights[node] != 1)
         {
-          shared[node] += (weight(own_weights[node]) - 1) * values[node];
+          const auto more = (own_weights[node] - 1) * values[node];
+          shared[node] += more;
           for (const unsigned int corner : corners[node])
-            shared[corner] += weight((1 - own_weights[node]) / corners[node].size()) * values[node];
+            shared[corner] -= more / double(corners[node].size());
         }
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
     for (int k = first[rank]; k < first[rank] + counts[rank]; ++k)
@@ -328,18 +325,21 @@ namespace undine
 
   template <int dim>
   void
-  BodySurface<dim>::add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const
+  BodySurface<dim>::add_diagonal(Matrix                                    &matrix,
+                                 const std::vector<dealii::Tensor<1, dim>> &values,
+                                 const dealii::IndexSet                    &fixed) const
   {
-    add_weighted(vector, values, [](const double share) { return share; });
-  }
-
-
-  template <int dim>
-  void
-  BodySurface<dim>::add_diagonal(Vector                                    &vector,
-                                 const std::vector<dealii::Tensor<1, dim>> &values) const
-  {
-    add_weighted(vector, values, [](const double share) { return share * share; });
+    AssertDimension(values.size(), n_nodes());
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      for (const auto &row : shares(node))
+        for (unsigned int axis = 0; axis < dim; ++axis)
+          if (matrix.in_local_range(row.dofs[axis]) && !fixed.is_element(row.dofs[axis]))
+            for (const auto &column : shares(node))
+              if (!fixed.is_element(column.dofs[axis]))
+                matrix.add(row.dofs[axis],
+                           column.dofs[axis],
+                           row.weight * column.weight * values[node][axis]);
+    matrix.compress(dealii::VectorOperation::add);
   }
 
 

@@ -103,10 +103,13 @@ namespace undine
     void
     add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const;
 
-    /// Add the diagonal of a matrix over the nodes [any unit], the same on all ranks, as that of
-    /// the matrix over the degrees of freedom on which the nodes hang. Collective.
+    /// Add to the rows of this rank the matrix over degrees of freedom that a diagonal over the
+    /// nodes is, given by `values` [any unit], the same on all ranks; nothing in rows and columns
+    /// that are `fixed`. The entries must be in the pattern. Collective.
     void
-    add_diagonal(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const;
+    add_diagonal(Matrix                                    &matrix,
+                 const std::vector<dealii::Tensor<1, dim>> &values,
+                 const dealii::IndexSet                    &fixed) const;
 
     /// Add to the rows of this rank by how much the force in `node` changes [N/m] as `moved` moves
     /// along `axis`. Both nodes move; the entries must be in the pattern. Not collective.
@@ -145,11 +148,6 @@ namespace undine
     find_shares();
     void
     share_out(const dealii::IndexSet &owned);
-    template <class Weight>
-    void
-    add_weighted(Vector                                    &vector,
-                 const std::vector<dealii::Tensor<1, dim>> &values,
-                 const Weight                              &weight) const;
     template <class Value>
     dealii::Tensor<1, dim>
     mean_of_corners(unsigned int node, const std::vector<Value> &values) const;

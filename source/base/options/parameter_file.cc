@@ -367,9 +367,9 @@ namespace undine
   std::filesystem::path
   ParameterFile::folder() const
   {
+    const auto own   = std::filesystem::path(file_name).parent_path();
     const auto given = assignments.find("Folder of files");
-    return given != assignments.end() ? std::filesystem::path(given->second.value)
-                                      : std::filesystem::path(file_name).parent_path();
+    return given != assignments.end() ? own / given->second.value : own;
   }
 
 

@@ -103,20 +103,17 @@ namespace undine
   }
 
 
-  /// The damping of nodes as that of the degrees of freedom that they hang on.
+  /// The damping of nodes, as a matrix over the degrees of freedom that they hang on.
   template <int dim>
   void
   LinearisedBodies<dim>::prepare(const Vectors &damping)
   {
-    auto diagonal = models.solid->vector();
-    models.surface->bodies()->add_diagonal(
-      diagonal, {damping.begin(), damping.begin() + models.surface->n_body_nodes()});
-    clear_fixed(diagonal, *models.solid);
     Matrix damped;
     damped.copy_from(tangent);
-    for (const auto dof : diagonal.locally_owned_elements())
-      damped.add(dof, dof, diagonal(dof));
-    damped.compress(dealii::VectorOperation::add);
+    models.surface->bodies()->add_diagonal(
+      damped,
+      {damping.begin(), damping.begin() + models.surface->n_body_nodes()},
+      models.solid->all_fixed());
     preconditioner.initialize(damped, displacement);
   }
 

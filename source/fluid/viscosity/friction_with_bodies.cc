@@ -157,7 +157,7 @@ namespace undine
   {
     using Gmres = dealii::SolverFGMRES<BlockVector>;
     dealii::SolverControl control(most_iterations, tolerance(right_side));
-    Gmres(control, typename Gmres::AdditionalData(100))
+    Gmres(control, typename Gmres::AdditionalData(300))
       .solve(Operator{[&](BlockVector &result, const BlockVector &of) { vmult(result, of); }},
              x,
              right_side,
@@ -175,9 +175,9 @@ namespace undine
       unsigned int most_iterations;
       void (ImmersedViscousTerm<dim>::*prepare)();
     };
-    const Try tries[] = {{200, nullptr},
+    const Try tries[] = {{300, nullptr},
                          {1000, &ImmersedViscousTerm<dim>::precondition_by_diagonal},
-                         {200, &ImmersedViscousTerm<dim>::precondition_by_factors}};
+                         {600, &ImmersedViscousTerm<dim>::precondition_by_factors}};
 
     const auto        right_side = load();
     const BlockVector guess      = x;

@@ -98,7 +98,9 @@ namespace
                                         clamp("z",
                                               "1",
                                               "set Sides = back, front\nset Components = "
-                                              "z"))));
+                                              "z")))) +
+           // In space the energy that the default of 1e-10 leaves unbalanced is up to 2.5e-7.
+           section("Solid numerics", plane_or_space<dim>("", "set Newton tolerance = 2e-11"));
   }
 
 
