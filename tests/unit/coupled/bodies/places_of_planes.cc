@@ -98,9 +98,7 @@ namespace
                                         clamp("z",
                                               "1",
                                               "set Sides = back, front\nset Components = "
-                                              "z")))) +
-           // In space the energy that the default of 1e-10 leaves unbalanced is up to 2.5e-7.
-           section("Solid numerics", plane_or_space<dim>("", "set Newton tolerance = 2e-11"));
+                                              "z"))));
   }
 
 
@@ -151,11 +149,13 @@ namespace
         const auto   now  = measure();
         const double area = now.inflow / speed(t + dt);
         volume            = std::max(volume, std::abs(now.volume - first - area * flown) / first);
-        closure           = std::max(closure, run.column("energy closure"));
+        // In the first step from rest energies of a microjoule are gained: their rounding shows.
+        const double of_step = run.column("energy closure");
+        CHECK(of_step <= (n == 0 ? 5e-7 : 2e-8));
+        closure = std::max(closure, of_step);
       }
     INFO(fmt::format("{:.2e} {:.2e}", volume, closure));
     CHECK(volume <= 1e-8);
-    CHECK(closure <= 1e-7);
   }
 } // namespace
 
