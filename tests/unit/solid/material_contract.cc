@@ -77,6 +77,22 @@ TEST_CASE("material: U' and U'' are the derivatives of U", "[material]")
 }
 
 
+TEST_CASE("material: the energy of small strains is Hooke's", "[material]")
+{
+  for_every_material([](const Material &material, const ElasticConstants &constants) {
+    const auto hooke = make_material("linear elastic", constants);
+    Generator  generator;
+    for (unsigned int sample = 0; sample < n_samples; ++sample)
+      {
+        const Tensor<2, 3> F = identity + 1e-7 * (generator.deformation_gradient() - identity);
+        // Terms of third order are 1e-7 of it, what differences with 1 lose is 1e-2.
+        CHECK(material.energy(F) + material.volumetric_energy(determinant(F)) ==
+              Approx(hooke->energy(F)).epsilon(1e-5));
+      }
+  });
+}
+
+
 TEST_CASE("material: rest is free of stress and has the isotropic tangent", "[material]")
 {
   for_every_material([](const Material &material, const ElasticConstants &constants) {

@@ -2,6 +2,7 @@
 #include <undine/base/core/registry.h>
 #include <undine/solid/material/isotropic_material.h>
 #include <undine/solid/material/positive_jacobian.h>
+#include <undine/solid/material/strain_invariants.h>
 
 #include <cmath>
 
@@ -23,7 +24,9 @@ namespace undine
     double
     energy(const Gradient &F) const override
     {
-      return 0.5 * mu * (distortion_factor(positive_jacobian(F)) * F.norm_square() - 3);
+      const double ln_J   = logarithmic_dilatation(F, positive_jacobian(F));
+      const double factor = std::expm1(-2. / 3. * ln_J); // J^(-2/3) - 1
+      return 0.5 * mu * (3 * factor + (1 + factor) * squared_stretches(F));
     }
 
     Gradient

@@ -2,8 +2,7 @@
 #include <undine/base/core/registry.h>
 #include <undine/solid/material/isotropic_material.h>
 #include <undine/solid/material/positive_jacobian.h>
-
-#include <cmath>
+#include <undine/solid/material/strain_invariants.h>
 
 namespace undine
 {
@@ -23,9 +22,10 @@ namespace undine
     double
     energy(const Gradient &F) const override
     {
-      const double J = positive_jacobian(F);
-      return 0.5 * mu * (F.norm_square() - 3) + 0.25 * lambda * (J * J - 1) -
-             (mu + 0.5 * lambda) * std::log(J);
+      const double ln_J   = logarithmic_dilatation(F, positive_jacobian(F));
+      const double change = dilatation(F);
+      return 0.5 * mu * (squared_stretches(F) - 2 * ln_J) +
+             0.25 * lambda * (change * (2 + change) - 2 * ln_J);
     }
 
     Gradient

@@ -23,7 +23,7 @@ namespace undine
     double
     energy(const Gradient &F) const override
     {
-      const auto   E          = deformation::E(F);
+      const auto   E          = strain(F);
       const double dilatation = trace(E);
       return 0.5 * lambda * dilatation * dilatation + mu * (E * E);
     }
@@ -52,10 +52,19 @@ namespace undine
     }
 
   private:
+    /// E = sym H + H^T H / 2 with H = F - I: what rounding leaves of F^T F - I is too little of
+    /// small strains.
+    static dealii::SymmetricTensor<2, 3>
+    strain(const Gradient &F)
+    {
+      const Gradient H = F - dealii::unit_symmetric_tensor<3>();
+      return symmetrize(H + 0.5 * transpose(H) * H);
+    }
+
     dealii::SymmetricTensor<2, 3>
     second_stress(const Gradient &F) const
     {
-      const auto E = deformation::E(F);
+      const auto E = strain(F);
       return lambda * trace(E) * dealii::unit_symmetric_tensor<3>() + 2 * mu * E;
     }
   };
