@@ -49,6 +49,8 @@ def added_mass(program, across, place):
 
 def main():
     options = arguments()
+    if options.check and not set(options.across or DIFFERENCE) <= set(DIFFERENCE):
+        sys.exit(f"added_mass.py: --check knows bounds for {', '.join(map(str, DIFFERENCE))} cells across only")
     failed = False
     print("| cells across | added mass | largest less smallest | largest change over a cell |")
     print("|---|---|---|---|")
@@ -58,7 +60,7 @@ def main():
         mean = sum(masses) / n
         difference = (max(masses) - min(masses)) / mean
         change = max(abs(b - a) for a, b in zip(masses, masses[1:] + masses[:1])) * n / mean
-        failed = failed or difference > DIFFERENCE.get(across, math.inf)
+        failed = failed or not difference <= DIFFERENCE.get(across, math.inf)
         print(f"| {across} | {mean:.4f} | {100 * difference:.3f} % | {100 * change:.2f} % |", flush=True)
     sys.exit(1 if options.check and failed else 0)
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Plots of what steps cost, as SVG and PNG."""
 import math
+import sys
 
 import matplotlib
 
@@ -68,6 +69,8 @@ def shown_parts(scenes):
 
 def stacked_bars(scenes, path):
     """Seconds of a step by parts: {scene: {variant: {part: seconds}}}, a panel for each scene."""
+    if not scenes:
+        sys.exit("cost_plots.py: no run has ended")
     columns = min(3, len(scenes))
     lines = math.ceil(len(scenes) / columns)
     most = max(map(len, scenes.values()))

@@ -36,10 +36,11 @@ class Hard:
     # a little less than a whole number of them, since what is left over would be a step, too
     scheme: str = "simultaneous"  # that must be stable; of 'particle' steps are frames, and no others are compared with them
     above: float = 1e-3  # share of the potential energy by which that of particles may rise above the start
+    further: tuple = ()  # laws
 
     def laws(self):
         if self.scheme != "particle":
-            return [self.law]
+            return [self.law, *self.further]
         return [self.law, Law("fluid particles lost", lost("Fluid particles"), 0, 0, True),
                 Law("energy above the start / potential energy", gained_energy, 0, self.above, True)]
 
@@ -203,13 +204,13 @@ def fallen(density, added, until):
 
 def added_in_box(radius, width):
     """Added mass of a cylinder in the middle of a square box, over that of the displaced fluid: image dipoles behind the walls move
-    as fast as 1.086 times its share of the box."""
-    return 1 + 2 * 1.086 * math.pi * (radius / width) ** 2
+    as fast as 1.094 times its share of the box."""
+    return 1 + 2 * 1.094 * math.pi * (radius / width) ** 2
 
 
 def added_in_cube(radius, width):
     """The same of a ball in a cube."""
-    return 0.5 + 1.5 * 1.149 * 4 / 3 * math.pi * (radius / width) ** 3
+    return 0.5 + 1.5 * 1.156 * 4 / 3 * math.pi * (radius / width) ** 3
 
 
 def submerged_part(depth, dimension):
@@ -276,7 +277,9 @@ SCENES = {
     "thin_membrane": Hard(Law(FILLED + " [m^2]", gained("inside volume"), 0.03, 3e-6), "middle displacement y", mean=1),
     "thin_membrane_3d": Hard(Law(FILLED + " [m^3]", gained("inside volume"), 0.024, 1e-5), "middle displacement y", mean=0.5, short=0.0666),
     "sheets_on_planes": Hard(Law("change of a closed chamber [m^2]", changed("between volume"), 0, 1e-8, True),
-                             "middle displacement x", mean=0.5),
+                             "middle displacement x", mean=0.5,
+                             further=(Law("of another", changed("beyond volume"), 0, 1e-8, True),
+                                      Law(FILLED, gained("inside volume"), 0.025, 3e-6))),
     "sheet_on_planes_3d": Hard(Law(FILLED + " [m^3]", gained("inside volume"), 0.025, 3e-6), "middle displacement x", mean=0.5, short=0.1),
     "inflated_ring": Hard(Law("pressure / theory", ring_against_theory, 1, 0.08), "lower displacement x", mean=2.6),
     "inflated_sphere": Hard(Law("pressure / theory", ball_against_theory, 1, 0.05), "inner displacement x", mean=2.8, short=0.0666),

@@ -43,7 +43,7 @@ def growth(run):
 def verdict(run, reference):
     if run["result"]["failure"]:
         return "stops"
-    return "shakes" if last_quarter(run) > SHAKING * energies(reference).max() else "holds"
+    return "holds" if last_quarter(run) <= SHAKING * energies(reference).max() else "shakes"
 
 
 def measure(options, name):
@@ -56,11 +56,12 @@ def measure(options, name):
 
 
 def runs_table(study, runs):
-    """A row for each run; those of the first scheme with the shortest step that ended are the reference."""
-    ended = [run for case, run in runs.items() if case.index[0] == 0 and not run["result"]["failure"]]
-    reference = ended[-1] if ended else next(iter(runs.values()))
+    """A row for each run; of those of the same scene the one of the first scheme with the shortest step that ended is the
+    reference."""
+    ended = {case.index[2:]: run for case, run in runs.items() if case.index[0] == 0 and not run["result"]["failure"]}
     rows = []
     for case, run in runs.items():
+        reference = ended.get(case.index[2:], run)
         until = run["columns"]["Time"][-1]
         failed = run["result"]["failure"]
         rows.append([*(variation.names[k] for variation, k in zip(study.variations, case.index)), verdict(run, reference),

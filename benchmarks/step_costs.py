@@ -97,6 +97,8 @@ def measure(program, scene, settings, ranks, steps):
         few = costs_of(folder)[0]
     with run_once(program, scene, settings, ranks, FIRST + steps) as folder:
         many, table, summary = costs_of(folder)
+    if table["Step"][-1] < FIRST + steps:
+        raise Failure(f"is over after {table['Step'][-1]:.0f} of {FIRST + steps} steps")
     phases = difference(many, few, steps)
     result = {(name, SECONDS): seconds for name, (_, seconds) in phases.items()}
     result[STEP, SECONDS] = sum(seconds for name, (_, seconds) in phases.items() if " / " not in name)

@@ -126,6 +126,12 @@ namespace undine
         add_piece(cut, work, region.area, centroid, rims[r]);
         work.debris_piece.push_back(region.debris);
       }
+    if (record.flags & cut_needs_sampling) // a piece of negative area
+      {
+        cut.pieces.erase(cut.pieces.begin() + face.first_piece, cut.pieces.end());
+        work.debris_piece.resize(face.first_piece);
+        sample_face(cut, work);
+      }
   }
 
 

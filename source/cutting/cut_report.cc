@@ -127,12 +127,13 @@ namespace undine
     result.closure         = MPI::max(cut.counts.closure, communicator);
     if (first < ranks)
       result.message = fmt::format(
-        "{} near ({:.4g}); {} of the fluid's cells are affected. The fluid in these is found by "
-        "samples, so that the flow close by is rough, forces too. Try: move the surfaces apart, "
-        "mesh what overlaps as one body, or a finer grid.",
+        "{} near ({:.4g}); {} of the fluid's cells are affected. {}the flow close by is rough, "
+        "forces too. Try: move the surfaces apart, mesh what overlaps as one body, or a finer "
+        "grid.",
         result.subject,
         fmt::join(place, ", "),
-        result.flagged_cells);
+        result.flagged_cells,
+        result.sampled_cells > 0 ? "The fluid in these is found by samples, so that " : "There ");
     return result;
   }
 

@@ -109,14 +109,15 @@ namespace undine
         return 0;
       }
 
-      /// Nodes of facets that others face, ascending.
+      /// Nodes of facets that others face with fluid between, not a thin body, ascending.
       std::vector<unsigned int>
       nodes_of_facing(const FlushPlane<dim> &plane, const unsigned int axis) const
       {
         std::vector<unsigned int> nodes;
         for (const auto &a : plane.fluid_below)
           for (const auto &b : plane.fluid_above)
-            if (overlap(a, b, axis))
+            if (overlap(a, b, axis) &&
+                a.lower[axis] + a.upper[axis] >= b.lower[axis] + b.upper[axis])
               for (const auto &flush : {a, b})
                 nodes.insert(nodes.end(),
                              surface.facets()[flush.facet].begin(),

@@ -106,6 +106,22 @@ namespace undine
   }
 
 
+  /// 1: the segment enters the solid through the facet, -1: it leaves it, 0: it passes it by.
+  template <int dim>
+  int
+  SampledRegions<dim>::crossing(const Facet              &facet,
+                                const dealii::Point<dim> &from,
+                                const dealii::Point<dim> &to)
+  {
+    const double before = (from - facet.nodes[0]) * facet.normal;
+    const double after  = (to - facet.nodes[0]) * facet.normal;
+    if ((before > 0) == (after > 0) ||
+        !contains(facet.nodes, from + before / (before - after) * (to - from)))
+      return 0;
+    return before > 0 ? 1 : -1;
+  }
+
+
   template <int dim>
   int
   SampledRegions<dim>::crossings(const dealii::Point<dim> &from,
@@ -115,16 +131,33 @@ namespace undine
   {
     int result = 0;
     for (const int f : facets_in[samples.position(here)])
-      {
-        const auto  &facet  = facets[f];
-        const double before = (from - facet.nodes[0]) * facet.normal;
-        const double after  = (to - facet.nodes[0]) * facet.normal;
-        if ((before > 0) == (after > 0) || facet.bins.contains(counted))
-          continue;
-        if (contains(facet.nodes, from + before / (before - after) * (to - from)))
-          result += before > 0 ? 1 : -1;
-      }
+      if (!facets[f].bins.contains(counted))
+        result += crossing(facets[f], from, to);
     return result;
+  }
+
+
+  template <int dim>
+  bool
+  SampledRegions<dim>::are_joined(const GridIndex<dim> &one, const GridIndex<dim> &other) const
+  {
+    const auto from = sample(one), to = sample(other);
+    for (const auto &index : {one, other})
+      for (const int f : facets_in[samples.position(index)])
+        if (crossing(facets[f], from, to) != 0)
+          return false;
+    return true;
+  }
+
+
+  template <int dim>
+  bool
+  SampledRegions<dim>::sees(const dealii::Point<dim> &place, const GridIndex<dim> &index) const
+  {
+    const auto there = sample(index);
+    return std::none_of(facets.begin(), facets.end(), [&](const Facet &facet) {
+      return crossing(facet, place, there) != 0;
+    });
   }
 
 
@@ -248,7 +281,8 @@ namespace undine
           for (const int step : {-1, 1})
             {
               const auto next = moved(index, axis, step);
-              if (!samples.contains(next) || region_of[samples.position(next)] != -2)
+              if (!samples.contains(next) || region_of[samples.position(next)] != -2 ||
+                  !are_joined(index, next))
                 continue;
               region_of[samples.position(next)] = region;
               front.push_back(next);
@@ -263,20 +297,23 @@ namespace undine
   {
     if (all_regions.size() < 2)
       return static_cast<int>(all_regions.size()) - 1;
-    int    result = -1;
-    double best   = std::numeric_limits<double>::max();
+    struct Nearest
+    {
+      int    region   = -1;
+      double distance = std::numeric_limits<double>::max();
+    };
+    Nearest seen, any;
     for_each(samples, [&](const GridIndex<dim> &index) {
       const int region = region_of[samples.position(index)];
       if (region < 0)
         return;
       const double distance = sample(index).distance_square(place);
-      if (distance < best)
-        {
-          best   = distance;
-          result = region;
-        }
+      if (distance < any.distance)
+        any = {region, distance};
+      if (distance < seen.distance && sees(place, index))
+        seen = {region, distance};
     });
-    return result;
+    return seen.region >= 0 ? seen.region : any.region;
   }
 
 

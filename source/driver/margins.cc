@@ -29,7 +29,8 @@ namespace undine
     for (auto &least : margins)
       if (least.law == law)
         {
-          if (!(now.margin() >= least.margin()))
+          // What is not a number is worse than any.
+          if (!(now.margin() >= least.margin()) && !std::isnan(least.margin()))
             least = now;
           return;
         }

@@ -11,13 +11,16 @@ namespace undine
 {
   namespace
   {
-    /// Call action(fragment) for all fragments of owned cells that fluid touches.
+    /// Call action(fragment) for all fragments of owned cells, or those of the halo too, that fluid
+    /// touches.
     template <int dim, class Action>
     void
-    for_each_wet_fragment(const CutCells<dim> &cut, const Action &action)
+    for_each_wet_fragment(const CutCells<dim> &cut,
+                          const Action        &action,
+                          const bool           in_halo = false)
     {
       for (int cell = 0; cell < static_cast<int>(cut.cells.size()); ++cell)
-        if (cut.block.owned().contains(cut.cells[cell].index))
+        if (in_halo || cut.block.owned().contains(cut.cells[cell].index))
           for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
             if (cut.fragments[f].component != cut.no_component)
               action(cut.fragments[f]);
@@ -148,19 +151,21 @@ namespace undine
                 const Surface<dim>                        &surface,
                 const std::vector<dealii::Point<dim>>     &place,
                 const std::vector<dealii::Point<dim>>     &before,
-                const std::vector<dealii::Tensor<1, dim>> &increment)
+                const std::vector<dealii::Tensor<1, dim>> &increment,
+                const bool                                 in_halo)
   {
     std::vector<double> result(cut.components.size(), 0.);
     auto                after = before;
     for (std::size_t node = 0; node < after.size(); ++node)
       after[node] += increment[node];
-    for_each_wet_fragment(cut, [&](const auto &fragment) {
+    const auto add = [&](const auto &fragment) {
       dealii::Tensor<1, dim> mean_increment;
       for (unsigned int k = 0; k < dim; ++k)
         mean_increment += fragment.mean[k] * increment[surface.facets()[fragment.facet][k]];
       result[fragment.component] += share_of_facet(fragment, surface, place) * mean_increment *
                                     mean_area_vector(surface, fragment.facet, before, after);
-    });
+    };
+    for_each_wet_fragment(cut, add, in_halo);
     return result;
   }
 
@@ -284,7 +289,7 @@ namespace undine
                                       const StepAccuracy &);                                       \
   template std::vector<double> swept_volumes(const CutCells<dim> &, const Surface<dim> &,          \
     const std::vector<dealii::Point<dim>> &, const std::vector<dealii::Point<dim>> &,              \
-    const std::vector<dealii::Tensor<1, dim>> &);                                                  \
+    const std::vector<dealii::Tensor<1, dim>> &, bool);                                            \
   template std::vector<double> wetted_areas(const CutCells<dim> &, const Surface<dim> &,           \
                                             const std::size_t);                                    \
   template std::vector<dealii::Tensor<1, dim>> nodal_forces(const BoundaryFlux<dim> &,             \

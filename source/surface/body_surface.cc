@@ -325,26 +325,6 @@ namespace undine
 
   template <int dim>
   void
-  BodySurface<dim>::add_diagonal(Matrix                                    &matrix,
-                                 const std::vector<dealii::Tensor<1, dim>> &values,
-                                 const dealii::IndexSet                    &fixed) const
-  {
-    AssertDimension(values.size(), n_nodes());
-    for (unsigned int node = 0; node < n_nodes(); ++node)
-      for (const auto &row : shares(node))
-        for (unsigned int axis = 0; axis < dim; ++axis)
-          if (matrix.in_local_range(row.dofs[axis]) && !fixed.is_element(row.dofs[axis]))
-            for (const auto &column : shares(node))
-              if (!fixed.is_element(column.dofs[axis]))
-                matrix.add(row.dofs[axis],
-                           column.dofs[axis],
-                           row.weight * column.weight * values[node][axis]);
-    matrix.compress(dealii::VectorOperation::add);
-  }
-
-
-  template <int dim>
-  void
   BodySurface<dim>::add_derivative(Matrix                       &matrix,
                                    const unsigned int            node,
                                    const unsigned int            moved,

@@ -20,8 +20,8 @@ namespace undine
     unsigned int reordered_edges = 0; ///< grid edges with ties, halos counted twice
     double       closure         = 0; ///< worst defect in cells that are not flagged
 
-    /// The bodies and the kind of error in the first flagged cell of the lowest rank, such as "'a'
-    /// and 'b' overlap"; empty if there is none.
+    /// The bodies and the kind of error in the flagged cell with most bodies in it, the first one
+    /// of the lowest rank, such as "'a' and 'b' overlap"; empty if there is none.
     std::string subject;
 
     /// The same with place and number, what is done about it and what to try.

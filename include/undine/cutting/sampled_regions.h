@@ -12,7 +12,8 @@
 namespace undine
 {
   /// The fluid in a box found by sampling n_along^dim points: for cells in which bodies overlap or
-  /// are inside out. Volumes are as good as the samples, connections as wide as their distance.
+  /// are inside out. Volumes are as good as the samples, connections as wide as their distance, and
+  /// none goes through a facet, however thin the body is.
   /// Each sample has a bin of its own, whose facets alone tell how windings change in it.
   template <int dim>
   class SampledRegions
@@ -53,7 +54,8 @@ namespace undine
     bool
     is_wet(const dealii::Point<dim> &place, const dealii::Tensor<1, dim> &normal) const;
 
-    /// The region of the sample in the fluid nearest to `place`; -1 if there is no fluid.
+    /// The region of the sample in the fluid nearest to `place` of those that no facet hides, if
+    /// there are any; -1 if there is no fluid.
     int
     nearest(const dealii::Point<dim> &place) const;
 
@@ -74,6 +76,9 @@ namespace undine
     void
     add_facets(const std::vector<Simplex> &simplices);
 
+    static int
+    crossing(const Facet &facet, const dealii::Point<dim> &from, const dealii::Point<dim> &to);
+
     /// How often the segment between two places enters the solid through facets that may touch bin
     /// `here`, but not bin `counted`, minus how often it leaves it.
     int
@@ -81,6 +86,15 @@ namespace undine
               const dealii::Point<dim> &to,
               const GridIndex<dim>     &here,
               const GridIndex<dim>     &counted) const;
+
+    /// Of samples next to each other in the fluid, no facet between them: a body that is thinner
+    /// than samples are far from each other has fluid on both sides.
+    bool
+    are_joined(const GridIndex<dim> &one, const GridIndex<dim> &other) const;
+
+    /// Is no facet between a place and a sample?
+    bool
+    sees(const dealii::Point<dim> &place, const GridIndex<dim> &index) const;
 
     /// From sample to neighbouring sample, the first one taken for zero.
     void

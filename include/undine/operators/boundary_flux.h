@@ -80,14 +80,15 @@ namespace undine
 
   /// The volume that the surface, whose nodes were at `place` when it was cut, sweeps out of each
   /// component while they move straight from `before` by `increment` [m], each fragment with its
-  /// facet; exact, [CutCells::components] [m^dim].
+  /// facet; exact, [CutCells::components] [m^dim]. Zero in cells of the halo, unless asked for.
   template <int dim>
   std::vector<double>
   swept_volumes(const CutCells<dim>                       &cut,
                 const Surface<dim>                        &surface,
                 const std::vector<dealii::Point<dim>>     &place,
                 const std::vector<dealii::Point<dim>>     &before,
-                const std::vector<dealii::Tensor<1, dim>> &increment);
+                const std::vector<dealii::Tensor<1, dim>> &increment,
+                bool                                       in_halo = false);
 
   /// The quantities that limit the accuracy of velocities in the nodes of a surface.
   struct StepAccuracy

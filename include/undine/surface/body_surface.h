@@ -103,14 +103,6 @@ namespace undine
     void
     add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const;
 
-    /// Add to the rows of this rank the matrix over degrees of freedom that a diagonal over the
-    /// nodes is, given by `values` [any unit], the same on all ranks; nothing in rows and columns
-    /// that are `fixed`. The entries must be in the pattern. Collective.
-    void
-    add_diagonal(Matrix                                    &matrix,
-                 const std::vector<dealii::Tensor<1, dim>> &values,
-                 const dealii::IndexSet                    &fixed) const;
-
     /// Add to the rows of this rank by how much the force in `node` changes [N/m] as `moved` moves
     /// along `axis`. Both nodes move; the entries must be in the pattern. Not collective.
     void

@@ -133,11 +133,11 @@ namespace undine
         return Neighbour{axis, 1, owned};
       if (here.lower[axis] == there.upper[axis])
         return Neighbour{axis, -1, owned};
-      // From one end of a periodic domain to the other.
+      // From one end of a periodic domain to the other. A rank may be one block wide there.
       const int index = indices(i)[axis];
-      if (index == lengths[axis] - 1)
+      if (index == lengths[axis] - 1 && there.lower[axis] < here.lower[axis])
         return Neighbour{axis, 1, false};
-      if (index == 0)
+      if (index == 0 && there.lower[axis] > here.lower[axis])
         return Neighbour{axis, -1, false};
       return {};
     }

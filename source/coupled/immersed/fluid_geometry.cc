@@ -61,9 +61,10 @@ namespace undine
     Velocities back(cut_at.size());
     for (std::size_t node = 0; node < back.size(); ++node)
       back[node] = positions[node] - cut_at[node];
-    const auto swept = swept_volumes(cells, surface.surface(), cut_at, cut_at, back);
+    // What flows out of a component through a surface that gives way fills the room behind it.
+    const auto swept = swept_volumes(cells, surface.surface(), cut_at, cut_at, back, true);
     for (std::size_t c = 0; c < swept.size(); ++c)
-      cells.components[c].volume -= swept[c];
+      cells.components[c].volume += swept[c];
   }
 
 

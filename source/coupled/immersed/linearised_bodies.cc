@@ -5,6 +5,8 @@
 #include <undine/solid/assembly/prescribed_motion.h>
 #include <undine/solid/step/initial_guesses.h>
 
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
 namespace undine
 {
   template <int dim>
@@ -103,17 +105,57 @@ namespace undine
   }
 
 
-  /// The damping of nodes, as a matrix over the degrees of freedom that they hang on.
+  /// Call `action(i, j, value)` for the entries in owned rows, some of them several times, of the
+  /// matrix over degrees of freedom that the damping of nodes is.
+  template <int dim>
+  template <class Action>
+  void
+  LinearisedBodies<dim>::for_each_entry(const std::array<NodeDampings, dim> &damping,
+                                        const Action                        &action) const
+  {
+    const auto        &bodies  = *models.surface->bodies();
+    const auto        &fixed   = models.solid->all_fixed();
+    const unsigned int n_nodes = models.surface->n_body_nodes();
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      for (const auto &entry : damping[axis])
+        if (entry.row < n_nodes && entry.column < n_nodes)
+          for (const auto &to : bodies.shares(entry.row))
+            if (const auto i = to.dofs[axis]; tangent.in_local_range(i) && !fixed.is_element(i))
+              for (const auto &of : bodies.shares(entry.column))
+                if (const auto j = of.dofs[axis]; !fixed.is_element(j))
+                  action(i, j, to.weight * of.weight * entry.value);
+  }
+
+
+  /// Nodes that a cell of the fluid couples need not be those of one element: the pattern has more
+  /// entries than that of the bodies alone, unless there is only a diagonal.
   template <int dim>
   void
-  LinearisedBodies<dim>::prepare(const Vectors &damping)
+  LinearisedBodies<dim>::prepare(const std::array<NodeDampings, dim> &damping)
   {
+    bool is_diagonal = true;
+    for (const auto &entries : damping)
+      for (const auto &entry : entries)
+        is_diagonal = is_diagonal && entry.row == entry.column;
     Matrix damped;
-    damped.copy_from(tangent);
-    models.surface->bodies()->add_diagonal(
-      damped,
-      {damping.begin(), damping.begin() + models.surface->n_body_nodes()},
-      models.solid->all_fixed());
+    if (is_diagonal)
+      damped.copy_from(tangent);
+    else
+      {
+        const auto                    &owned = models.solid->locally_owned();
+        dealii::DynamicSparsityPattern pattern(tangent.m(), tangent.n(), owned);
+        for_each_entry(damping, [&](const auto i, const auto j, double) { pattern.add(i, j); });
+        for (const auto row : owned)
+          for (auto entry = tangent.begin(row); entry != tangent.end(row); ++entry)
+            pattern.add(row, entry->column());
+        damped.reinit(owned, owned, pattern, models.communicator());
+        for (const auto row : owned)
+          for (auto entry = tangent.begin(row); entry != tangent.end(row); ++entry)
+            damped.add(row, entry->column(), entry->value());
+      }
+    for_each_entry(
+      damping, [&](const auto i, const auto j, const double value) { damped.add(i, j, value); });
+    damped.compress(dealii::VectorOperation::add);
     preconditioner.initialize(damped, displacement);
   }
 

@@ -55,8 +55,11 @@ namespace undine
 
     /// How far a frame is, and what has bounded most of its sub-steps since `before`.
     std::string
-    progress_of_frame(const particles::StepControl &now, const particles::StepControl &before)
+    progress_of_frame(const particles::StepControl &now, const particles::StepControl &last)
     {
+      // Counts begin again with every motion that seeks an equilibrium, and where a frame is
+      // redone.
+      const auto before = last.sub_steps <= now.sub_steps ? last : particles::StepControl();
       static const std::array<const char *, static_cast<int>(particles::Bound::count)> words{
         {"as long as allowed", "bounded by speed", "bounded by waves", "bounded by viscosity"}};
       unsigned int most = 0, which = 0;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace undine
 {
@@ -34,6 +35,17 @@ namespace undine
     {
       for (std::size_t node = 0; node < vectors.size(); ++node)
         vectors[node][axis] = values[node];
+    }
+
+
+    NodeDampings
+    diagonal(const std::vector<double> &damping)
+    {
+      NodeDampings result;
+      for (unsigned int node = 0; node < damping.size(); ++node)
+        if (damping[node] != 0)
+          result.push_back({node, node, damping[node]});
+      return result;
     }
 
 
@@ -64,15 +76,17 @@ namespace undine
     , dt(dt)
     , of_nodes(bodies.velocities().size())
   {
+    std::array<NodeDampings, dim> matrices;
     x.reinit(dim + 1);
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
-        x.block(axis) = equations[axis]->guess();
+        x.block(axis)  = equations[axis]->guess();
+        matrices[axis] = diagonal(equations[axis]->damping());
         set_along(of_nodes, axis, equations[axis]->damping());
       }
     x.block(dim) = bodies.vector();
     x.collect_sizes();
-    bodies.prepare(of_nodes);
+    bodies.prepare(matrices);
   }
 
 
@@ -157,7 +171,7 @@ namespace undine
   {
     using Gmres = dealii::SolverFGMRES<BlockVector>;
     dealii::SolverControl control(most_iterations, tolerance(right_side));
-    Gmres(control, typename Gmres::AdditionalData(300))
+    Gmres(control, typename Gmres::AdditionalData(100))
       .solve(Operator{[&](BlockVector &result, const BlockVector &of) { vmult(result, of); }},
              x,
              right_side,
@@ -166,18 +180,38 @@ namespace undine
   }
 
 
+  /// A diagonal does not tell how little of the fluid's resistance is left where nodes move
+  /// together: very light bodies need the matrix.
+  template <int dim>
+  void
+  FrictionWithBodies<dim>::precondition_by_matrix()
+  {
+    std::array<NodeDampings, dim> matrices;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      matrices[axis] = equations[axis]->damping_matrix();
+    bodies.prepare(matrices);
+  }
+
+
   template <int dim>
   unsigned int
   FrictionWithBodies<dim>::solve()
   {
+    const auto of_fluid = [&](void (ImmersedViscousTerm<dim>::*prepare)()) {
+      return [this, prepare] {
+        for (auto *equation : equations)
+          (equation->*prepare)();
+      };
+    };
     struct Try
     {
-      unsigned int most_iterations;
-      void (ImmersedViscousTerm<dim>::*prepare)();
+      unsigned int          most_iterations;
+      std::function<void()> prepare;
     };
-    const Try tries[] = {{300, nullptr},
-                         {1000, &ImmersedViscousTerm<dim>::precondition_by_diagonal},
-                         {600, &ImmersedViscousTerm<dim>::precondition_by_factors}};
+    const Try tries[] = {{60, [] {}},
+                         {300, [&] { precondition_by_matrix(); }},
+                         {1000, of_fluid(&ImmersedViscousTerm<dim>::precondition_by_diagonal)},
+                         {600, of_fluid(&ImmersedViscousTerm<dim>::precondition_by_factors)}};
 
     const auto        right_side = load();
     const BlockVector guess      = x;
@@ -186,14 +220,13 @@ namespace undine
     for (const auto &[most_iterations, prepare] : tries)
       try
         {
-          if (prepare)
-            for (auto *equation : equations)
-              (equation->*prepare)();
+          prepare();
           return before + iterate(right_side, most_iterations);
         }
       catch (const dealii::SolverControl::NoConvergence &failure)
         {
-          x    = guess;
+          if (!std::isfinite(x.l2_norm()))
+            x = guess;
           left = failure.last_residual / right_side.l2_norm();
           before += failure.last_step;
         }

@@ -12,6 +12,29 @@
 
 namespace undine
 {
+  namespace
+  {
+    /// Each entry once.
+    NodeDampings
+    summed(NodeDampings entries)
+    {
+      const auto place = [](const NodeDamping &entry) {
+        return std::make_pair(entry.row, entry.column);
+      };
+      std::sort(entries.begin(), entries.end(), [&](const auto &a, const auto &b) {
+        return place(a) < place(b);
+      });
+      NodeDampings result;
+      for (const auto &entry : entries)
+        if (!result.empty() && place(result.back()) == place(entry))
+          result.back().value += entry.value;
+        else
+          result.push_back(entry);
+      return result;
+    }
+  } // namespace
+
+
   template <int dim>
   ImmersedViscousTerm<dim>::ImmersedViscousTerm(const FluidModel<dim>                     &model,
                                                 const unsigned int                         axis,
@@ -286,11 +309,12 @@ namespace undine
   }
 
 
-  /// The Schur complement of the fluid with a diagonal in the place of its matrix, summed over the
-  /// nodes of each term: h w (1 - sum_f h w c_f^2 / A_ff) |c_k| sum_l |c_l|.
+  /// The Schur complement of the fluid with a diagonal in the place of its matrix, term by term: h
+  /// w (1 - sum_f h w c_f^2 / A_ff) c_k c_l.
   template <int dim>
-  typename ImmersedViscousTerm<dim>::Motion
-  ImmersedViscousTerm<dim>::damping() const
+  template <class Action>
+  void
+  ImmersedViscousTerm<dim>::for_each_damping(const Action &action) const
   {
     Field<dim> diagonal(model.grid().faces(axis), topology());
     Vector     values(first);
@@ -298,21 +322,49 @@ namespace undine
       values(row) = solver.matrix.diag_element(row);
     values.compress(dealii::VectorOperation::insert);
     unknowns.copy(diagonal, values);
-    Motion result(nodes.size(), 0.);
     for (const auto &term : given_terms)
       {
-        double left = 1, all = 0;
+        double left = 1;
         for (const auto &[place, coefficient] : term.faces)
           if (!unknowns.is_prescribed(place))
             left -=
               assembled_dt * term.weight * coefficient * coefficient / value_at(diagonal, place);
-        for (const auto &[node, coefficient] : term.nodes)
-          all += std::abs(coefficient);
-        for (const auto &[node, coefficient] : term.nodes)
-          result[node] += term.weight * std::max(0., left) * std::abs(coefficient) * all;
+        if (left > 0 && !term.nodes.empty())
+          action(term, term.weight * left);
       }
+  }
+
+
+  template <int dim>
+  typename ImmersedViscousTerm<dim>::Motion
+  ImmersedViscousTerm<dim>::damping() const
+  {
+    Motion result(nodes.size(), 0.);
+    for_each_damping([&](const ViscousTerm<dim> &term, const double weight) {
+      double all = 0;
+      for (const auto &[node, coefficient] : term.nodes)
+        all += std::abs(coefficient);
+      for (const auto &[node, coefficient] : term.nodes)
+        result[node] += weight * std::abs(coefficient) * all;
+    });
     dealii::Utilities::MPI::sum(result, model.grid().communicator(), result);
     return result;
+  }
+
+
+  template <int dim>
+  NodeDampings
+  ImmersedViscousTerm<dim>::damping_matrix() const
+  {
+    NodeDampings mine, result;
+    for_each_damping([&](const ViscousTerm<dim> &term, const double weight) {
+      for (const auto &[row, coefficient] : term.nodes)
+        for (const auto &[column, factor] : term.nodes)
+          mine.push_back({row, column, weight * coefficient * factor});
+    });
+    for (const auto &part : dealii::Utilities::MPI::all_gather(model.grid().communicator(), mine))
+      result.insert(result.end(), part.begin(), part.end());
+    return summed(std::move(result));
   }
 
 

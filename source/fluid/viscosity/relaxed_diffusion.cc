@@ -70,8 +70,10 @@ namespace undine
                                 const double           dt,
                                 const DualFluxes<dim> *fluxes)
   {
-    const auto &row   = problem.lattice->row(direction);
-    auto        pairs = problem.lattice->owned();
+    const auto &row = problem.lattice->row(direction);
+    if (row.periodic() && row.size() == 1)
+      return; // what a point gives to itself
+    auto pairs = problem.lattice->owned();
     if (row.periodic() || pairs.lower[direction] > 0)
       --pairs.lower[direction];
     if (!row.periodic())

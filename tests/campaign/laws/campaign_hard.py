@@ -43,7 +43,7 @@ def plan(options):
     more = {"Maximum steps": str(QUICK_STEPS)} if options.quick else {}
     points = []
     for dim, count in (QUICK_SCENES if options.quick else SCENES).items():
-        for number in range(options.first, options.first + min(options.scenes or count, SCENES[dim])):
+        for number in range(options.first, options.first + (options.scenes or count)):
             drawn = hard_scenes.drawn(options.seed, dim, number)
             points.append(Point(drawn.name, lambda program, drawn=drawn: measure(program, drawn, more)))
     return Plan(points, shares)

@@ -10,7 +10,10 @@ ENERGIES = ("Fluid kinetic energy", "solid kinetic energy", "solid elastic energ
 def energies(run):
     """Kinetic and elastic energy of fluid and bodies in every row [J]. What contact stores is left out, which makes a
     bound from above only milder."""
-    columns = [run.columns[name] for name in ENERGIES if name in run.columns]
+    if not run.columns:
+        return []
+    of_fluid, *of_bodies = ENERGIES
+    columns = [run.columns[name] for name in (*([of_fluid] if of_fluid in run.columns else []), *of_bodies)]
     return [sum(values) for values in zip(*columns)]
 
 
@@ -25,7 +28,7 @@ class LoadedBody:
     def depths(self, run, surface):
         """Of every row: the integral of surface - y over what the body takes below that height [m^(dim+1)]."""
         places = self.outline.places(run)
-        for at, expected in zip(places[:1], run.column(f"volume {self.name}")):
+        for at, expected in zip(places[:1], run.columns[f"volume {self.name}"]):
             if abs(self.outline.volume(at) - expected) > 1e-6 * expected:
                 raise ValueError(f"the outline of body {self.name} takes {self.outline.volume(at)} m^dim instead of {expected}")
         return [self.outline.depth(at, surface) for at in places]

@@ -35,7 +35,9 @@ class Run:
 
     def redone(self):
         """The share of steps that were cut and carried out again."""
-        cuts, steps = sum(self.column("Step cuts")), len(self.times()) - 1
+        if not self.columns:
+            return 0
+        cuts, steps = sum(self.columns["Step cuts"]), len(self.times()) - 1
         return cuts / max(1, cuts + steps)
 
 

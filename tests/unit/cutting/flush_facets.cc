@@ -77,3 +77,14 @@ TEST_CASE("Facets that face each other at a plane of the grid stay where they ar
   CHECK_FALSE(moved(0.));
   CHECK(moved(.5));
 }
+
+
+TEST_CASE("Both sides of a thin plate at a plane of the grid are moved", "[interface]")
+{
+  // There is solid between them, not a gap that must stay open.
+  const auto planes = fifths<2>();
+  const auto plate  = box<2>({.4 + 1e-5, .25}, {.4 + 1.6e-4, .65}, {{1, 2}});
+  const auto moved  = beyond_planes(planes, plate.surface(), plate.nodes);
+  for (std::size_t node = 0; node < moved.size(); ++node)
+    CHECK(planes.slab(0, moved[node][0]) == (plate.nodes[node][0] < .4 + 1e-4 ? 1 : 2));
+}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
 #include <undine/cutting/cut_report.h>
+#include <undine/cutting/sampled_regions.h>
+#include <undine/surface/simplex.h>
 
 #include <catch2/catch.hpp>
 #include <cutting/wrong_bodies.h>
@@ -217,4 +219,63 @@ TEST_CASE("An inverted body is flagged in every cell with a node in it", "[inter
   const auto result  = report(cut_all<2>(planes, surface, body.nodes), surface, MPI_COMM_SELF);
   CHECK(result.flagged_cells == result.cut_cells);
   CHECK_THAT(result.message, Contains("is inside out near ("));
+}
+
+
+namespace
+{
+  /// The facets [dim] of a wall across a unit box at this height along axis 0, with this normal.
+  template <int dim>
+  void
+  add_wall(std::vector<typename SampledRegions<dim>::Simplex> &facets,
+           const double                                        height,
+           const double                                        normal)
+  {
+    const auto add = [&](const std::vector<std::array<double, 2>> &corners) {
+      typename SampledRegions<dim>::Simplex facet;
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          facet[k][0] = height;
+          for (unsigned int d = 1; d < dim; ++d)
+            facet[k][d] = corners[k][d - 1];
+        }
+      if (area_vector(facet)[0] * normal < 0)
+        std::swap(facet[0], facet[1]);
+      facets.push_back(facet);
+    };
+    if (dim == 3)
+      {
+        add({{{0, 0}}, {{1, 0}}, {{1, 1}}});
+        add({{{0, 0}}, {{1, 1}}, {{0, 1}}});
+      }
+    else
+      add({{{0, 0}}, {{1, 0}}});
+  }
+} // namespace
+
+
+TEMPLATE_TEST_CASE_SIG("What is thinner than samples are apart parts the fluid in sampled cells",
+                       "[interface]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  std::vector<typename SampledRegions<dim>::Simplex> facets;
+  add_wall<dim>(facets, .699, -1);
+  add_wall<dim>(facets, .701, 1);
+  const SampledRegions<dim> sampled({}, dealii::Tensor<1, dim>(all_equal<dim>(1.)), {}, {}, facets);
+  REQUIRE(sampled.regions().size() == 2);
+  double least = 1, most = 0;
+  for (const auto &region : sampled.regions())
+    {
+      least = std::min(least, region.volume);
+      most  = std::max(most, region.volume);
+    }
+  CHECK(least == Approx(.3).margin(.1));
+  CHECK(most == Approx(.7).margin(.1));
+  auto below = all_equal<dim>(.5), above = below;
+  below[0] = .698;
+  above[0] = .702;
+  CHECK(sampled.nearest(dealii::Point<dim>(dealii::Tensor<1, dim>(below))) !=
+        sampled.nearest(dealii::Point<dim>(dealii::Tensor<1, dim>(above))));
 }

@@ -179,32 +179,6 @@ namespace
     CHECK(vector.l1_norm() > 0);
   }
 
-
-  /// u . S^T D S v = (S u) . D (S v), S v being the values in the nodes.
-  template <int dim>
-  void
-  check_diagonal(const unsigned int degree)
-  {
-    INFO(dim << "D degree " << degree);
-    const auto                          model = two_bodies<dim>(degree, MPI_COMM_WORLD);
-    const BodySurface<dim>              surface(model);
-    std::vector<dealii::Tensor<1, dim>> values(surface.n_nodes());
-    auto                                v = deformation(model), u = v;
-    u.scale(v);
-    const auto of_u = surface.gather(u), of_v = surface.gather(v);
-    double     exact = 0;
-    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        {
-          values[node][axis] = 1 + node % 7 + axis;
-          exact += of_u[node][axis] * values[node][axis] * of_v[node][axis];
-        }
-    auto matrix = model.matrix();
-    surface.add_diagonal(matrix, values, dealii::IndexSet(model.vector().size()));
-    auto product = model.vector();
-    matrix.vmult(product, v);
-    CHECK(u * product == Approx(exact).epsilon(1e-12));
-  }
 } // namespace
 
 
@@ -224,15 +198,6 @@ TEST_CASE("A uniform pressure has the nodal forces of the finite elements", "[in
   check_uniform_pressure<2>(2);
   check_uniform_pressure<3>(1);
   check_uniform_pressure<3>(2);
-}
-
-
-TEST_CASE("A diagonal over nodes is a matrix over degrees of freedom", "[interface][mpi]")
-{
-  check_diagonal<2>(1);
-  check_diagonal<2>(2);
-  check_diagonal<3>(1);
-  check_diagonal<3>(2);
 }
 
 

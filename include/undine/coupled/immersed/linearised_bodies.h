@@ -78,11 +78,14 @@ namespace undine
     double
     rounding(const Vector &change) const override;
     void
-    prepare(const Vectors &damping) override;
+    prepare(const std::array<NodeDampings, dim> &damping) override;
     Vector
     approximate_change(const Vector &force) const override;
 
   private:
+    template <class Action>
+    void
+    for_each_entry(const std::array<NodeDampings, dim> &damping, const Action &action) const;
     Vector
     by_turning_stress(const Vectors &velocities) const;
 

@@ -2,9 +2,12 @@
 #ifndef undine_fluid_viscosity_body_impedance_h
 #define undine_fluid_viscosity_body_impedance_h
 
+#include <undine/fluid/viscosity/node_damping.h>
+
 #include <deal.II/base/tensor.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <array>
 #include <vector>
 
 namespace undine
@@ -61,9 +64,9 @@ namespace undine
     rounding(const Vector &change) const = 0;
 
     /// Prepare approximate_change() for a fluid whose friction resists the motion of nodes with
-    /// `damping` [kg/s] along each axis. Throws SolveError.
+    /// `damping` along each axis, the same on all ranks. Throws SolveError.
     virtual void
-    prepare(const Vectors &damping) = 0;
+    prepare(const std::array<NodeDampings, dim> &damping) = 0;
 
     /// About (Z + damping)^{-1} of forces [m/s]; need not be linear.
     virtual Vector

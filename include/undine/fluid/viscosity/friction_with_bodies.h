@@ -17,8 +17,9 @@ namespace undine
   ///     A_i v_i + h K_i P du           = load_i    [kg m/s]
   ///     h Z du - h P^T F(v, u0 + P du) = h load    [kg m/s]
   ///
-  /// by flexible GMRES, preconditioned by the block triangle of the A_i and of Z with the damping
-  /// that stands for the Schur complement.
+  /// by flexible GMRES, preconditioned by the block triangle of the A_i and of Z with a damping
+  /// that stands for the Schur complement: of each node by itself, or, if that takes too many
+  /// iterations, a matrix.
   template <int dim>
   class FrictionWithBodies
   {
@@ -62,6 +63,8 @@ namespace undine
     tolerance(const BlockVector &right_side) const;
     unsigned int
     iterate(const BlockVector &right_side, unsigned int most_iterations);
+    void
+    precondition_by_matrix();
 
     const Equations     equations;
     BodyImpedance<dim> &bodies;

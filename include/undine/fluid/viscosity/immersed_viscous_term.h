@@ -4,6 +4,7 @@
 
 #include <undine/fluid/viscosity/convective_term.h>
 #include <undine/fluid/viscosity/diffusion_solver.h>
+#include <undine/fluid/viscosity/node_damping.h>
 #include <undine/fluid/viscosity/viscous_terms.h>
 
 #include <memory>
@@ -110,9 +111,13 @@ namespace undine
     }
     /// @}
 
-    /// An estimate of the resistance of the fluid to the motion of each node [kg/s].
+    /// An estimate of the resistance of the fluid to the motion of the nodes as a matrix, and the
+    /// sums of the sizes in its rows [kg/s]. The same on all ranks. Collective. @{
+    NodeDampings
+    damping_matrix() const;
     Motion
     damping() const;
+    /// @}
     /// @}
 
     /// v becomes `solution`, and the velocities of nodes change; finds the forces. Collective.
@@ -132,6 +137,12 @@ namespace undine
 
   private:
     using Number = typename FaceUnknowns<dim>::Number;
+
+    /// Call `action(term, weight)` for the terms with nodes, `weight` being what the fluid leaves
+    /// of that of the term [kg/s].
+    template <class Action>
+    void
+    for_each_damping(const Action &action) const;
 
     void
     set_up_friction(const double dt, const DualFluxes<dim> *fluxes);

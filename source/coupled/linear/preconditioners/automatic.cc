@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <undine/base/core/errors.h>
 #include <undine/base/core/registry.h>
 #include <undine/coupled/linear/band_correction.h>
 
@@ -55,10 +56,15 @@ namespace undine
     vmult(BlockVector &result, const BlockVector &right_side) const override
     {
       if (!is_corrected && n_calls++ == most_calls)
-        {
-          corrected.initialize(*system, *schur, tangent_inverse);
-          is_corrected = true;
-        }
+        try
+          {
+            corrected.initialize(*system, *schur, tangent_inverse);
+            is_corrected = true;
+          }
+        catch (const SolveError &)
+          {
+            // Without factors of the band, for want of memory say, the solve goes on as it was.
+          }
       if (is_corrected)
         corrected.vmult(result, right_side);
       else
