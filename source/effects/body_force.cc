@@ -11,9 +11,7 @@ namespace undine
   /// explicit at the end of the step, and on bodies that it names, there of the place at rest. Its
   /// work is sum rho V h a (v + h a / 2) on the fluid and int f dX times the change of d on bodies.
   ///
-  /// Where bodies cut the grid a force acts on a piece of area A_f as pressure does, along the
-  /// segment from one pressure to the other: with (A_f / V_f) a.(x_1 - x_0) for a, a uniform force
-  /// is the gradient of a pressure, exactly, and fluid that it cannot move stays at rest.
+  /// Where bodies cut the grid a force acts as pressure does, see acting_on_piece().
   template <int dim>
   class BodyForce : public Effect<dim>
   {
@@ -87,12 +85,9 @@ namespace undine
               return acceleration(step, component.lattice().point(face))[axis];
             },
             [&](const unsigned int piece) {
-              const auto &open = *component.topology();
               const auto &part = component.divided()->all()[piece];
-              const auto  across =
-                place(grid, open, axis, piece, 1) - place(grid, open, axis, piece, 0);
-              return acceleration(step, part.place) * across * part.measure /
-                     open.pieces[axis][piece].volume;
+              return acting_on_piece(
+                grid, *component.topology(), axis, piece, acceleration(step, part.place));
             });
         }
     }
@@ -114,25 +109,6 @@ namespace undine
     {
       return on_fluid.acceleration.vector(place, step.end) +
              on_fluid.per_volume.vector(place, step.end) / step.model.density();
-    }
-
-
-    /// Where the pressure below (0) or above (1) a piece is, taken as the centroid of its
-    /// component; at a side of the domain the piece's own.
-    static dealii::Point<dim>
-    place(const MacGrid<dim>       &grid,
-          const FluidTopology<dim> &open,
-          const unsigned int        axis,
-          const unsigned int        piece,
-          const unsigned int        end)
-    {
-      const auto &part   = open.faces[axis].all()[piece];
-      const int   beside = open.pieces[axis][piece].components[end];
-      if (beside == FluidTopology<dim>::outside)
-        return part.place;
-      if (beside == FluidTopology<dim>::whole)
-        return grid.cells()->point(moved<dim>(part.index, axis, int(end) - 1));
-      return open.cells.all()[beside].place;
     }
 
 

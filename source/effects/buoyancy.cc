@@ -95,7 +95,7 @@ namespace undine
           scalar.exchange(1);
           step.timing.memory.hold_briefly(this->name, scalar.memory_consumption());
           for (unsigned int axis = 0; axis < dim; ++axis)
-            if (step.gravity[axis] != 0)
+            if (step.gravity[axis] != 0 || step.state.velocity[axis].divided())
               accelerate_along(step, scalar, lift, axis);
         }
     }
@@ -135,7 +135,9 @@ namespace undine
           return factor * (on_face(scalar, grid, axis, face) - lift.reference);
         },
         [&](const unsigned int piece) {
-          return factor * (mean_of_ends(scalar, *open, axis, piece) - lift.reference);
+          const double s = mean_of_ends(scalar, *open, axis, piece);
+          return acting_on_piece(
+            grid, *open, axis, piece, -lift.expansion * (s - lift.reference) * step.gravity);
         });
     }
 
@@ -158,7 +160,8 @@ namespace undine
     }
 
 
-    /// Mean of the values on both sides of a piece, or of the one inside the domain.
+    /// Mean of the values on both sides of a piece, that along the segment between them if s is
+    /// linear, or of the one inside the domain.
     static double
     mean_of_ends(const Field<dim>         &scalar,
                  const FluidTopology<dim> &open,

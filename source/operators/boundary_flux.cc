@@ -69,13 +69,14 @@ namespace undine
   template <int dim>
   BoundaryFlux<dim>::BoundaryFlux(const CutCells<dim>                   &cut,
                                   const Surface<dim>                    &surface,
+                                  const std::vector<dealii::Point<dim>> &place,
                                   const std::vector<dealii::Point<dim>> &before,
                                   const std::vector<dealii::Point<dim>> &after)
     : n_components(cut.components.size())
     , n_nodes(surface.n_nodes())
   {
     add_entries(cut, surface, [&](const auto &fragment) {
-      return share_of_facet(fragment, surface, before) *
+      return share_of_facet(fragment, surface, place) *
              mean_area_vector(surface, fragment.facet, before, after);
     });
   }

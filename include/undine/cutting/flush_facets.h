@@ -14,7 +14,7 @@ namespace undine
   constexpr double flush_reach = 1e-3;
 
   /// The positions [nodes] [m] at which surfaces shall cut the grid, for nodes at `positions`:
-  /// facets that lie along a plane inside the grid, on the fluid's side of it or in it, are moved
+  /// facets that lie along a plane inside the grid, on the solid's side of it or in it, are moved
   /// to where the solid reaches just beyond the plane. Between them and the plane there would be
   /// components of almost no thickness, each with a pressure of its own, through which fluid flows
   /// around the corners of bodies; two sides of a body, one on either side of a plane, would

@@ -40,6 +40,35 @@ namespace undine
     set_means(component, grid);
     step.work = work;
   }
+
+
+  /// An acceleration a [m/s^2] as it acts on a piece of area A_f, along the segment from the
+  /// pressure below to the one above, x_0 and x_1, taken as the centroids of their components (at a
+  /// side of the domain as that of the piece):
+  ///
+  ///     (A_f / V_f) a . (x_1 - x_0)                                                    [m/s^2]
+  ///
+  /// A uniform force is then the gradient of a pressure, exactly, and fluid that it cannot move
+  /// stays at rest.
+  template <int dim>
+  double
+  acting_on_piece(const MacGrid<dim>           &grid,
+                  const FluidTopology<dim>     &open,
+                  const unsigned int            axis,
+                  const unsigned int            piece,
+                  const dealii::Tensor<1, dim> &acceleration)
+  {
+    const auto &part  = open.faces[axis].all()[piece];
+    const auto  place = [&](const unsigned int end) {
+      const int beside = open.pieces[axis][piece].components[end];
+      if (beside == FluidTopology<dim>::outside)
+        return part.place;
+      if (beside == FluidTopology<dim>::whole)
+        return grid.cells()->point(moved<dim>(part.index, axis, int(end) - 1));
+      return open.cells.all()[beside].place;
+    };
+    return acceleration * (place(1) - place(0)) * part.measure / open.pieces[axis][piece].volume;
+  }
 } // namespace undine
 
 #endif

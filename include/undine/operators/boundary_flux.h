@@ -39,11 +39,13 @@ namespace undine
     /// B where the surface was cut. Not collective.
     BoundaryFlux(const CutCells<dim> &cut, const Surface<dim> &surface);
 
-    /// The mean of B over a motion in which all nodes go straight on from `before`, where the
-    /// surface was cut, to `after`, each fragment with its facet: with w = (after - before) / h, h
-    /// B w is the volume that the surface sweeps, exactly. Positions [nodes] [m].
+    /// The mean of B over a motion in which all nodes go straight on from `before` to `after`, each
+    /// fragment with its facet, of which it is the part that it was when the surface was cut at
+    /// `place`: with w = (after - before) / h, h B w is the volume that the surface sweeps,
+    /// exactly. Positions [nodes] [m].
     BoundaryFlux(const CutCells<dim>                   &cut,
                  const Surface<dim>                    &surface,
+                 const std::vector<dealii::Point<dim>> &place,
                  const std::vector<dealii::Point<dim>> &before,
                  const std::vector<dealii::Point<dim>> &after);
 

@@ -128,8 +128,11 @@ namespace undine
         after              = before;
         for (std::size_t node = 0; node < after.size(); ++node)
           after[node] += dt * this->velocities[node];
-        mean = std::make_unique<const BoundaryFlux<dim>>(
-          this->geometry.cut_cells(), this->models.surface->surface(), before, after);
+        mean = std::make_unique<const BoundaryFlux<dim>>(this->geometry.cut_cells(),
+                                                         this->models.surface->surface(),
+                                                         this->geometry.cut_positions(),
+                                                         before,
+                                                         after);
         this->use(*mean);
       }
 
@@ -170,11 +173,14 @@ namespace undine
         const auto &immersed = *this->models.surface;
         const auto &surface  = immersed.surface();
         const auto &before   = this->geometry.surface_positions();
-        const auto  loads    = pressures_on_facets(
-          this->geometry.cut_cells(), surface, before, pressures, this->models.communicator());
-        const auto corners = dealii::BoundingBox<dim>(before).get_boundary_points();
-        const auto length  = corners.first.distance(corners.second);
-        auto       place   = after;
+        const auto  loads    = pressures_on_facets(this->geometry.cut_cells(),
+                                               surface,
+                                               this->geometry.cut_positions(),
+                                               pressures,
+                                               this->models.communicator());
+        const auto  corners  = dealii::BoundingBox<dim>(before).get_boundary_points();
+        const auto  length   = corners.first.distance(corners.second);
+        auto        place    = after;
         for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
           for (const unsigned int moved : surface.facets()[facet])
             for (unsigned int axis = 0; axis < dim && immersed.moves(moved); ++axis)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/errors.h>
+#include <undine/base/parallel/interruption.h>
 #include <undine/coupled/scheme/relaxation.h>
 
 #include <fmt/format.h>
@@ -53,6 +54,8 @@ namespace undine
     int    pieces = 0; // since the last stop
     for (unsigned int k = 0; k < most_pieces; ++k)
       {
+        if (interruption_requested()) // the engine looks less often than pieces end
+          throw particles::FrameAbandoned("the motion to an equilibrium was abandoned.");
         add(sum, engine.advance(piece));
         since_stop += piece;
         ++pieces;

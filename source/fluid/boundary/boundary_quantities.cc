@@ -145,7 +145,15 @@ namespace undine
             if (d != side.axis)
               area *= d == axis ? grid.dual_width(d, point[d]) : grid.cell_width(d, point[d]);
           const double distance = grid.cell_width(side.axis, point[side.axis]) / 2;
-          const auto   on_wall  = moved<dim>(point, side.axis, side.sign());
+          // What bodies cover feels nothing; of cut faces the open part counts, with its mean.
+          if (const auto *divided = state.velocity[axis].divided())
+            {
+              double open = divided->kind(point) == SubLattice<dim>::Kind::whole ? 1. : 0.;
+              for (int k = divided->first(point); k < divided->last(point); ++k)
+                open += divided->all()[k].measure / grid.face_area(axis, point);
+              area *= open;
+            }
+          const auto on_wall = moved<dim>(point, side.axis, side.sign());
           for_each_boundary_around(
             boundaries,
             lattice,

@@ -334,7 +334,7 @@ namespace undine
             speeds[region] = sum / compliant[region];
             continue;
           }
-        if (std::abs(sum) > 1e-8 * sizes[region] + uncertainty[region])
+        if (std::abs(sum) > 1e-10 * sizes[region] + uncertainty[region])
           throw NoOutletError(fmt::format(
             "{}: at {:.6g} s {:.6g} m^{}/s in sum flow out of {}. Likely an obstacle grows or "
             "shrinks, leaves the domain or enters it, moves into another one, or seals a place "

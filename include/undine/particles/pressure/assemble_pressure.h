@@ -49,6 +49,17 @@ namespace undine::particles
   }
 
 
+  /// The part of a sub-step of `dt` after which the fluid's volume is kept: all of it, in a full
+  /// domain as far as its path is determined by the pressures [s].
+  template <int dim, class Real>
+  UNDINE_HOST_DEVICE
+  Real
+  projected_time(const Constants<dim, Real> &constants, const Real dt)
+  {
+    return constants.is_full ? constants.path_weight * dt : dt;
+  }
+
+
   /// Fills the matrix of the pressure equation, its diagonal and that of the equation for the
   /// potentials of the virtual faces,
   ///     sum_j k_ij (L_i - L_j) = -sum_j a_ij of L = 0,
@@ -180,9 +191,9 @@ namespace undine::particles
     compressibility(const Tag tag) const
     {
       const Real dt = static_cast<Real>(control->dt);
-      return tag.material() > 0
-               ? Real(0)
-               : pressure_scale(constants) * constants.fluid_compressibility / (dt * dt);
+      return tag.material() > 0 ? Real(0)
+                                : pressure_scale(constants) * constants.fluid_compressibility /
+                                    (dt * projected_time(constants, dt));
     }
   };
 
@@ -226,14 +237,11 @@ namespace undine::particles
     }
 
   private:
-    /// The part of the sub-step after which the fluid's volume is kept: all of it, in a full domain
-    /// as far as its path is determined by the pressures [s].
     UNDINE_HOST_DEVICE
     Real
     projected_time() const
     {
-      const Real dt = static_cast<Real>(control->dt);
-      return constants.is_full ? constants.path_weight * dt : dt;
+      return undine::particles::projected_time(constants, static_cast<Real>(control->dt));
     }
 
     /// The divergence at a particle of a body by faces to the fluid: of a
@@ -299,9 +307,9 @@ namespace undine::particles
             return ((constants.is_full ? error_in_motion(dt)
                                        : share(dt) * (neighbourhood.fillings[i] - 1 -
                                                       constants.filling_growth * loss) +
-                                           crowding(i, dt)) +
-                    loss) /
-                     (dt * dt) -
+                                           crowding(i, dt)) /
+                      (dt * dt) +
+                    loss / (dt * projected_time())) -
                    divergence(i, tag) / projected_time();
         }
     }

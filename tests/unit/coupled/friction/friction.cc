@@ -199,3 +199,15 @@ TEST_CASE("Friction is bounded at any viscosity", "[friction]")
   CHECK(fastest(1e6) >= .9);
   CHECK(fastest(1e6) <= 1.001);
 }
+
+
+TEST_CASE("A wall feels no friction where a body covers it", "[friction]")
+{
+  ObstacleRun<2> run(
+    FluidText{"8, 8", boundary("lid", "top", "moving wall", "set Velocity = 3; 0")},
+    section("roof", "set Lower corner = -.1, .75\nset Upper corner = 1.1, 1.1"),
+    viscosity(2.),
+    .1);
+  run.step();
+  CHECK(run.column("Viscous force on lid, x") == 0);
+}
