@@ -49,7 +49,7 @@ def report(search):
 def default_column(columns):
     """The displacement of a probe, else what a probe measures, else a force, with all components that these have, else the
     fluid's kinetic energy."""
-    for word in (" displacement ", " velocity ", " front", "pressure force ", "inetic energy"):
+    for word in (" displacement ", " velocity ", "front", "pressure force ", "inetic energy"):
         for name in columns:
             vector = re.sub(" [xyz]$", "", name)
             components = [values for other, values in columns.items() if re.sub(" [xyz]$", "", other) == vector]

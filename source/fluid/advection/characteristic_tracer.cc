@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace undine
 {
   namespace
@@ -270,7 +272,10 @@ namespace undine
             }
         if (when > 1)
           break;
-        const auto  hit      = place + when * path;
+        auto hit = place + when * path;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!grid.periodic(d)) // it may have been bent along a wall before
+            hit[d] = std::clamp(hit[d], grid.lower()[d], grid.upper()[d]);
         const auto &boundary = fluid_model.boundaries().at(side, hit);
         if (boundary.lets_fluid_pass())
           return {hit, true};

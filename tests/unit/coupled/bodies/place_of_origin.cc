@@ -28,27 +28,36 @@ namespace
                           "\nset Cells = 1, 6\nset Density = 1200\nset Young's modulus = 1e6\n"
                           "set Poisson's ratio = .3",
                         clamp("root", at(0) + "-y"))) +
-           section("Effects", section("gravity", "set Acceleration = 0, -9.81") + friction) +
-           section("Output", "set Energy account = true");
+           section("Effects", section("gravity", "set Acceleration = 0, -9.81") + friction);
   }
 } // namespace
 
 
 TEST_CASE("Bodies under gravity do not know where the origin is", "[coupled]")
 {
-  for (const auto &friction : {std::string(), section("viscosity", "set Dynamic viscosity = 1")})
+  // Without the monitor, whose account takes the level of the pressure for an exchange with
+  // `swept`.
+  const auto account = section("Output", "set Energy account = true");
+  const auto swept   = section("Time", "set Integrator = theta\nset Energy monitor = off") +
+                     section("Coupling", "set Boundary flux = swept");
+  const auto friction = section("viscosity", "set Dynamic viscosity = 1");
+  for (const auto &[effects, integrator] :
+       {std::pair<std::string, std::string>{"", account}, {friction, account}, {"", swept}})
     {
-      INFO(friction);
-      CoupledRun<2> near(sheet_in_stream(0, friction)), far(sheet_in_stream(1000, friction));
+      INFO(effects << integrator);
+      CoupledRun<2> near(sheet_in_stream(0, effects) + integrator),
+        far(sheet_in_stream(1000, effects) + integrator);
       for (unsigned int n = 0; n < 3; ++n)
         {
           near.step();
           far.step();
-          for (const auto &name : {"Fluid kinetic energy",
-                                   "solid kinetic energy",
-                                   "solid elastic energy",
-                                   "energy exchanged"})
+          for (const std::string name : {"Fluid kinetic energy",
+                                         "solid kinetic energy",
+                                         "solid elastic energy",
+                                         "energy exchanged"})
             {
+              if (name == "energy exchanged" && integrator == swept)
+                continue;
               INFO(name);
               CHECK(far.column(name) == Approx(near.column(name)).epsilon(1e-6));
             }

@@ -25,6 +25,7 @@ namespace
       {
         const double width = .05 + 1.1 * run.state.clock.time;
         run.step();
+        CHECK(run.column("Flux through out") == Approx(-1.1));
         // All of it as fast as what entered in the step before, in the mean.
         const double bound = std::pow(1.1 / narrower, 2) / 2 * width;
         narrower           = width;
