@@ -49,11 +49,11 @@ def report(search):
 def default_column(columns):
     """The displacement of a probe, else what a probe measures, else a force, with all components that these have, else the
     fluid's kinetic energy."""
-    for word in (" displacement ", " velocity ", "front", "pressure force ", "inetic energy"):
+    for word in (" displacement ", " velocity ", " front", "pressure force ", "inetic energy"):
         for name in columns:
             vector = re.sub(" [xyz]$", "", name)
             components = [values for other, values in columns.items() if re.sub(" [xyz]$", "", other) == vector]
-            if word in name and max(abs(values).max() for values in components) > 0:
+            if word in f" {name}" and max(abs(values).max() for values in components) > 0:
                 return vector
     raise Refused("name a column of 'statistics' with --of")
 
