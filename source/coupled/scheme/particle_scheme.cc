@@ -53,7 +53,7 @@ namespace undine
     }
 
 
-    /// How far a frame is, and what has bounded most of its sub-steps since `before`.
+    /// How far a frame is, and what has bounded most of its sub-steps since `last`.
     std::string
     progress_of_frame(const particles::StepControl &now, const particles::StepControl &last)
     {

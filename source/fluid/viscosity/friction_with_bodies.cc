@@ -80,9 +80,10 @@ namespace undine
     x.reinit(dim + 1);
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
-        x.block(axis)  = equations[axis]->guess();
-        matrices[axis] = diagonal(equations[axis]->damping());
-        set_along(of_nodes, axis, equations[axis]->damping());
+        x.block(axis)      = equations[axis]->guess();
+        const auto damping = equations[axis]->damping();
+        matrices[axis]     = diagonal(damping);
+        set_along(of_nodes, axis, damping);
       }
     x.block(dim) = bodies.vector();
     x.collect_sizes();
