@@ -80,9 +80,10 @@ namespace undine
   };
 
 
-  /// The volume that the surface, whose nodes were at `place` when it was cut, sweeps out of each
-  /// component while they move straight from `before` by `increment` [m], each fragment with its
-  /// facet; exact, [CutCells::components] [m^dim]. Zero in cells of the halo, unless asked for.
+  /// The volume of fluid that leaves each component's place, as the surface gives way (negative
+  /// where it pushes): its nodes were at `place` when it was cut and move straight from `before` by
+  /// `increment` [m], each fragment with its facet; exact, [CutCells::components] [m^dim]. By it
+  /// components grow. Zero in cells of the halo, unless asked for.
   template <int dim>
   std::vector<double>
   swept_volumes(const CutCells<dim>                       &cut,
