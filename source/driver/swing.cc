@@ -34,7 +34,7 @@ namespace undine
     constexpr double       least_root     = 0.95;        // noise makes a root smaller than it is
     constexpr double       longest_period = 4;           // steps
     constexpr double       clear = 4, very_clear = 1000; // times the share of noise
-    constexpr unsigned int often_enough      = 4;        // more steps in which it grows than others
+    constexpr unsigned int often_enough      = 3;        // more steps in which it grows than others
     constexpr double       a_third           = 1. / 3;
     constexpr unsigned int steps_of_rest     = 48;
     constexpr unsigned int least_window      = 6; // in which a mode shows
@@ -121,18 +121,20 @@ namespace undine
   Swing::look_for_growth()
   {
     for (auto *track : {&sure, &unsure})
-      track->n_seen -= track->n_seen > 0;
-    for (auto window = swing_windows.rbegin(); window != swing_windows.rend(); ++window)
+      track->is_seen = false;
+    for (auto window = swing_windows.rbegin(); window != swing_windows.rend() && !sure.is_seen;
+         ++window)
       if (moments.size() > window->length)
         if (const auto mode = growing_mode(*window))
           {
             auto &track = mode->is_exponential ? sure : unsure;
-            track.n_seen += 2; // one more than before
+            track.n_seen += !track.is_seen;
+            track.is_seen = true;
             if (track.n_seen >= often_enough)
               note(track, window->length, *mode);
-            if (mode->is_exponential)
-              return;
           }
+    for (auto *track : {&sure, &unsure})
+      track->n_seen -= !track->is_seen && track->n_seen > 0;
   }
 
 

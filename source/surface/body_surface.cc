@@ -5,6 +5,9 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_tools.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
 
 #include <unordered_map>
 
@@ -325,17 +328,38 @@ namespace undine
 
   template <int dim>
   void
-  BodySurface<dim>::add_derivative(Matrix                       &matrix,
-                                   const unsigned int            node,
-                                   const unsigned int            moved,
-                                   const unsigned int            axis,
-                                   const dealii::Tensor<1, dim> &change) const
+  BodySurface<dim>::add_derivatives(Matrix                              &matrix,
+                                    const std::array<unsigned int, dim> &nodes,
+                                    const FacetMatrices                 &changes) const
   {
-    for (const auto &row : shares(node))
-      for (unsigned int i = 0; i < dim; ++i)
-        if (matrix.in_local_range(row.dofs[i]) && change[i] != 0)
-          for (const auto &column : shares(moved))
-            matrix.add(row.dofs[i], column.dofs[axis], row.weight * column.weight * change[i]);
+    // Each degree of freedom once, although nodes share corners: entries cost most.
+    std::vector<Index> own;
+    const auto         place = [&](const Share &share) -> unsigned int {
+      const auto found  = std::find(own.begin(), own.end(), share.dofs[0]);
+      const auto result = found - own.begin();
+      if (found == own.end())
+        own.insert(own.end(), share.dofs.begin(), share.dofs.end());
+      return result;
+    };
+    std::array<std::vector<unsigned int>, dim> places;
+    for (unsigned int k = 0; k < dim; ++k)
+      for (const auto &share : shares(nodes[k]))
+        places[k].push_back(place(share));
+
+    dealii::FullMatrix<double> values(own.size());
+    for (unsigned int k = 0; k < dim; ++k)
+      for (std::size_t r = 0; r < places[k].size(); ++r)
+        for (unsigned int m = 0; m < dim; ++m)
+          for (std::size_t c = 0; c < places[m].size(); ++c)
+            {
+              const double weight = shares(nodes[k])[r].weight * shares(nodes[m])[c].weight;
+              for (unsigned int i = 0; i < dim; ++i)
+                for (unsigned int axis = 0; axis < dim; ++axis)
+                  values(places[k][r] + i, places[m][c] + axis) += weight * changes[k][m][i][axis];
+            }
+    for (unsigned int row = 0; row < own.size(); ++row)
+      if (matrix.in_local_range(own[row]))
+        matrix.add(own[row], own.size(), own.data(), &values(row, 0));
   }
 
 

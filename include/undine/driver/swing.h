@@ -84,7 +84,8 @@ namespace undine
       std::optional<Growth> growth;
       double                first_size = 0; ///< of the jumps
       unsigned int          first_step = 0, window = 0;
-      unsigned int          n_seen = 0; ///< how many more steps show it than do not
+      unsigned int          n_seen  = 0;     ///< how many more steps show it than do not
+      bool                  is_seen = false; ///< in the last step
     };
 
     void

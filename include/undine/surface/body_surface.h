@@ -103,14 +103,15 @@ namespace undine
     void
     add(Vector &vector, const std::vector<dealii::Tensor<1, dim>> &values) const;
 
-    /// Add to the rows of this rank by how much the force in `node` changes [N/m] as `moved` moves
-    /// along `axis`. Both nodes move; the entries must be in the pattern. Not collective.
+    /// [k][m]: how the force in the k-th node of a facet changes as its m-th node moves [N/m].
+    using FacetMatrices = std::array<std::array<dealii::Tensor<2, dim>, dim>, dim>;
+
+    /// Add these to the rows of this rank, of nodes that do not move nothing; the entries must be
+    /// in the pattern. Not collective.
     void
-    add_derivative(Matrix                       &matrix,
-                   unsigned int                  node,
-                   unsigned int                  moved,
-                   unsigned int                  axis,
-                   const dealii::Tensor<1, dim> &change) const;
+    add_derivatives(Matrix                              &matrix,
+                    const std::array<unsigned int, dim> &nodes,
+                    const FacetMatrices                 &changes) const;
 
   private:
     using Corners = std::vector<unsigned int>; ///< those around a node; of corners none

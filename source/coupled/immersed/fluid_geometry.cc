@@ -235,11 +235,18 @@ namespace undine
 
 
   template <int dim>
+  std::vector<double>
+  FluidGeometry<dim>::void_pressures(const double time) const
+  {
+    return void_regions == nullptr ? std::vector<double>() : void_regions->pressures(voids, time);
+  }
+
+
+  template <int dim>
   typename FluidGeometry<dim>::Velocities
   FluidGeometry<dim>::void_forces(const double time) const
   {
-    return nodal_forces(
-      *flux_operator, void_regions->pressures(voids, time), model.grid().communicator());
+    return nodal_forces(*flux_operator, void_pressures(time), model.grid().communicator());
   }
 
 

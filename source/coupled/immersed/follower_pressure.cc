@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/base/core/disjoint_sets.h>
+#include <undine/coupled/immersed/facet_stiffness.h>
 #include <undine/coupled/immersed/follower_pressure.h>
-
-#include <deal.II/base/bounding_box.h>
 
 namespace undine
 {
@@ -69,8 +68,6 @@ namespace undine
   }
 
 
-  /// An area vector is an affine function of the place of each single node, so that differences
-  /// over any length are derivatives, of facets without an area, too.
   template <int dim>
   void
   FollowerPressure<dim>::subtract_stiffness(Matrix       &tangent,
@@ -79,26 +76,17 @@ namespace undine
   {
     if (!is_on())
       return;
-    const auto &bodies    = *surface.bodies();
-    const auto &facets    = bodies.surface();
-    auto        positions = bodies.positions(displacement);
-    const auto  corners   = dealii::BoundingBox<dim>(positions).get_boundary_points();
-    const auto  length    = corners.first.distance(corners.second);
-    for (unsigned int facet = 0; facet < facets.facets().size(); ++facet)
-      for (const unsigned int moved : facets.facets()[facet])
-        for (unsigned int axis = 0; axis < dim && surface.moves(moved); ++axis)
-          {
-            const auto place  = positions[moved];
-            const auto before = area_vector(facets, facet, positions);
-            positions[moved][axis] += length;
-            const auto change = (area_vector(facets, facet, positions) - before) / length;
-            positions[moved]  = place;
-            for (const unsigned int node : facets.facets()[facet])
-              if (surface.moves(node))
-                bodies.add_derivative(
-                  tangent, node, moved, axis, factor * pressures[node] / dim * change);
-          }
-    tangent.compress(dealii::VectorOperation::add);
+    const auto &facets = surface.bodies()->surface();
+    add_facet_stiffness(
+      tangent,
+      surface,
+      surface.bodies()->positions(displacement),
+      [&](const unsigned int facet, const auto &positions) {
+        return area_vector(facets, facet, positions);
+      },
+      [&](const unsigned int facet, const unsigned int k) {
+        return factor * pressures[facets.facets()[facet][k]] / dim;
+      });
   }
 
 

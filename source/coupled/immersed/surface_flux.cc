@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/immersed/closed_region_volumes.h>
+#include <undine/coupled/immersed/facet_stiffness.h>
 #include <undine/coupled/immersed/surface_flux.h>
 #include <undine/operators/flux_matrix.h>
-
-#include <deal.II/base/bounding_box.h>
 
 namespace undine
 {
@@ -108,13 +107,18 @@ namespace undine
         for (std::size_t node = models.surface->n_body_nodes(); node < bodies.increment.size();
              ++node)
           this->velocities[node] = bodies.increment[node] / dt;
+        pressures_at_rest = geometry.void_pressures(bodies.time + bodies.stage.end);
         if (const auto gravity = models.environment().gravity; gravity.norm() > 0)
           {
-            static_pressures =
+            const auto of_fluid =
               geometry.cut_topology().of_cut_cells(geometry.static_pressures(gravity));
-            static_forces = undine::nodal_forces(
-              geometry.boundary_flux(), static_pressures, models.communicator());
+            pressures_at_rest.resize(of_fluid.size(), 0.);
+            for (std::size_t c = 0; c < of_fluid.size(); ++c)
+              pressures_at_rest[c] += of_fluid[c];
           }
+        if (models.void_regions || models.environment().gravity.norm() > 0)
+          forces_at_rest = undine::nodal_forces(
+            geometry.boundary_flux(), pressures_at_rest, models.communicator());
       }
 
       void
@@ -143,15 +147,16 @@ namespace undine
       }
 
       /// The reduced pressure, which acts by the mean of B, holds up the weight of the fluid: were
-      /// that to act by B at the begin, the level of the pressure would move bodies.
+      /// that and the pressures of void regions to act by B at the begin, the level of the pressure
+      /// would move bodies.
       typename FluidGeometry<dim>::Velocities
-      change_of_weight() const override
+      change_at_rest() const override
       {
-        if (static_pressures.empty())
+        if (forces_at_rest.empty())
           return {};
-        auto forces = undine::nodal_forces(*mean, static_pressures, this->models.communicator());
+        auto forces = undine::nodal_forces(*mean, pressures_at_rest, this->models.communicator());
         for (std::size_t node = 0; node < forces.size(); ++node)
-          forces[node] -= static_forces[node];
+          forces[node] -= forces_at_rest[node];
         return forces;
       }
 
@@ -161,15 +166,13 @@ namespace undine
         return true;
       }
 
-      /// A mean area vector is an affine function of the place of each single node at the end, so
-      /// that differences over any length are derivatives, of facets without an area, too.
       void
       subtract_stiffness(typename SurfaceFlux<dim>::Matrix &tangent,
                          const Field<dim>                  &pressure) const override
       {
         auto pressures = this->geometry.cut_topology().of_cut_cells(pressure.parts());
-        for (std::size_t c = 0; c < static_pressures.size(); ++c)
-          pressures[c] += static_pressures[c];
+        for (std::size_t c = 0; c < pressures_at_rest.size(); ++c)
+          pressures[c] += pressures_at_rest[c];
         const auto &immersed = *this->models.surface;
         const auto &surface  = immersed.surface();
         const auto &before   = this->geometry.surface_positions();
@@ -178,28 +181,16 @@ namespace undine
                                                this->geometry.cut_positions(),
                                                pressures,
                                                this->models.communicator());
-        const auto  corners  = dealii::BoundingBox<dim>(before).get_boundary_points();
-        const auto  length   = corners.first.distance(corners.second);
-        auto        place    = after;
-        for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
-          for (const unsigned int moved : surface.facets()[facet])
-            for (unsigned int axis = 0; axis < dim && immersed.moves(moved); ++axis)
-              {
-                const auto here = mean_area_vector(surface, facet, before, place);
-                place[moved][axis] += length;
-                const auto change =
-                  (mean_area_vector(surface, facet, before, place) - here) / length;
-                place[moved] = after[moved];
-                for (unsigned int k = 0; k < dim; ++k)
-                  if (const unsigned int node = surface.facets()[facet][k]; immersed.moves(node))
-                    immersed.bodies()->add_derivative(tangent,
-                                                      node,
-                                                      moved,
-                                                      axis,
-                                                      -solid.displacement_factor() *
-                                                        loads[facet * dim + k] * change);
-              }
-        tangent.compress(dealii::VectorOperation::add);
+        add_facet_stiffness(
+          tangent,
+          immersed,
+          after,
+          [&](const unsigned int facet, const auto &positions) {
+            return mean_area_vector(surface, facet, before, positions);
+          },
+          [&](const unsigned int facet, const unsigned int k) {
+            return -solid.displacement_factor() * loads[facet * dim + k];
+          });
       }
 
     private:
@@ -208,10 +199,10 @@ namespace undine
       std::unique_ptr<const BoundaryFlux<dim>> mean;
       std::vector<dealii::Point<dim>>          after; ///< where nodes are at the end [m]
 
-      /// Of the fluid at rest [CutCells::components] [Pa], and its forces by B at the begin [N];
-      /// empty without gravity. @{
-      std::vector<double>                     static_pressures;
-      typename FluidGeometry<dim>::Velocities static_forces;
+      /// Of the fluid at rest and of void regions [CutCells::components] [Pa], and their forces by
+      /// B at the begin [N]; empty without gravity and void regions. @{
+      std::vector<double>                     pressures_at_rest;
+      typename FluidGeometry<dim>::Velocities forces_at_rest;
       /// @}
     };
   } // namespace

@@ -80,7 +80,7 @@ namespace undine
       for (std::size_t node = 0; node < more.size(); ++node)
         result[node] += more[node];
     };
-    add(surface.change_of_weight());
+    add(surface.change_at_rest());
     if (follower.is_on())
       add(follower.forces(solid.displacement(x.block(0))));
     return result;

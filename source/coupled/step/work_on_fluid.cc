@@ -64,8 +64,9 @@ namespace undine
                         const Field<dim>           &pressure) const
   {
     const bool   has_bodies = cut && models.solid && models.surface->n_body_nodes() > 0;
-    const double level  = has_bodies && cut->has_void_regions() ? 0 : pressures.mean_at_openings;
-    double       inflow = pressures.inflow_of_sides + pressures.inflow_of_openings;
+    const double level = has_bodies && cut->has_void_regions() ? 0 : pressures.mean_at_openings;
+    // What flows in of a fluid of constant volume goes out, or is the way that bodies make for it,
+    // against which the level does work: that follows from where they have come to.
     account.add_power(pressures.power_of_sides - level * pressures.inflow_of_sides);
     account.add_power(pressures.power_of_openings - level * pressures.inflow_of_openings);
     if (cut)
@@ -84,14 +85,12 @@ namespace undine
                 pushed -= of_level[node] * velocities[node];
               }
             account.add_power(power - level * pushed);
-            inflow += pushed;
           }
         if (!is_carried(models))
           account.add_doubtful_power(kinetic_energy_of_way_made(state));
       }
-    // What flows in of a fluid of constant volume goes out, or is the way that bodies make for it.
-    const double on_bodies = has_bodies ? add_work_on_bodies(account, state, time, level) : 0;
-    account.add_power(level * inflow - on_bodies);
+    if (has_bodies)
+      add_work_on_bodies(account, state, time, level);
   }
 
 
@@ -122,30 +121,28 @@ namespace undine
 
 
   /// The pressure of the fluid at rest at the height of the openings: a uniform one, which does no
-  /// work on the fluid. Its work and that of weight follow from where bodies have come to; returns
-  /// the power that it has at the end of the step. Where bodies bound void regions, the power of
-  /// the forces at the end of the step stands for it, and zero is returned.
+  /// work on the fluid. Its work and that of weight follow from where bodies have come to. Where
+  /// bodies bound void regions, the power of the forces at the end of the step stands for it.
   template <int dim>
-  double
+  void
   WorkOnFluid<dim>::add_work_on_bodies(EnergyAccount    &account,
                                        const State<dim> &state,
                                        const double      time,
                                        const double      level) const
   {
     const auto &surface = *models.surface;
-    // Bodies that sleep have nodes, too, which do not move.
-    const auto velocities = surface.with_bodies(
-      state.solid.velocity, typename FluidGeometry<dim>::Velocities(surface.surface().n_nodes()));
-    const auto power = [&](const auto &forces) {
-      double sum = 0;
-      for (unsigned int node = 0; node < surface.n_body_nodes(); ++node)
-        sum += forces[node] * velocities[node];
-      return sum;
-    };
     if (cut->has_void_regions())
       {
-        account.add_power(power(cut->other_forces(gravity, time)));
-        return 0;
+        // Bodies that sleep have nodes, too, which do not move.
+        const auto velocities =
+          surface.with_bodies(state.solid.velocity,
+                              typename FluidGeometry<dim>::Velocities(surface.surface().n_nodes()));
+        const auto forces = cut->other_forces(gravity, time);
+        double     power  = 0;
+        for (unsigned int node = 0; node < surface.n_body_nodes(); ++node)
+          power += forces[node] * velocities[node];
+        account.add_power(power);
+        return;
       }
     const auto before = surface.positions(state.step_begin, state.clock.time);
     const auto now    = surface.positions(state.solid, time);
@@ -165,7 +162,6 @@ namespace undine
     const auto outside = works_outside(state, time);
     account.level      = level;
     account.add_work((at_begin + at_end + outside[0] + outside[1]) / 2, at_end + outside[1]);
-    return power(cut->uniform_pressure_forces(level));
   }
 
 

@@ -25,10 +25,13 @@ namespace undine
                       const dealii::Point<dim> &place,
                       const dealii::Point<dim> &foot)
     {
-      const auto cell   = grid.cell_at(place);
-      double     result = 0;
+      double result = 0;
       for (unsigned int d = 0; d < dim; ++d)
-        result = std::max(result, std::abs(place[d] - foot[d]) / grid.cell_width(d, cell[d]));
+        {
+          const auto begin = grid.faces(d)->row(d).locate(place[d]);
+          const auto end   = grid.faces(d)->row(d).locate(foot[d]);
+          result = std::max(result, std::abs(begin.lower - end.lower + begin.weight - end.weight));
+        }
       return result;
     }
 

@@ -25,7 +25,11 @@ namespace undine
     , local_forces(displacements.size())
     , volume_gradients(displacements.size())
     , local_tangent(displacements.size())
+    , all_gradients(geometry.n_nodes(), geometry.n_points() * dim)
+    , of_rows(geometry.n_nodes(), displacements.size())
   {
+    for (auto &matrix : of_columns)
+      matrix.reinit(geometry.n_points() * dim, displacements.size());
   }
 
 
@@ -141,8 +145,9 @@ namespace undine
           moduli += dilatation.pressure(q) * cofactor_derivative(F);
           add_volume_gradient(cofactor(F), q);
         }
-      add_tangent(moduli, geometry.JxW(cell, q), Blocks::upper);
+      set_moduli(moduli, q);
     });
+    multiply_out_tangent();
     mirror_tangent();
     if (is_separated())
       dilatation.add_tangent(local_tangent);
@@ -272,8 +277,9 @@ namespace undine
               of_rates(q, dof)  = of_rate[dof % dim] * gradients[dof / dim];
             }
         }
-      add_tangent(moduli, geometry.JxW(cell, q), Blocks::all);
+      set_moduli(moduli, q);
     });
+    multiply_out_tangent();
     if (is_separated())
       add_volumetric_viscosity(of_volume, of_rates);
     return local_tangent;
@@ -323,27 +329,35 @@ namespace undine
   }
 
 
-  /// K_(i a)(j b) += grad_k N_i A_akbl grad_l N_j.
+  /// The moduli A at a point.
   template <int dim>
   void
-  CellForces<dim>::add_tangent(const Tensor4 &moduli, const double JxW, const Blocks blocks)
+  CellForces<dim>::set_moduli(const Tensor4 &moduli, const unsigned int point)
   {
-    dealii::Tensor<3, dim> of_row;
-    for (unsigned int i = 0; i < gradients.size(); ++i)
-      {
-        for (unsigned int a = 0; a < dim; ++a)
-          for (unsigned int b = 0; b < dim; ++b)
-            for (unsigned int l = 0; l < dim; ++l)
-              {
-                double sum = 0;
-                for (unsigned int k = 0; k < dim; ++k)
-                  sum += gradients[i][k] * moduli[a][k][b][l];
-                of_row[a][b][l] = sum * JxW;
-              }
-        for (unsigned int j = blocks == Blocks::upper ? i : 0; j < gradients.size(); ++j)
+    const double JxW = geometry.JxW(cell, point);
+    for (unsigned int k = 0; k < dim; ++k)
+      for (unsigned int j = 0; j < gradients.size(); ++j)
+        {
+          const unsigned int row = point * dim + k;
+          all_gradients(j, row)  = gradients[j][k];
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int b = 0; b < dim; ++b)
-              local_tangent(i * dim + a, j * dim + b) += of_row[a][b] * gradients[j];
+              of_columns[a](row, j * dim + b) = JxW * (moduli[a][k][b] * gradients[j]);
+        }
+  }
+
+
+  /// K_(i a)(j b) += sum_kq grad_k N_i A_akbl grad_l N_j, as products of matrices: these are fast.
+  template <int dim>
+  void
+  CellForces<dim>::multiply_out_tangent()
+  {
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        all_gradients.mmult(of_rows, of_columns[a]);
+        for (unsigned int i = 0; i < of_rows.m(); ++i)
+          for (unsigned int dof = 0; dof < of_rows.n(); ++dof)
+            local_tangent(i * dim + a, dof) += of_rows(i, dof);
       }
   }
 

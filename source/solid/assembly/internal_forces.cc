@@ -2,6 +2,7 @@
 #include <undine/base/core/errors.h>
 #include <undine/base/parallel/throw_together.h>
 #include <undine/solid/assembly/cell_forces.h>
+#include <undine/solid/assembly/cell_matrix_adder.h>
 #include <undine/solid/assembly/internal_forces.h>
 
 #include <limits>
@@ -55,9 +56,10 @@ namespace undine
   Matrix
   internal_stiffness(const SolidModel<dim> &model, const Vector &displacement)
   {
-    Matrix result = model.matrix();
+    Matrix          result = model.matrix();
+    CellMatrixAdder sum(result);
     for_all_cells(model, displacement, [&](const unsigned int cell, CellForces<dim> &forces) {
-      result.add(model.geometry().dofs(cell), forces.tangent());
+      sum.add(model.geometry().dofs(cell), forces.tangent());
     });
     result.compress(dealii::VectorOperation::add);
     return result;
@@ -87,12 +89,13 @@ namespace undine
                     const double           displacement_factor,
                     const double           velocity_factor)
   {
-    const Vector ghosted = model.ghosted(velocity);
-    Matrix       result  = model.matrix();
+    const Vector    ghosted = model.ghosted(velocity);
+    Matrix          result  = model.matrix();
+    CellMatrixAdder sum(result);
     for_all_cells(model, displacement, [&](const unsigned int cell, CellForces<dim> &forces) {
       forces.set_velocity(ghosted);
-      result.add(model.geometry().dofs(cell),
-                 forces.viscous_tangent(displacement_factor, velocity_factor));
+      sum.add(model.geometry().dofs(cell),
+              forces.viscous_tangent(displacement_factor, velocity_factor));
     });
     result.compress(dealii::VectorOperation::add);
     return result;

@@ -133,6 +133,11 @@ namespace undine
     std::vector<double>
     static_pressures(const dealii::Tensor<1, dim> &gravity) const;
 
+    /// Pressures of void regions at `time` [s] in the components of cut cells, zero in the fluid
+    /// [CutCells::components] [Pa]; empty without void regions.
+    std::vector<double>
+    void_pressures(double time) const;
+
     /// All other forces in the nodes of the surfaces but friction [N]: the weight that the reduced
     /// pressure leaves out, the pressures of void regions at `time` [s], and those outside of
     /// openings. Collective.

@@ -35,15 +35,16 @@ namespace undine
     virtual double
     factor() const = 0;
 
-    /// By how much the mean of the fluid's weight over the motion differs from the load where the
-    /// grid was cut, in the nodes of all surfaces [N]; empty: by nothing. Collective.
+    /// By how much the means over the motion of the fluid's weight and of the pressures of void
+    /// regions differ from the loads where the grid was cut, in the nodes of all surfaces [N];
+    /// empty: by nothing. Collective.
     virtual typename FluidGeometry<dim>::Velocities
-    change_of_weight() const
+    change_at_rest() const
     {
       return {};
     }
 
-    /// Do nodal_forces(pressure) and change_of_weight() depend on u, by B?
+    /// Do nodal_forces(pressure) and change_at_rest() depend on u, by B?
     virtual bool
     has_stiffness() const
     {

@@ -50,7 +50,7 @@ namespace undine
   private:
     double
     kinetic_energy_of_way_made(const State<dim> &state) const;
-    double
+    void
     add_work_on_bodies(EnergyAccount    &account,
                        const State<dim> &state,
                        double            time,

@@ -71,13 +71,6 @@ namespace undine
     using Tensor2 = dealii::Tensor<2, dim>;
     using Tensor4 = dealii::Tensor<4, dim>;
 
-    /// Of the blocks of a tangent, one for each pair of nodes.
-    enum class Blocks
-    {
-      upper, ///< those on and above the diagonal: what is symmetric
-      all
-    };
-
     Tensor2
     displacement_gradient(unsigned int point);
     Tensor2
@@ -89,7 +82,9 @@ namespace undine
     void
     add_forces(const Tensor2 &stress, double JxW);
     void
-    add_tangent(const Tensor4 &moduli, double JxW, Blocks blocks);
+    set_moduli(const Tensor4 &moduli, unsigned int point);
+    void
+    multiply_out_tangent();
     void
     mirror_tangent();
     Tensor2
@@ -123,6 +118,13 @@ namespace undine
     std::vector<double>                 local_forces;
     std::vector<double>                 volume_gradients;
     dealii::FullMatrix<double>          local_tangent;
+
+    /// Of the tangent, (k, q) being all directions at all points. @{
+    dealii::FullMatrix<double>                  all_gradients; ///< [i][(k, q)]: grad_k N_i
+    std::array<dealii::FullMatrix<double>, dim> of_columns; ///< [a][(k, q)][(j, b)]: A_akbl grad_l
+                                                            ///< N_j, times the point's weight
+    dealii::FullMatrix<double> of_rows;                     ///< [i][(j, b)]
+    /// @}
   };
 } // namespace undine
 

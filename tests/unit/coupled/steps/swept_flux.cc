@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/immersed/surface_flux.h>
 #include <undine/solid/assembly/mass_matrix.h>
+#include <undine/surface/simplex.h>
 
 #include <coupled/coupled_run.h>
 
@@ -39,14 +40,40 @@ namespace
   }
 
 
+  constexpr double pressure_of_air = 2e4; // [Pa]
+
+  /// A slab from side to side, water above and air below.
+  template <int dim>
+  CoupledRun<dim>
+  slab_above_air()
+  {
+    return CoupledRun<dim>(
+      steps_of(.1) + section("Domain", "set Cells = " + plane_or_space<dim>("8, 8", "6, 6, 6")) +
+      section("Fluid",
+              "set Density = 1000\n" +
+                section("Boundaries", boundary("surface", "top", "pressure", "set Pressure = 0")) +
+                section("Void regions",
+                        section("air",
+                                "set Seed = " + plane_or_space<dim>(".5, .2", ".5, .2, .5") +
+                                  fmt::format("\nset Pressure = {}", pressure_of_air)))) +
+      section("Bodies",
+              body("slab",
+                   "set Cells = " + plane_or_space<dim>("4, 1", "4, 1, 4") +
+                     "\nset Lower corner = " + plane_or_space<dim>("0, .45", "0, .45, 0") +
+                     "\nset Upper corner = " + plane_or_space<dim>("1, .55", "1, .55, 1") +
+                     "\nset Density = 1000\nset Young's modulus = 1e5\nset Poisson's ratio = "
+                     ".3")));
+  }
+
+
   /// The surface flux of a step in which bodies move from rest.
   template <int dim>
   struct SweptStep
   {
     using Vector = typename SolidModel<dim>::Vector;
 
-    SweptStep()
-      : run(ball_and_box<dim>())
+    explicit SweptStep(CoupledRun<dim> (*scene)())
+      : run(scene())
       , mass(mass_matrix(*run.models.solid))
       , environment(run.models.environment())
       , equations(*run.models.solid, mass, run.state.solid, environment, 0, dt, timing)
@@ -106,7 +133,7 @@ namespace
     {
       flux->move(velocity);
       auto result = flux->on_bodies(flux->nodal_forces(pressure));
-      result.add(1., flux->on_bodies(flux->change_of_weight()));
+      result.add(1., flux->on_bodies(flux->change_at_rest()));
       return result;
     }
 
@@ -127,7 +154,7 @@ namespace
   check_stiffness()
   {
     INFO(dim << "D");
-    SweptStep<dim> step;
+    SweptStep<dim> step(ball_and_box<dim>);
     const auto     pressure = step.scattered_pressure();
     const auto     here = step.scattered(.3), change = step.scattered(1.1);
     const auto     at = [&](const double part) {
@@ -148,6 +175,65 @@ namespace
     difference.add(1., product);
     CHECK(difference.l2_norm() <= 1e-10 * product.l2_norm());
   }
+
+
+  /// The volume below the facets of the lower side [m^dim], up to what lies below its rim.
+  template <int dim>
+  double
+  volume_below(const CoupledRun<dim>                 &run,
+               const std::vector<dealii::Point<dim>> &rest,
+               const std::vector<dealii::Point<dim>> &positions)
+  {
+    double volume = 0;
+    for (const auto &facet : run.models.surface->surface().facets())
+      if (std::all_of(
+            facet.begin(), facet.end(), [&](const auto node) { return rest[node][1] < .46; }))
+        {
+          std::array<dealii::Point<dim>, dim> corners;
+          for (unsigned int k = 0; k < dim; ++k)
+            corners[k] = positions[facet[k]];
+          volume -= dealii::Tensor<1, dim>(corners[0]) * area_vector(corners) / dim;
+        }
+    return volume;
+  }
+
+
+  /// Of the air, where the slab moves in its middle, along its own plane, too.
+  template <int dim>
+  void
+  check_work_of_air()
+  {
+    INFO(dim << "D");
+    SweptStep<dim> step(slab_above_air<dim>);
+    const auto    &run      = step.run;
+    const auto    &model    = *run.models.solid;
+    auto           velocity = step.scattered(.3);
+    for (const auto dof : model.locally_owned())
+      for (unsigned int d = 0; d < dim; ++d)
+        if (const auto &x = model.rest_position(dof); d != 1)
+          velocity(dof) = velocity(dof) * std::sin(dealii::numbers::PI * x[d]);
+    velocity.compress(dealii::VectorOperation::insert);
+    step.flux->move(velocity);
+    auto forces = step.flux->change_at_rest();
+    REQUIRE(!forces.empty());
+    const auto at_begin = step.geometry.other_forces({}, step.dt);
+    auto       way      = step.equations.increment(velocity);
+    const auto ways =
+      run.models.surface->with_bodies(way, std::vector<dealii::Tensor<1, dim>>(forces.size()));
+    const auto rest  = run.models.surface->positions(run.state.solid, 0);
+    auto       after = rest;
+    double     work = 0, by_begin = 0;
+    for (std::size_t node = 0; node < forces.size(); ++node)
+      {
+        work += (at_begin[node] + forces[node]) * ways[node];
+        by_begin += at_begin[node] * ways[node];
+        after[node] += ways[node];
+      }
+    const double expected =
+      pressure_of_air * (volume_below(run, rest, after) - volume_below(run, rest, rest));
+    CHECK(work == Approx(expected).epsilon(1e-11));
+    CHECK(std::abs(by_begin - expected) > 1e-2 * std::abs(expected)); // else it shows nothing
+  }
 } // namespace
 
 
@@ -155,4 +241,12 @@ TEST_CASE("The tangent knows how surfaces turn in a step by swept flux", "[coupl
 {
   check_stiffness<2>();
   check_stiffness<3>();
+}
+
+
+TEST_CASE("The pressure of void regions does its work on the volume that surfaces sweep",
+          "[coupled][mpi]")
+{
+  check_work_of_air<2>();
+  check_work_of_air<3>();
 }
