@@ -162,14 +162,15 @@ namespace undine
     bool
     is_direct(const SolidNumerics          &numerics,
               const std::vector<Body<dim>> &bodies,
-              const double                  work)
+              const double                  work,
+              const FactorUse               use)
     {
       if (numerics.linear_solver != "auto")
         return numerics.linear_solver == "direct";
       const bool separated = std::any_of(bodies.begin(), bodies.end(), [](const auto &body) {
         return body.kinematics->separates_volumetric_part(*body.material);
       });
-      return work <= (separated ? MostWork::of_factors_with_dilatation : MostWork::of_factors);
+      return work <= most_work_of_factors(use, separated);
     }
 
 
@@ -200,7 +201,8 @@ namespace undine
               add_surface<dim>(size.grid, surface, mean_width);
             }
         }
-      solid.is_direct = is_direct(numerics, bodies, solid.work);
+      const auto use  = size.grid.cells > 0 ? FactorUse::preconditioner : FactorUse::a_few_solves;
+      solid.is_direct = is_direct(numerics, bodies, solid.work, use);
     }
   } // namespace
 

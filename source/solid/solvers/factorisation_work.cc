@@ -63,6 +63,13 @@ namespace undine
   } // namespace
 
 
+  double
+  most_work_of_factors(const FactorUse use, const bool with_dilatation)
+  {
+    return use == FactorUse::preconditioner ? 2e11 : with_dilatation ? 8e10 : 7e9;
+  }
+
+
   template <int dim>
   double
   factorisation_work(const SolidModel<dim> &model)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/solid/mesh/rigid_motions.h>
-#include <undine/solid/solvers/factorisation_work.h>
 #include <undine/solid/solvers/tangent_multigrid.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,7 +13,7 @@ namespace undine
 {
   template <int dim>
   bool
-  solves_directly(const SolidModel<dim> &model)
+  solves_directly(const SolidModel<dim> &model, const FactorUse use)
   {
     const std::string &choice = model.numerics().linear_solver;
     if (choice != "auto")
@@ -23,8 +22,7 @@ namespace undine
       std::any_of(model.bodies().begin(), model.bodies().end(), [](auto &body) {
         return body.kinematics->separates_volumetric_part(*body.material);
       });
-    return factorisation_work(model) <=
-           (separated ? MostWork::of_factors_with_dilatation : MostWork::of_factors);
+    return factorisation_work(model) <= most_work_of_factors(use, separated);
   }
 
 
@@ -84,9 +82,9 @@ namespace undine
 
 
   template bool
-  solves_directly(const SolidModel<2> &);
+  solves_directly(const SolidModel<2> &, FactorUse);
   template bool
-  solves_directly(const SolidModel<3> &);
+  solves_directly(const SolidModel<3> &, FactorUse);
   template std::unique_ptr<TangentMultigrid>
   make_multigrid(const dealii::TrilinosWrappers::SparseMatrix &,
                  const SolidModel<2> &,

@@ -19,7 +19,7 @@ namespace undine
   template <int dim>
   TangentPreconditioner<dim>::TangentPreconditioner(const SolidModel<dim> &model)
     : model(model)
-    , direct(solves_directly(model))
+    , direct(solves_directly(model, FactorUse::preconditioner))
   {
   }
 

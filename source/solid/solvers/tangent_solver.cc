@@ -12,7 +12,7 @@ namespace undine
   template <int dim>
   TangentSolver<dim>::TangentSolver(const SolidModel<dim> &model)
     : model(model)
-    , direct(solves_directly(model))
+    , direct(solves_directly(model, FactorUse::a_few_solves))
   {
   }
 

@@ -4,6 +4,7 @@
 
 #include <undine/base/parallel/algebraic_multigrid.h>
 #include <undine/solid/mesh/solid_model.h>
+#include <undine/solid/solvers/factorisation_work.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
@@ -12,10 +13,10 @@
 namespace undine
 {
   /// Does the key `Linear solver` ask for a factorisation, or is it, with `auto`, the cheaper
-  /// method (factorisation_work())? Collective.
+  /// method for this use (factorisation_work())? Collective.
   template <int dim>
   bool
-  solves_directly(const SolidModel<dim> &model);
+  solves_directly(const SolidModel<dim> &model, FactorUse use);
 
   /// Smoothed aggregation (ML) that knows the rigid-body motions, and the matrix it was made for.
   struct TangentMultigrid
