@@ -48,6 +48,35 @@ namespace undine
 
 
   template <int dim>
+  std::vector<double>
+  outside_pressures_on_facets(const BoundaryMap<dim>                &boundaries,
+                              const Surface<dim>                    &surface,
+                              const std::vector<dealii::Point<dim>> &positions,
+                              const dealii::Tensor<1, dim>          &weight,
+                              const double                           time)
+  {
+    std::vector<double> result(surface.facets().size() * dim);
+    if (boundaries.has_opening())
+      for_each_point_outside(boundaries.grid(),
+                             surface,
+                             positions,
+                             surface.n_nodes(),
+                             [&](const OutsidePoint<dim> &point) {
+                               const unsigned int facet = &point.facet - surface.facets().data();
+                               const auto         whole = area_vector(surface, facet, positions);
+                               if (whole.norm_square() == 0)
+                                 return;
+                               const double share = point.into_body * whole / whole.norm_square();
+                               for (unsigned int k = 0; k < dim; ++k)
+                                 result[facet * dim + k] +=
+                                   pressure_at(boundaries, point, weight, time) * point.shape[k] *
+                                   share;
+                             });
+    return result;
+  }
+
+
+  template <int dim>
   double
   work_outside(const BoundaryMap<dim>                &boundaries,
                const Surface<dim>                    &surface,
@@ -69,6 +98,12 @@ namespace undine
 
 #define INSTANTIATE(dim)                                                \
   template std::vector<dealii::Tensor<1, dim>> outside_forces(          \
+    const BoundaryMap<dim> &,                                           \
+    const Surface<dim> &,                                               \
+    const std::vector<dealii::Point<dim>> &,                            \
+    const dealii::Tensor<1, dim> &,                                     \
+    double);                                                            \
+  template std::vector<double> outside_pressures_on_facets(             \
     const BoundaryMap<dim> &,                                           \
     const Surface<dim> &,                                               \
     const std::vector<dealii::Point<dim>> &,                            \

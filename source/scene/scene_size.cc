@@ -201,8 +201,9 @@ namespace undine
               add_surface<dim>(size.grid, surface, mean_width);
             }
         }
-      const auto use  = size.grid.cells > 0 ? FactorUse::preconditioner : FactorUse::a_few_solves;
-      solid.is_direct = is_direct(numerics, bodies, solid.work, use);
+      const bool together = size.grid.cells > 0 && read_direction(scene) == Direction::two_way;
+      const auto use      = together ? FactorUse::preconditioner : FactorUse::a_few_solves;
+      solid.is_direct     = is_direct(numerics, bodies, solid.work, use);
     }
   } // namespace
 

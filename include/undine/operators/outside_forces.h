@@ -30,6 +30,16 @@ namespace undine
                  const dealii::Tensor<1, dim>          &weight,
                  double                                 time);
 
+  /// The same by facets: for the k-th node of each the factor of the facet's area vector, out of
+  /// the body, [facet * dim + k] [Pa]. As it has to be where areas change in a step.
+  template <int dim>
+  std::vector<double>
+  outside_pressures_on_facets(const BoundaryMap<dim>                &boundaries,
+                              const Surface<dim>                    &surface,
+                              const std::vector<dealii::Point<dim>> &positions,
+                              const dealii::Tensor<1, dim>          &weight,
+                              double                                 time);
+
   /// The work that it takes to bring bodies out there against that pressure, int p dV over what of
   /// them is outside [J]: since p does not depend on the distance s from a side, by the divergence
   /// theorem a sum over facets,

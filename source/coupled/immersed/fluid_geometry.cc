@@ -260,6 +260,16 @@ namespace undine
 
 
   template <int dim>
+  std::vector<double>
+  FluidGeometry<dim>::outside_pressures_on_facets(const dealii::Tensor<1, dim> &gravity,
+                                                  const double                  time) const
+  {
+    return undine::outside_pressures_on_facets(
+      model.boundaries(), surface.surface(), cut_at, model.density() * gravity, time);
+  }
+
+
+  template <int dim>
   typename FluidGeometry<dim>::Velocities
   FluidGeometry<dim>::other_forces(const dealii::Tensor<1, dim> &gravity, const double time) const
   {

@@ -107,8 +107,11 @@ namespace undine
         for (std::size_t node = models.surface->n_body_nodes(); node < bodies.increment.size();
              ++node)
           this->velocities[node] = bodies.increment[node] / dt;
-        pressures_at_rest = geometry.void_pressures(bodies.time + bodies.stage.end);
-        if (const auto gravity = models.environment().gravity; gravity.norm() > 0)
+        const double time    = bodies.time + bodies.stage.end;
+        const auto   gravity = models.environment().gravity;
+        outside              = geometry.outside_pressures_on_facets(gravity, time);
+        pressures_at_rest    = geometry.void_pressures(time);
+        if (gravity.norm() > 0)
           {
             const auto of_fluid =
               geometry.cut_topology().of_cut_cells(geometry.static_pressures(gravity));
@@ -116,7 +119,7 @@ namespace undine
             for (std::size_t c = 0; c < of_fluid.size(); ++c)
               pressures_at_rest[c] += of_fluid[c];
           }
-        if (models.void_regions || models.environment().gravity.norm() > 0)
+        if (models.void_regions || gravity.norm() > 0)
           forces_at_rest = undine::nodal_forces(
             geometry.boundary_flux(), pressures_at_rest, models.communicator());
       }
@@ -147,16 +150,26 @@ namespace undine
       }
 
       /// The reduced pressure, which acts by the mean of B, holds up the weight of the fluid: were
-      /// that and the pressures of void regions to act by B at the begin, the level of the pressure
-      /// would move bodies.
+      /// that, the pressures of void regions and those outside of openings to act by the areas at
+      /// the begin, the level of the pressure would move bodies.
       typename FluidGeometry<dim>::Velocities
       change_at_rest() const override
       {
-        if (forces_at_rest.empty())
-          return {};
-        auto forces = undine::nodal_forces(*mean, pressures_at_rest, this->models.communicator());
-        for (std::size_t node = 0; node < forces.size(); ++node)
-          forces[node] -= forces_at_rest[node];
+        typename FluidGeometry<dim>::Velocities forces(after.size());
+        if (!forces_at_rest.empty())
+          {
+            forces = undine::nodal_forces(*mean, pressures_at_rest, this->models.communicator());
+            for (std::size_t node = 0; node < forces.size(); ++node)
+              forces[node] -= forces_at_rest[node];
+          }
+        const auto &surface = this->models.surface->surface();
+        for (unsigned int facet = 0; facet < surface.facets().size(); ++facet)
+          for (unsigned int k = 0; k < dim; ++k)
+            if (const double pressure = outside[facet * dim + k]; pressure != 0)
+              forces[surface.facets()[facet][k]] +=
+                pressure *
+                (mean_area_vector(surface, facet, this->geometry.surface_positions(), after) -
+                 area_vector(surface, facet, this->geometry.cut_positions()));
         return forces;
       }
 
@@ -176,11 +189,13 @@ namespace undine
         const auto &immersed = *this->models.surface;
         const auto &surface  = immersed.surface();
         const auto &before   = this->geometry.surface_positions();
-        const auto  loads    = pressures_on_facets(this->geometry.cut_cells(),
-                                               surface,
-                                               this->geometry.cut_positions(),
-                                               pressures,
-                                               this->models.communicator());
+        auto        loads    = pressures_on_facets(this->geometry.cut_cells(),
+                                         surface,
+                                         this->geometry.cut_positions(),
+                                         pressures,
+                                         this->models.communicator());
+        for (std::size_t k = 0; k < loads.size(); ++k)
+          loads[k] += outside[k];
         add_facet_stiffness(
           tangent,
           immersed,
@@ -204,6 +219,7 @@ namespace undine
       std::vector<double>                     pressures_at_rest;
       typename FluidGeometry<dim>::Velocities forces_at_rest;
       /// @}
+      std::vector<double> outside; ///< of openings, FluidGeometry::outside_pressures_on_facets()
     };
   } // namespace
 

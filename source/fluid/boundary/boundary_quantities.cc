@@ -7,6 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
 namespace undine
 {
   namespace
@@ -27,6 +32,57 @@ namespace undine
             layer.upper[axis] = std::min(layer.upper[axis], index + 1);
             for_each(layer, [&](const GridIndex<dim> &point) { action(side, point); });
           }
+    }
+
+
+    /// Of the face of a cell that lies on a side: what bodies do not cover [1].
+    template <int dim>
+    double
+    open_share(const MacGrid<dim>                              &grid,
+               const std::shared_ptr<const FluidTopology<dim>> &open,
+               const Side                                       side,
+               const GridIndex<dim>                            &cell)
+    {
+      const auto face = moved<dim>(cell, side.axis, side.end);
+      if (!open || open->faces[side.axis].kind(face) == SubLattice<dim>::Kind::whole)
+        return 1;
+      const auto &pieces = open->faces[side.axis];
+      double      area   = 0;
+      for (int k = pieces.first(face); k < pieces.last(face); ++k)
+        area += pieces.all()[k].measure;
+      return area / grid.face_area(side.axis, face);
+    }
+
+
+    /// A velocity along a wall and its distance from it.
+    struct BesideWall
+    {
+      double velocity; ///< [m/s]
+      double distance; ///< [m]
+    };
+
+    /// That of a face next to a side, or of its piece nearest to the wall; none if bodies cover it.
+    template <int dim>
+    std::optional<BesideWall>
+    nearest_to_wall(const Field<dim>         &component,
+                    const GridIndex<dim>     &point,
+                    const Side                side,
+                    const dealii::Point<dim> &wall)
+    {
+      constexpr double least = 1e-2; // of that of a whole face, as in ViscousTerms
+      const double whole = std::abs(component.lattice().point(point)[side.axis] - wall[side.axis]);
+      const auto  *divided = component.divided();
+      if (!divided || divided->kind(point) == SubLattice<dim>::Kind::whole)
+        return BesideWall{component(point), whole};
+      std::optional<BesideWall> result;
+      for (int k = divided->first(point); k < divided->last(point); ++k)
+        {
+          const double distance =
+            std::max(std::abs(divided->all()[k].place[side.axis] - wall[side.axis]), least * whole);
+          if (!result || distance < result->distance)
+            result = BesideWall{component.parts()[k], distance};
+        }
+      return result;
     }
 
 
@@ -144,29 +200,22 @@ namespace undine
           for (unsigned int d = 0; d < dim; ++d)
             if (d != side.axis)
               area *= d == axis ? grid.dual_width(d, point[d]) : grid.cell_width(d, point[d]);
-          const double distance = grid.cell_width(side.axis, point[side.axis]) / 2;
-          // What bodies cover feels nothing; of cut faces the open part counts, with its mean.
-          if (const auto *divided = state.velocity[axis].divided())
-            {
-              double open = divided->kind(point) == SubLattice<dim>::Kind::whole ? 1. : 0.;
-              for (int k = divided->first(point); k < divided->last(point); ++k)
-                open += divided->all()[k].measure / grid.face_area(axis, point);
-              area *= open;
-            }
           const auto on_wall = moved<dim>(point, side.axis, side.sign());
+          const auto wall_at = lattice.point(on_wall);
+          const auto nearest = nearest_to_wall(state.velocity[axis], point, side, wall_at);
           for_each_boundary_around(
             boundaries,
             lattice,
             side,
             on_wall,
-            [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &) {
-              if (!boundary.prescribes_tangential_velocity())
+            [&](const Boundary<dim> &boundary, const double fraction, const GridIndex<dim> &cell) {
+              if (!boundary.prescribes_tangential_velocity() || !nearest)
                 return;
               const double slip =
-                state.velocity[axis](point) -
-                boundary.velocity_along(axis, side.axis, lattice.point(on_wall), time);
+                nearest->velocity - boundary.velocity_along(axis, side.axis, wall_at, time);
               forces[&boundary - boundaries.all().data()][axis] +=
-                dynamic_viscosity * slip / distance * area * fraction;
+                dynamic_viscosity * slip / nearest->distance * area * fraction *
+                open_share(grid, state.velocity[0].topology(), side, cell);
             });
         });
     return sum_over_ranks(forces, grid.communicator());

@@ -240,13 +240,16 @@ namespace undine
     double      power = 0;
     for_each_side_face(
       grid, velocity[0].topology().get(), [&](const SideFace<dim> &face, const auto &) {
-        if (!boundaries.at(face.side, face.face).lets_fluid_pass())
+        const auto &boundary = boundaries.at(face.side, face.face);
+        if (!boundary.lets_fluid_pass())
           return;
-        double square = std::pow(value_on(velocity, face), 2);
+        const double flux          = outward_flux(grid, velocity, face);
+        const bool   enters_freely = boundary.is_open() && flux < 0; // at right angles
+        double       square        = std::pow(value_on(velocity, face), 2);
         for (unsigned int axis = 0; axis < dim; ++axis)
-          if (axis != face.side.axis)
+          if (axis != face.side.axis && !enters_freely)
             square += std::pow(at_centre(known, axis, face.cell), 2);
-        power += outward_flux(grid, velocity, face) * model.density() * square / 2;
+        power += flux * model.density() * square / 2;
       });
     return dealii::Utilities::MPI::sum(power, grid.communicator());
   }

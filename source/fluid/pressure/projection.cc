@@ -26,6 +26,10 @@ namespace undine
   {
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
+    // Of the divergence while the speeds of backflow are not known yet, which are found to 1e-4.
+    constexpr double tolerance_of_rounds = 1e-5;
+
+
     /// The smallest flux_area() of all cells.
     template <int dim>
     double
@@ -133,11 +137,11 @@ namespace undine
   Projection<dim>::remove_divergence(Velocity<dim>              &velocity,
                                      Field<dim>                 &impulse,
                                      std::vector<OpenFace<dim>> &openings,
-                                     const std::vector<double>  &body_fluxes)
+                                     const std::vector<double>  &body_fluxes,
+                                     const double                tolerance)
   {
     Field<dim> swept(model.grid().cells(), velocity[0].topology());
     std::copy(body_fluxes.begin(), body_fluxes.end(), swept.parts().begin());
-    const double         tolerance   = model.pressure_solver().divergence_tolerance;
     const double         body_speed  = swept.topology() ? largest_divergence(model, swept) : 0.;
     double               first_speed = largest_components(model, velocity).norm() + body_speed;
     Field<dim>           increment   = impulse;
@@ -195,23 +199,36 @@ namespace undine
                                                    const double               dt,
                                                    const std::vector<double> &body_fluxes)
   {
-    auto   before = velocity;
-    Report report;
-    find_entering_speeds([&](const unsigned int round) {
-      if (round > 0)
-        velocity = before;
+    const bool enters = dealii::Utilities::MPI::logical_or(
+      std::any_of(
+        openings.begin(), openings.end(), [](const auto &opening) { return opening.entering > 0; }),
+      model.grid().communicator());
+    const double full   = model.pressure_solver().divergence_tolerance;
+    const double rough  = enters ? std::max(full, tolerance_of_rounds) : full;
+    auto         before = velocity;
+    auto         better = openings; // with the speeds that follow from the last solution
+    Report       report;
+    const auto   solve_with_openings = [&](const double tolerance) {
+      velocity = before;
       stabilise_backflow(velocity, openings, model, dt);
       auto impulses = openings;
       for (auto &open : impulses)
         open.pressure *= dt;
       const unsigned int iterations = report.iterations;
-      report                        = remove_divergence(velocity, impulse, impulses, body_fluxes);
+      report = remove_divergence(velocity, impulse, impulses, body_fluxes, tolerance);
       report.iterations += iterations;
-      const double change = update_entering_speeds(openings, velocity, model, dt);
+      better              = openings;
+      const double change = update_entering_speeds(better, velocity, model, dt);
       return relative(change, largest_components(model, velocity).norm());
+    };
+    find_entering_speeds([&](const unsigned int) {
+      openings = better;
+      return solve_with_openings(rough);
     });
+    if (rough > full)
+      solve_with_openings(full);
     report.before   = std::move(before);
-    report.openings = std::move(openings);
+    report.openings = std::move(better);
     return report;
   }
 
@@ -271,8 +288,9 @@ namespace undine
     for (auto &open : openings)
       open.pressure = 0;
     Field<dim> impulse(model.grid().cells(), topology);
-    const auto report = remove_divergence(state.velocity, impulse, openings, body_fluxes);
-    state.pressure    = Field<dim>(model.grid().cells(), topology);
+    const auto report = remove_divergence(
+      state.velocity, impulse, openings, body_fluxes, model.pressure_solver().divergence_tolerance);
+    state.pressure = Field<dim>(model.grid().cells(), topology);
     return report;
   }
 

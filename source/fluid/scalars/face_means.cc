@@ -36,15 +36,17 @@ namespace undine
     }
 
 
-    /// At one face.
+    /// At one face; a path that an inflow cuts short may have been `longest` cells long.
     template <int dim>
     double
     mean_at(const CharacteristicTracer<dim> &tracer,
             const Field<dim>                &source,
-            const dealii::Point<dim>        &place)
+            const dealii::Point<dim>        &place,
+            const int                        longest)
     {
       const auto   middle = tracer.trace(place, -tracer.dt() / 2);
-      const double cells  = 2 * distance_in_cells(tracer.model().grid(), place, middle.foot.point);
+      const double known  = 2 * distance_in_cells(tracer.model().grid(), place, middle.foot.point);
+      const double cells  = middle.left_domain ? std::max<double>(longest, known) : known;
       const int    n      = std::max(1, static_cast<int>(std::ceil(cells - cells_rounding)));
       double       sum    = 0;
       for (int k = 0; k < n; ++k)
@@ -102,7 +104,7 @@ namespace undine
           else if (!grid.at_boundary(axis, face) && is_fixed(below) && is_fixed(face))
             means(face) = (half(below) + half(face)) / 2;
           else
-            means(face) = mean_at(tracer, source, means.lattice().point(face));
+            means(face) = mean_at(tracer, source, means.lattice().point(face), bounds.reached);
         });
       }
     exchange(result);

@@ -45,7 +45,8 @@ namespace undine
     const auto &flow  = fluxes.flow;
     const auto &grid  = flow.model().grid();
     const auto  reach = [&](const CellLink<dim> &link, const auto &flux) {
-      return flow.duration() * std::abs(flux.rate) / grid.cell_volume(link.from.cell);
+      return flow.duration() * std::abs(flux.rate) /
+             std::min(grid.cell_volume(link.from.cell), grid.cell_volume(link.to.cell));
     };
     double farthest = 0;
     fluxes.for_each([&](const CellLink<dim> &link, const auto &flux) {
@@ -54,11 +55,13 @@ namespace undine
     constexpr double rounding = 1e-6; // lest it decide
     farthest                  = dealii::Utilities::MPI::max(farthest, grid.communicator());
     reached                   = std::max(1, static_cast<int>(std::ceil(farthest - rounding)));
-    fluxes.for_each_side(flow.begin() + flow.duration() / 2,
-                         [&](const PressurePlace<dim> &place, const auto &flux) {
-                           if (flux.upwind().other != 0)
-                             include(place, flux.beyond);
-                         });
+    // What sides give may change in a stage.
+    for (const double share : {0., .5, 1.})
+      fluxes.for_each_side(flow.begin() + share * flow.duration(),
+                           [&](const PressurePlace<dim> &place, const auto &flux) {
+                             if (flux.upwind().other != 0)
+                               include(place, flux.beyond);
+                           });
     for (int round = 0; round < reached; ++round)
       {
         lower.exchange(1);

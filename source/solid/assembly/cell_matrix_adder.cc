@@ -40,11 +40,12 @@ namespace undine
         double *sums    = nullptr;
         int    *numbers = nullptr;
         entries.ExtractMyRowView(row, n, sums, numbers);
+        const int *const end = numbers + n;
         for (const auto &[column, place] : columns)
           {
-            while (*numbers < column)
+            while (numbers != end && *numbers < column)
               ++numbers, ++sums;
-            Assert(*numbers == column, dealii::ExcInternalError());
+            AssertThrow(numbers != end && *numbers == column, dealii::ExcInternalError());
             *sums += values(k, place);
           }
       }

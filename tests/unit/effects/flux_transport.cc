@@ -104,10 +104,44 @@ TEST_CASE("A wave that passes is of second order by fluxes, in steps of half a c
 }
 
 
+TEST_CASE("Fluxes fill the cells that an inflow reaches in a step of several", "[scalars]")
+{
+  const int  n = 16;
+  FlowRun<2> run(FluidText{fmt::format("{}, 4", n),
+                           boundary("in", "left", "inflow", "set Velocity = 1; 0") +
+                             boundary("out", "right", "outflow"),
+                           "1; 0"},
+                 smoke_by_fluxes("set Initial value = 0\nset Inflow value = 1"));
+  run.step(4. / n);
+  const auto in = [&](const int column) { return smoke_of(run)(GridIndex<2>{{column, 1}}); };
+  for (int column = 0; column < 3; ++column)
+    {
+      INFO(column);
+      CHECK(in(column) == Approx(1.).margin(1e-9));
+    }
+  CHECK(in(3) > .97);
+  CHECK(in(4) < .02);
+}
+
+
+TEST_CASE("A wide cell gets what comes through narrow ones", "[scalars]")
+{
+  // Eight cells of .025, then of .1: in one step a wide one is filled by the last four narrow ones.
+  FlowRun<2> run(FluidText{"16, 2",
+                           boundary("in", "left", "inflow", "set Velocity = 1; 0") +
+                             boundary("out", "right", "outflow"),
+                           "1; 0",
+                           "set Grading x = if(x < .5, .4*x, .2 + 1.6*(x-.5))"},
+                 smoke_by_fluxes("set Initial value = if(x > .1 && x < .175, 1, 0)"));
+  run.step(.1);
+  CHECK(smoke_of(run)(GridIndex<2>{{8, 0}}) == Approx(.75).margin(.05));
+}
+
+
 TEST_CASE("Fluxes on a graded grid are alike turned by half", "[scalars]")
 {
   // In steps of several of the finest cells: what comes to a face is the same from both sides.
-  const int n = 20;
+  const int  n = 20;
   FlowRun<2> run(FluidText{fmt::format("{0}, {0}", n),
                            boundary("around", every_side<2>(), "slip wall"),
                            "sin(pi*x)*cos(pi*y); -cos(pi*x)*sin(pi*y)",
@@ -120,7 +154,7 @@ TEST_CASE("Fluxes on a graded grid are alike turned by half", "[scalars]")
   for_each(smoke.owned(), [&](const GridIndex<2> &cell) {
     const double other = smoke(GridIndex<2>{{n - 1 - cell[0], n - 1 - cell[1]}});
     largest            = std::max(largest, std::abs(smoke(cell) + other - 1));
-    change = std::max(change, std::abs(smoke(cell) - smoke.lattice().point(cell)[0]));
+    change             = std::max(change, std::abs(smoke(cell) - smoke.lattice().point(cell)[0]));
   });
   CHECK(change > .1);
   CHECK(largest <= 1e-12);

@@ -138,6 +138,11 @@ namespace undine
     std::vector<double>
     void_pressures(double time) const;
 
+    /// What is outside of openings presses with at `time` [s], on each facet where the grid was
+    /// cut, see outside_pressures_on_facets() [Pa].
+    std::vector<double>
+    outside_pressures_on_facets(const dealii::Tensor<1, dim> &gravity, double time) const;
+
     /// All other forces in the nodes of the surfaces but friction [N]: the weight that the reduced
     /// pressure leaves out, the pressures of void regions at `time` [s], and those outside of
     /// openings. Collective.

@@ -107,17 +107,19 @@ namespace undine
                      const Vector         &right_side,
                      const BackflowMatrix &stabilised) const;
 
-    /// Add impulses h p to the velocity until its divergence vanishes, beginning with those in
-    /// `impulse`, which becomes the sum of all [Pa s]. The openings hold impulses in the place of
-    /// pressures; they are used up.
+    /// Add impulses h p to the velocity until its divergence, in a cell and relative to the speed,
+    /// is at most `tolerance`, beginning with those in `impulse`, which becomes the sum of all
+    /// [Pa s]. The openings hold impulses in the place of pressures; they are used up.
     Report
     remove_divergence(Velocity<dim>              &velocity,
                       Field<dim>                 &impulse,
                       std::vector<OpenFace<dim>> &openings,
-                      const std::vector<double>  &body_fluxes);
+                      const std::vector<double>  &body_fluxes,
+                      double                      tolerance);
 
-    /// The same at the end of a step dt, with openings that hold pressures, and with backflow
-    /// stabilisation, see stabilise_backflow().
+    /// The same to the scene's tolerance at the end of a step dt, with openings that hold
+    /// pressures, and with backflow stabilisation, see stabilise_backflow(). Where there is
+    /// backflow, its speeds are found by rounds that are less accurate.
     Report
     remove_divergence_with_openings(Velocity<dim>             &velocity,
                                     Field<dim>                &impulse,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <undine/coupled/step/fluid_side.h>
+#include <undine/fluid/boundary/boundary_quantities.h>
+#include <undine/fluid/grid/field_algebra.h>
 #include <undine/operators/body_forces.h>
 
 #include <coupled/coupled_run.h>
@@ -210,4 +212,30 @@ TEST_CASE("A wall feels no friction where a body covers it", "[friction]")
     .1);
   run.step();
   CHECK(run.column("Viscous force on lid, x") == 0);
+}
+
+
+TEST_CASE("A wall feels the friction of the fluid between it and a body, wherever that ends",
+          "[friction]")
+{
+  for (const double floor : {.875, .9, .9375, .95})
+    {
+      INFO(floor);
+      ObstacleRun<2> run(
+        FluidText{"8, 8", boundary("lid", "top", "moving wall", "set Velocity = 3; 0")},
+        section("floor",
+                fmt::format("set Lower corner = -.1, -.1\nset Upper corner = 1.1, "
+                            "{}",
+                            floor)),
+        viscosity(2.),
+        .1);
+      const auto &model = *run.models.fluid;
+      auto       &fluid = run.state.fluid;
+      for_each_value(fluid.velocity[0], [&](double &value, const auto &place, const auto &) {
+        value = 3 * (place[1] - floor) / (1 - floor);
+      });
+      set_means(fluid.velocity, model.grid());
+      const auto forces = viscous_forces(model.boundaries(), fluid, 2., 0.);
+      CHECK(forces[0][0] == Approx(-6 / (1 - floor)).epsilon(1e-9));
+    }
 }
