@@ -128,8 +128,21 @@ namespace undine
     for (const auto &made : stencils_made)
       if (made->points().is_for(like))
         return made;
+    const auto enters = [&](const unsigned int    axis,
+                            const unsigned int    end,
+                            const GridIndex<dim> &index) {
+      bool result = true;
+      for_each_boundary_around(fluid_model.boundaries(),
+                               like.lattice(),
+                               Side{axis, end},
+                               index,
+                               [&](const Boundary<dim> &boundary, double, const GridIndex<dim> &) {
+                                 result = result && boundary.kind == BoundaryKind::inflow;
+                               });
+      return result;
+    };
     stencils_made.push_back(std::make_shared<VisibilityStencils<dim>>(
-      like, ghost_width, *among.obstruction, body_vicinity));
+      like, ghost_width, *among.obstruction, body_vicinity, enters));
     return stencils_made.back();
   }
 

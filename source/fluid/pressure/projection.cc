@@ -27,7 +27,7 @@ namespace undine
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
     // Of the divergence while the speeds of backflow are not known yet, which are found to 1e-4.
-    constexpr double tolerance_of_rounds = 1e-5;
+    constexpr double tolerance_of_rounds = 1e-6;
 
 
     /// The smallest flux_area() of all cells.

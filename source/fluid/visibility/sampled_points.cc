@@ -39,17 +39,46 @@ namespace undine
   SampledPoints<dim>::SampledPoints(const Field<dim>        &like,
                                     const GridIndex<dim>    &width,
                                     const Obstruction<dim>  &obstruction,
-                                    const BodyVicinity<dim> &vicinity)
+                                    const BodyVicinity<dim> &vicinity,
+                                    const Enters            &enters)
     : lattice(like.shared_lattice())
     , open(like.topology())
     , stored(like.stored())
     , kinds(stored.size(), Kind::value)
+    , comes_in(stored.size(), 0)
   {
     find_kinds(width, obstruction);
     if (!open)
       return;
     find_parts_for_ranks(width);
     gather_parts(obstruction, vicinity);
+    if (enters)
+      find_what_comes_in(enters);
+  }
+
+
+  /// At boundary points beyond one side.
+  template <int dim>
+  void
+  SampledPoints<dim>::find_what_comes_in(const Enters &enters)
+  {
+    for_each(stored, [&](const GridIndex<dim> &index) {
+      if (kinds[stored.position(index)] != Kind::parts)
+        return;
+      const auto   within  = inside(index);
+      unsigned int n_sides = 0, axis = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (index[d] != within[d])
+          {
+            axis = d;
+            ++n_sides;
+          }
+      if (n_sides != 1)
+        return;
+      auto own                         = lattice->wrapped(within);
+      own[axis]                        = index[axis];
+      comes_in[stored.position(index)] = enters(axis, index[axis] < within[axis] ? 0 : 1, own);
+    });
   }
 
 

@@ -56,8 +56,9 @@ namespace undine
   VisibilityStencils<dim>::VisibilityStencils(const Field<dim>        &like,
                                               const GridIndex<dim>    &width,
                                               const Obstruction<dim>  &obstruction_,
-                                              const BodyVicinity<dim> &vicinity)
-    : sampled(like, width, obstruction_, vicinity)
+                                              const BodyVicinity<dim> &vicinity,
+                                              const typename SampledPoints<dim>::Enters &enters)
+    : sampled(like, width, obstruction_, vicinity, enters)
     , obstruction(obstruction_)
     , facets(vicinity.facets_of_cells())
     , box(sampled.stored_points())

@@ -7,6 +7,7 @@
 #include <undine/fluid/visibility/obstruction.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -22,12 +23,20 @@ namespace undine
   public:
     using Place = typename BodyVicinity<dim>::Place;
 
+    /// Does the value of a boundary point beyond the lower (0) or upper (1) `end` of an axis come
+    /// in with the flow?
+    using Enters = std::function<bool(
+      const unsigned int axis, const unsigned int end, const GridIndex<dim> &index)>;
+
     /// For fields like this one, with ghost layers of this width and boundary points, on the
-    /// topology of the fluid before the last motion of bodies. Collective.
+    /// topology of the fluid before the last motion of bodies. Where fluid `enters`, a boundary
+    /// point that continues a divided one has the value that comes in, at the places of its
+    /// sub-cells or sub-faces; elsewhere it has theirs. Collective.
     SampledPoints(const Field<dim>        &like,
                   const GridIndex<dim>    &width,
                   const Obstruction<dim>  &obstruction,
-                  const BodyVicinity<dim> &vicinity);
+                  const BodyVicinity<dim> &vicinity,
+                  const Enters            &enters = {});
 
     /// One sample: its place, its number in Values and its measure: 1 for a whole point, else that
     /// of the sub-cell or sub-face.
@@ -88,7 +97,12 @@ namespace undine
         {
           const auto point = inside(index), own = lattice->wrapped(point);
           for (const auto &sample : lists[list_of_point[position]])
-            action(point == own ? sample : image_of(sample, point, own));
+            {
+              auto here = point == own ? sample : image_of(sample, point, own);
+              if (comes_in[position])
+                here.number = position;
+              action(here);
+            }
         }
     }
 
@@ -130,6 +144,9 @@ namespace undine
     void
     gather_parts(const Obstruction<dim> &obstruction, const BodyVicinity<dim> &vicinity);
 
+    void
+    find_what_comes_in(const Enters &enters);
+
     /// Where a sample of the point `own` appears at its image `point`.
     Sample
     image_of(Sample sample, const GridIndex<dim> &point, const GridIndex<dim> &own) const;
@@ -140,6 +157,7 @@ namespace undine
     std::vector<Kind>                         kinds;         ///< by position in `stored`
     std::vector<unsigned int>                 list_of_point; ///< likewise, in `lists`
     std::vector<std::vector<Sample>>          lists;         ///< the first is empty
+    std::vector<std::uint8_t>                 comes_in;      ///< by position in `stored`: Enters
 
     std::map<unsigned int, std::vector<unsigned int>> parts_for_ranks; ///< their numbers here
   };

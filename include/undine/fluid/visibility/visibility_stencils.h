@@ -27,10 +27,11 @@ namespace undine
 
     /// For the cubes between stored points of fields like this one, see SampledPoints. Keeps
     /// references to the surfaces and the vicinity. Collective.
-    VisibilityStencils(const Field<dim>        &like,
-                       const GridIndex<dim>    &width,
-                       const Obstruction<dim>  &obstruction,
-                       const BodyVicinity<dim> &vicinity);
+    VisibilityStencils(const Field<dim>                          &like,
+                       const GridIndex<dim>                      &width,
+                       const Obstruction<dim>                    &obstruction,
+                       const BodyVicinity<dim>                   &vicinity,
+                       const typename SampledPoints<dim>::Enters &enters = {});
 
     /// The samples.
     const SampledPoints<dim> &

@@ -64,3 +64,40 @@ TEST_CASE("Constant scalars stay constant in fluid that bodies uncover", "[coupl
       }
     }
 }
+
+
+TEMPLATE_TEST_CASE_SIG("What enters reaches the cells that a body cuts, along paths, too",
+                       "[coupled][mpi]",
+                       ((int dim), dim),
+                       2,
+                       3)
+{
+  for (const std::string method : {"cubic", "MacCormack", "semi-Lagrangian"})
+    {
+      INFO(method);
+      ObstacleRun<dim> run(
+        section("Domain", plane_or_space<dim>("set Cells = 16, 10", "set Cells = 8, 10, 3")) +
+          section("Fluid",
+                  "set Density = 1\n" +
+                    section("Boundaries",
+                            boundary("in",
+                                     "left",
+                                     "inflow",
+                                     plane_or_space<dim>("set Velocity = 1; 0",
+                                                         "set Velocity = 1; 0; 0")) +
+                              boundary("out", "right", "outflow"))),
+        section("floor",
+                plane_or_space<dim>("set Lower corner = -.5, -.5\nset Upper corner = 1.5, .23",
+                                    "set Lower corner = -.5, -.5, -1\nset Upper corner = 1.5, "
+                                    ".23, 2")),
+        convection() + section("scalar transport",
+                               "set Method = " + method + "\n" +
+                                 section("smoke", "set Initial value = 0\nset Inflow value = 1")),
+        .05);
+      for (unsigned int n = 0; n < 60; ++n)
+        run.step();
+      CHECK(largest_in_cells(run.state.fluid.scalars.at("smoke"),
+                             [](const double value, const auto &) { return std::abs(value - 1); }) <
+            1e-3);
+    }
+}
