@@ -66,11 +66,11 @@ namespace undine
                                const auto         whole = area_vector(surface, facet, positions);
                                if (whole.norm_square() == 0)
                                  return;
-                               const double share = point.into_body * whole / whole.norm_square();
+                               const double of_whole =
+                                 pressure_at(boundaries, point, weight, time) *
+                                 (point.into_body * whole) / whole.norm_square();
                                for (unsigned int k = 0; k < dim; ++k)
-                                 result[facet * dim + k] +=
-                                   pressure_at(boundaries, point, weight, time) * point.shape[k] *
-                                   share;
+                                 result[facet * dim + k] += point.shape[k] * of_whole;
                              });
     return result;
   }

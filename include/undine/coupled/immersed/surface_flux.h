@@ -35,9 +35,9 @@ namespace undine
     virtual double
     factor() const = 0;
 
-    /// By how much the means over the motion of the fluid's weight and of the pressures of void
-    /// regions differ from the loads where the grid was cut, in the nodes of all surfaces [N];
-    /// empty: by nothing. Collective.
+    /// By how much the means over the motion of the fluid's weight, of the pressures of void
+    /// regions and of those outside of openings differ from the loads where the grid was cut, in
+    /// the nodes of all surfaces [N]; empty: by nothing. Collective.
     virtual typename FluidGeometry<dim>::Velocities
     change_at_rest() const
     {
