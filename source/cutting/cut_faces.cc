@@ -3,6 +3,8 @@
 #include <undine/cutting/cut_workspace.h>
 #include <undine/cutting/sampled_regions.h>
 
+#include <algorithm>
+
 namespace undine
 {
   namespace
@@ -14,10 +16,10 @@ namespace undine
               CutWorkspace<dim>        &work,
               const double              area,
               const dealii::Point<dim> &centroid,
-              const Rims<dim>          &rims)
+              const PieceShape<dim>    &shape)
     {
       const int face = cut.faces.size() - 1;
-      cut.pieces.push_back({face, area, centroid, {{cut.outside, cut.outside}}, rims});
+      cut.pieces.push_back({face, area, centroid, {{cut.outside, cut.outside}}, shape});
       if (area <
           -reported_inversion * cut.block.face_area(cut.faces[face].axis, cut.faces[face].index))
         work.face_records[face].flags |= cut_negative_area;
@@ -48,18 +50,50 @@ namespace undine
     }
 
 
-    /// The rims of all regions of the planar problem on a face.
-    std::vector<Rims<3>>
-    rims_of_regions(const CutWorkspace<3>             &work,
-                    const GridPlanes<3>               &planes,
-                    const GridIndex<3>                &corner,
-                    const std::array<unsigned int, 2> &axes)
+    /// The mean of min(x, 0) over a segment along which x goes from `start` to `end`.
+    double
+    mean_of_negative(const double start, const double end)
     {
-      std::vector<Rims<3>> result(work.planar.regions().size());
-      const auto          &record = work.face_records.back();
+      const double lower = std::min(start, end), upper = std::max(start, end);
+      return upper <= 0 ? (lower + upper) / 2 : lower >= 0 ? 0. : lower * lower / (lower - upper) / 2;
+    }
+
+
+    /// Add what an edge contributes, by Green's theorem, to the areas of its region in the lower
+    /// halves of the rectangle: of min(x - middle, 0), whose derivative is one there.
+    void
+    add_to_lower_halves(std::array<double, 3>             &lower_half,
+                        const PlanarEdge                  &edge,
+                        const GridPlanes<3>               &planes,
+                        const GridIndex<3>                &corner,
+                        const std::array<unsigned int, 2> &axes)
+    {
+      for (const unsigned int d : {0, 1})
+        {
+          const double middle = planes.width(axes[d], corner[axes[d]]) / 2;
+          const double along  = edge.end[1 - d] - edge.start[1 - d];
+          lower_half[axes[d]] += (d == 0 ? along : -along) *
+                                 mean_of_negative(edge.start[d] - middle, edge.end[d] - middle);
+        }
+    }
+
+
+    /// Of all regions of the planar problem on a face.
+    std::vector<PieceShape<3>>
+    shapes_of_regions(const CutWorkspace<3>             &work,
+                      const GridPlanes<3>               &planes,
+                      const GridIndex<3>                &corner,
+                      const std::array<unsigned int, 2> &axes)
+    {
+      std::vector<PieceShape<3>> result(work.planar.regions().size());
+      const auto                &record = work.face_records.back();
       for (int i = record.first_planar; i < record.end_planar; ++i)
-        if (const auto &edge = work.planar_edges[i]; edge.on_rim && edge.region >= 0)
-          add_to_rim(result[edge.region], edge, planes, corner, axes);
+        if (const auto &edge = work.planar_edges[i]; edge.region >= 0)
+          {
+            add_to_lower_halves(result[edge.region].lower_half, edge, planes, corner, axes);
+            if (edge.on_rim)
+              add_to_rim(result[edge.region].rims, edge, planes, corner, axes);
+          }
       return result;
     }
   } // namespace
@@ -84,10 +118,13 @@ namespace undine
         dealii::Point<2> centroid;
         centroid[face.axis] = cut.block.planes().position(face.axis, face.index[face.axis]);
         centroid[along]     = (start + end) / 2;
-        Rims<2> rims;
-        rims[2 * along].length     = interval.from < 0 ? 1 : 0; // a node of the grid
-        rims[2 * along + 1].length = interval.to < 0 ? 1 : 0;
-        add_piece(cut, work, end - start, centroid, rims);
+        const double  middle = cut.block.planes().position(along, face.index[along]) +
+                              cut.block.planes().width(along, face.index[along]) / 2;
+        PieceShape<2> shape;
+        shape.rims[2 * along].length     = interval.from < 0 ? 1 : 0; // a node of the grid
+        shape.rims[2 * along + 1].length = interval.to < 0 ? 1 : 0;
+        shape.lower_half[along]          = std::min(end, middle) - std::min(start, middle);
+        add_piece(cut, work, end - start, centroid, shape);
         work.debris_piece.push_back(false);
       }
   }
@@ -115,15 +152,15 @@ namespace undine
         sample_face(cut, work);
         return;
       }
-    const auto rims = rims_of_regions(work, planes, face.index, axes);
-    for (std::size_t r = 0; r < rims.size(); ++r)
+    const auto shapes = shapes_of_regions(work, planes, face.index, axes);
+    for (std::size_t r = 0; r < shapes.size(); ++r)
       {
         const auto      &region = work.planar.regions()[r];
         dealii::Point<3> centroid;
         centroid[face.axis] = planes.position(face.axis, face.index[face.axis]);
         for (unsigned int d = 0; d < 2; ++d)
           centroid[axes[d]] = planes.position(axes[d], face.index[axes[d]]) + region.centroid(d);
-        add_piece(cut, work, region.area, centroid, rims[r]);
+        add_piece(cut, work, region.area, centroid, shapes[r]);
         work.debris_piece.push_back(region.debris);
       }
     if (record.flags & cut_needs_sampling) // a piece of negative area

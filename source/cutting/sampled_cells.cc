@@ -96,14 +96,14 @@ namespace undine
     /// @}
 
 
-    /// The rims of a piece of which only the area is known, at most what there is.
-    Rims<3>
-    mean_rims(const GridPlanes<3>               &planes,
+    /// The shape of a piece of which only the area is known: rims at most as long as there are.
+    PieceShape<3>
+    mean_shape(const GridPlanes<3>               &planes,
               const GridIndex<3>                &corner,
               const std::array<unsigned int, 2> &axes,
               const double                       area)
     {
-      Rims<3>      result;
+      PieceShape<3> result;
       const double share = std::min(
         1.,
         area / (planes.width(axes[0], corner[axes[0]]) * planes.width(axes[1], corner[axes[1]])));
@@ -112,8 +112,9 @@ namespace undine
           {
             const unsigned int along  = axes[1 - d];
             const double       width  = planes.width(along, corner[along]);
-            result[2 * axes[d] + end] = {share * width,
-                                         planes.position(along, corner[along]) + width / 2};
+            result.rims[2 * axes[d] + end] = {share * width,
+                                              planes.position(along, corner[along]) + width / 2};
+            result.lower_half[axes[d]]     = area / 2;
           }
       return result;
     }
@@ -224,7 +225,7 @@ namespace undine
                               region.volume,
                               centroid,
                               {{cut.outside, cut.outside}},
-                              mean_rims(planes, face.index, axes, region.volume)});
+                              mean_shape(planes, face.index, axes, region.volume)});
         work.debris_piece.push_back(false);
       }
     ++cut.counts.sampled_faces;

@@ -68,7 +68,7 @@ namespace undine
       dealii::Point<dim> centroid; ///< [m]
       /// Below and above the face: a component, `uncut` or `outside`.
       std::array<int, 2> components;
-      Rims<dim>          rims;
+      PieceShape<dim>    shape;
     };
 
     /// The part of a facet in one cell. For functions f, g linear on the facet with values f_i, g_j

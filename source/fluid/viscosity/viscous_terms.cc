@@ -26,7 +26,7 @@ namespace undine
     , open(open)
     , walls(walls)
     , viscosity(viscosity)
-    , links(grid, axis, open, walls.rims[axis])
+    , links(grid, axis, open, walls.shapes)
   {
   }
 
@@ -108,21 +108,25 @@ namespace undine
     Term term;
     term.faces.resize(2);
     undine::for_each(grid.faces(axis)->owned(), [&](const GridIndex<dim> &face) {
-      const double width = grid.dual_width(axis, face[axis]);
       for (unsigned int d = 0; d < dim; ++d)
-        if (d != axis && links.has_neighbour(face, d, 1))
+        if (const Side side{d, 1}; d != axis && links.has_neighbour(face, side))
           links.for_each_place(face, [&](const FacePlace<dim> &place) {
             links.for_each_neighbour(
-              place, d, 1, [&](const FacePlace<dim> &next, const double common) {
-                const double distance = std::max(links.centroid(next)[d] - links.centroid(place)[d],
-                                                 least_share * grid.cell_width(d, face[d]));
-                term.weight           = viscosity * width * common / distance;
-                term.faces[0]         = {place, 1.};
-                term.faces[1]         = {next, -1.};
+              place, side, [&](const FacePlace<dim> &next, const double area) {
+                term.weight   = viscosity * area / links.distance(place, next, d);
+                term.faces[0] = {place, 1.};
+                term.faces[1] = {next, -1.};
                 action(term);
               });
           });
     });
+    for (const auto &passage : walls.passages[axis])
+      {
+        term.weight   = viscosity * passage.area / passage.distance;
+        term.faces[0] = {passage.pieces[0], 1.};
+        term.faces[1] = {passage.pieces[1], -1.};
+        action(term);
+      }
   }
 
 
@@ -146,10 +150,9 @@ namespace undine
             const auto on_side = moved<dim>(face, d, side.sign());
             links.for_each_place(face, [&](const FacePlace<dim> &place) {
               const double distance =
-                std::max(std::abs(links.side(place, d, end) - links.centroid(place)[d]),
+                std::max(std::abs(links.position(face, side) - links.centroid(place)[d]),
                          least_share * grid.cell_width(d, face[d]));
-              const double weight = viscosity * grid.dual_width(axis, face[axis]) *
-                                    links.rim(place, d, end).length / distance;
+              const double weight = viscosity * links.area_on_side(place, side) / distance;
               for_each_boundary_around(
                 model.boundaries(),
                 lattice,
@@ -178,9 +181,8 @@ namespace undine
     term.nodes.resize(dim);
     for (const auto &contact : walls.contacts[axis])
       {
-        term.weight =
-          viscosity * grid.dual_width(axis, contact.face[axis]) * contact.length / contact.distance;
-        term.faces[0] = {{contact.face, contact.part}, 1.};
+        term.weight   = viscosity * contact.area / contact.distance;
+        term.faces[0] = {contact.piece, 1.};
         for (unsigned int k = 0; k < dim; ++k)
           term.nodes[k] = {contact.nodes[k], -contact.weights[k]};
         action(term);

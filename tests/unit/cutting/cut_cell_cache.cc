@@ -23,8 +23,9 @@ namespace
   bool
   same_rims(const Piece &a, const Piece &b)
   {
-    for (std::size_t side = 0; side < a.rims.size(); ++side)
-      if (a.rims[side].length != b.rims[side].length || a.rims[side].middle != b.rims[side].middle)
+    for (std::size_t side = 0; side < a.shape.rims.size(); ++side)
+      if (a.shape.rims[side].length != b.shape.rims[side].length ||
+          a.shape.rims[side].middle != b.shape.rims[side].middle)
         return false;
     return true;
   }

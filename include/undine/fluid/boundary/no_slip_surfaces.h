@@ -2,7 +2,7 @@
 #ifndef undine_fluid_boundary_no_slip_surfaces_h
 #define undine_fluid_boundary_no_slip_surfaces_h
 
-#include <undine/fluid/grid/index_box.h>
+#include <undine/fluid/grid/face_place.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -24,20 +24,42 @@ namespace undine
   template <int dim>
   using Rims = std::array<Rim, 2 * dim>;
 
+  /// What friction needs to know of the shape of a face's piece.
+  template <int dim>
+  struct PieceShape
+  {
+    Rims<dim> rims;
+
+    /// [d]: its area in the half of the face that is lower along d [m^(dim-1)].
+    std::array<double, dim> lower_half{};
+  };
+
+  /// Of all pieces: [axis][number in FluidTopology::faces].
+  template <int dim>
+  using PieceShapes = std::array<std::vector<PieceShape<dim>>, dim>;
+
   /// What the friction of a fluid needs to know of the surfaces in it, besides the topology that
   /// they leave of the grid.
   template <int dim>
   struct NoSlipSurfaces
   {
-    /// Where a plane of faces meets the surface next to a piece.
+    /// What of the surface bounds the fluid that moves with a piece of a face, on one of its sides.
     struct Contact
     {
-      GridIndex<dim>                face;
-      int                           part; ///< number in FluidTopology::faces; -1: the face is whole
-      double                        length;   ///< of the intersection [m^(dim-2)], 1 in 2D
+      FacePlace<dim>                piece;
+      double                        area; ///< projected onto the normal in the face [m^(dim-1)]
       double                        distance; ///< from the piece's centroid, in the plane [m]
       std::array<unsigned int, dim> nodes;    ///< of the surface
       std::array<double, dim>       weights;  ///< of their velocities at the contact
+    };
+
+    /// Where the fluid of two pieces touches around the end of a body: of one face, in a component
+    /// that both bound. Or where the end of a body is between two pieces that are neighbours.
+    struct Passage
+    {
+      std::array<FacePlace<dim>, 2> pieces;
+      double                        area;     ///< below 0 if the body is between them [m^(dim-1)]
+      double                        distance; ///< of their centroids [m]
     };
 
     /// An entry of B (BoundaryFlux): int_{Gamma_c} N_node n dGamma [m^(dim-1)].
@@ -48,9 +70,10 @@ namespace undine
       dealii::Tensor<1, dim> area;
     };
 
-    std::array<std::vector<Rims<dim>>, dim> rims;     ///< [axis][number in FluidTopology::faces]
-    std::array<std::vector<Contact>, dim>   contacts; ///< by axis, of this rank's faces
-    std::vector<Patch>                      patches;  ///< of this rank's components, in their order
+    PieceShapes<dim>                      shapes;
+    std::array<std::vector<Contact>, dim> contacts; ///< by axis, of this rank's faces
+    std::array<std::vector<Passage>, dim> passages; ///< likewise
+    std::vector<Patch>                    patches;  ///< of this rank's components, in their order
 
     unsigned int n_nodes = 0; ///< of the surfaces
   };
