@@ -55,7 +55,9 @@ namespace undine
     mean_of_negative(const double start, const double end)
     {
       const double lower = std::min(start, end), upper = std::max(start, end);
-      return upper <= 0 ? (lower + upper) / 2 : lower >= 0 ? 0. : lower * lower / (lower - upper) / 2;
+      return upper <= 0   ? (lower + upper) / 2
+             : lower >= 0 ? 0.
+                          : lower * lower / (lower - upper) / 2;
     }
 
 
@@ -118,7 +120,7 @@ namespace undine
         dealii::Point<2> centroid;
         centroid[face.axis] = cut.block.planes().position(face.axis, face.index[face.axis]);
         centroid[along]     = (start + end) / 2;
-        const double  middle = cut.block.planes().position(along, face.index[along]) +
+        const double middle = cut.block.planes().position(along, face.index[along]) +
                               cut.block.planes().width(along, face.index[along]) / 2;
         PieceShape<2> shape;
         shape.rims[2 * along].length     = interval.from < 0 ? 1 : 0; // a node of the grid

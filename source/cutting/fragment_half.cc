@@ -48,8 +48,9 @@ namespace undine
             dealii::cross_product_3d(corners[k - 1] - corners[0], corners[k] - corners[0]) * sum /
             size;
           area += part;
-          moment += part / 3 * (corners[0] + (corners[k - 1] - dealii::Point<3>()) +
-                                (corners[k] - dealii::Point<3>()) - dealii::Point<3>());
+          moment += part / 3 *
+                    (corners[0] + (corners[k - 1] - dealii::Point<3>()) +
+                     (corners[k] - dealii::Point<3>()) - dealii::Point<3>());
         }
       return {area, dealii::Point<3>(moment)};
     }

@@ -99,19 +99,19 @@ namespace undine
     /// The shape of a piece of which only the area is known: rims at most as long as there are.
     PieceShape<3>
     mean_shape(const GridPlanes<3>               &planes,
-              const GridIndex<3>                &corner,
-              const std::array<unsigned int, 2> &axes,
-              const double                       area)
+               const GridIndex<3>                &corner,
+               const std::array<unsigned int, 2> &axes,
+               const double                       area)
     {
       PieceShape<3> result;
-      const double share = std::min(
+      const double  share = std::min(
         1.,
         area / (planes.width(axes[0], corner[axes[0]]) * planes.width(axes[1], corner[axes[1]])));
       for (unsigned int d = 0; d < 2; ++d)
         for (unsigned int end = 0; end < 2; ++end)
           {
-            const unsigned int along  = axes[1 - d];
-            const double       width  = planes.width(along, corner[along]);
+            const unsigned int along       = axes[1 - d];
+            const double       width       = planes.width(along, corner[along]);
             result.rims[2 * axes[d] + end] = {share * width,
                                               planes.position(along, corner[along]) + width / 2};
             result.lower_half[axes[d]]     = area / 2;

@@ -37,8 +37,7 @@ namespace undine
             exchange([&](auto &shape) -> double & { return shape.lower_half[d]; });
             for (const unsigned int end : {0, 1})
               for (double Rim::*number : {&Rim::length, &Rim::middle})
-                exchange(
-                  [&](auto &shape) -> double & { return shape.rims[2 * d + end].*number; });
+                exchange([&](auto &shape) -> double & { return shape.rims[2 * d + end].*number; });
           }
       return result;
     }

@@ -154,10 +154,10 @@ namespace undine
       if (d != axis)
         width = std::min(width, grid.cell_width(d, place.face[d]));
     surfaces.contacts[axis].push_back({place,
-                        area,
-                        std::max(meeting.distance, least_distance * width),
-                        placed.surface.facets()[meeting.spot.facet],
-                        meeting.spot.weights});
+                                       area,
+                                       std::max(meeting.distance, least_distance * width),
+                                       placed.surface.facets()[meeting.spot.facet],
+                                       meeting.spot.weights});
   }
 
 
@@ -170,8 +170,7 @@ namespace undine
     const auto lines = chords(axis, face);
     Screened   screened;
     for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
-      if (const auto found = wall(f, axis, cell, end);
-          is_wet(f) && counts(found, axis, cell))
+      if (const auto found = wall(f, axis, cell, end); is_wet(f) && counts(found, axis, cell))
         {
           const double area = found.area.norm();
           const int    part = piece_at(axis,
@@ -184,11 +183,11 @@ namespace undine
             continue;
           const View   view{axis, {face, part}, 1 - end};
           auto         meeting = this->meeting(view, found, lines);
-          const double own     = share_of(view, meeting) * area;
+          const double own     = share_of(view, found, meeting) * area;
           const double beyond  = add_to_neighbour(view, found, area - own, screened);
           if (own > 0)
             add(axis, view.piece, own, meeting);
-          meeting.distance = std::max(meeting.distance, least_of_extensions(view, meeting));
+          meeting.distance = std::max(meeting.distance, least_of_extensions(view, found));
           if (const double left = area - own - beyond; left > negligible_area * area)
             add(axis, view.piece, left, meeting);
         }
@@ -200,21 +199,21 @@ namespace undine
   /// bounded and continuous.
   template <int dim>
   double
-  WallContacts<dim>::share_of(const View &view, const Meeting &meeting) const
+  WallContacts<dim>::share_of(const View &view, const Wall &wall, const Meeting &meeting) const
   {
     if (meeting.is_chord)
       return 1;
-    return std::pow(std::clamp(meeting.distance / least_of_extensions(view, meeting), 0., 1.), 2);
+    return std::pow(std::clamp(meeting.distance / least_of_extensions(view, wall), 0., 1.), 2);
   }
 
 
   /// Half the width of the cell.
   template <int dim>
   double
-  WallContacts<dim>::least_of_extensions(const View &view, const Meeting &meeting) const
+  WallContacts<dim>::least_of_extensions(const View &view, const Wall &wall) const
   {
-    const unsigned int d = main_direction(view.axis, meeting.offset);
-    return meeting.is_chord ? 0. : grid.cell_width(d, view.piece.face[d]) / 2;
+    const unsigned int d = main_direction(view.axis, wall.area);
+    return grid.cell_width(d, view.piece.face[d]) / 2;
   }
 
 
@@ -265,7 +264,8 @@ namespace undine
     const double middle = cut.block.planes().position(axis, index[axis]) +
                           cut.block.planes().width(axis, index[axis]) / 2;
     const auto half = half_of_fragment(corners_of_fragment(fragment), axis, middle, end == 1);
-    Wall       result{fragment, half.share * cut.fragments[fragment].area_vector, half.centroid};
+    Wall       result{fragment, half.share * cut.fragments[fragment].area_vector, 0, half.centroid};
+    result.size       = result.area.norm();
     result.area[axis] = 0;
     return result;
   }
@@ -305,10 +305,10 @@ namespace undine
                               const dealii::Point<dim>     &where,
                               const dealii::Tensor<1, dim> &normal) const
   {
-    const auto &divided       = open.faces[axis];
-    int         result        = -1;
-    bool        is_in_front   = false;
-    double      least         = std::numeric_limits<double>::infinity();
+    const auto &divided     = open.faces[axis];
+    int         result      = -1;
+    bool        is_in_front = false;
+    double      least       = std::numeric_limits<double>::infinity();
     for_each_part(divided, face, [&](const int part) {
       if (open.pieces[axis][part].components[half] != component)
         return;
@@ -347,6 +347,17 @@ namespace undine
   }
 
 
+  /// Is a facet parallel to the planes of an axis but for rounding? What of it lies in one is no
+  /// chord.
+  template <int dim>
+  bool
+  WallContacts<dim>::is_along_plane(const int facet, const unsigned int axis) const
+  {
+    constexpr double rounding = 1e-9;
+    return std::abs(unit_normal(facet)[axis]) >= 1 - rounding;
+  }
+
+
   template <int dim>
   std::vector<typename WallContacts<dim>::Chord>
   WallContacts<dim>::chords(const unsigned int axis, const GridIndex<dim> &face) const
@@ -359,7 +370,8 @@ namespace undine
         for (int f = cell < 0 ? 0 : cut.cells[cell].first_fragment;
              cell >= 0 && f < cut.end_fragment(cell);
              ++f)
-          if (const auto &fragment = cut.fragments[f]; fragment.component >= 0)
+          if (const auto &fragment = cut.fragments[f];
+              fragment.component >= 0 && !is_along_plane(fragment.facet, axis))
             if (const auto ends =
                   corners_on_plane<dim>(corners_of_fragment(f), axis, plane(axis, face));
                 ends.size() == dim - 1)
@@ -375,8 +387,8 @@ namespace undine
   /// same side.
   template <int dim>
   const typename WallContacts<dim>::Chord *
-  WallContacts<dim>::chord_of(const Wall               &wall,
-                              const std::vector<Chord> &chords,
+  WallContacts<dim>::chord_of(const Wall                   &wall,
+                              const std::vector<Chord>     &chords,
                               const dealii::Tensor<1, dim> &facing) const
   {
     const auto   of_wall = unit_normal(cut.fragments[wall.fragment].facet);
@@ -420,8 +432,8 @@ namespace undine
                           const dealii::Tensor<1, dim> &normal,
                           const Spot                   &spot) const
   {
-    Meeting result{spot, 0, point_of<dim>(corners(spot.facet), spot.weights) -
-                              centroid(view.axis, view.piece)};
+    Meeting result{
+      spot, 0, point_of<dim>(corners(spot.facet), spot.weights) - centroid(view.axis, view.piece)};
     result.offset[view.axis] = 0;
     result.distance          = result.offset * normal;
     return result;
@@ -429,20 +441,20 @@ namespace undine
 
 
   /// Where a wall, or the plane that extends its last facet, meets the plane of a face: along the
-  /// surface in steps of a cell. What is next to there if the surface turns away before.
+  /// surface, as far as the next cell. What is next to there if the surface turns away before.
   template <int dim>
   typename WallContacts<dim>::Spot
   WallContacts<dim>::extension(const View &view, const Wall &wall) const
   {
     constexpr int      most_steps = 4;
-    const unsigned int d = main_direction(view.axis, wall.area);
-    const Side   side{d, wall.area[d] > 0 ? 1u : 0u};
-    const auto   normal = wall.area / wall.area.norm();
-    const double width  = grid.cell_width(d, view.piece.face[d]);
-    const double level  = plane(view.axis, view.piece.face);
-    auto         face   = view.piece.face;
-    auto         place  = wall.centroid;
-    Spot         result{cut.fragments[wall.fragment].facet, {}};
+    const unsigned int d          = main_direction(view.axis, wall.area);
+    const Side         side{d, wall.area[d] > 0 ? 1u : 0u};
+    const auto         normal = wall.area / wall.area.norm();
+    const double       width  = grid.cell_width(d, view.piece.face[d]);
+    const double       level  = plane(view.axis, view.piece.face);
+    const auto         beyond = moved<dim>(view.piece.face, d, side.sign());
+    auto               place  = wall.centroid;
+    Spot               result{cut.fragments[wall.fragment].facet, {}};
     result.weights = nearest_point(corners(result.facet), place);
     for (int step = 0; step < most_steps; ++step)
       {
@@ -456,9 +468,8 @@ namespace undine
         if (*std::min_element(weights.begin(), weights.end()) >= -reach)
           return {result.facet, weights};
         const double distance = std::abs(along * normal);
-        face                  = moved<dim>(face, d, side.sign());
-        const auto there = place + (distance > width ? width / distance : 1.) * along;
-        const auto near  = nearest_spot(there, face, view.axis, side);
+        const auto   there    = place + (distance > width ? width / distance : 1.) * along;
+        const auto   near     = nearest_spot(there, beyond, view.axis, side);
         if (!near || unit_normal(near->facet) * of_facet < smooth)
           {
             result.weights = nearest_point(corners(result.facet), there);
@@ -478,8 +489,8 @@ namespace undine
                              const std::vector<Chord> &chords) const
   {
     const auto *chord = chord_of(wall, chords, wall.area);
-    return chord ? at_chord(view, *chord) :
-                   seen(view, wall.area / wall.area.norm(), extension(view, wall));
+    return chord ? at_chord(view, *chord)
+                 : seen(view, wall.area / wall.area.norm(), extension(view, wall));
   }
 
 
@@ -508,8 +519,9 @@ namespace undine
 
   /// Beyond an opening there is fluid that nothing in the plane moves: a wall there reaches the
   /// plane, or next to it. If it goes on into one that the piece touches, it acts where that meets
-  /// the plane. Else what faces the opening acts where it would meet the plane; between the rest and
-  /// the wall fluid sticks, and acts with the wall's velocity from the middle of the closed face.
+  /// the plane. Else what faces the opening acts where it would meet the plane; between the rest
+  /// and the wall fluid sticks, and acts with the wall's velocity from the middle of the closed
+  /// face.
   template <int dim>
   void
   WallContacts<dim>::add_closed_opening(const FacePlace<dim>                   &piece,
@@ -522,30 +534,31 @@ namespace undine
     const View view{axis, piece, opening.half};
     const auto walls = walls_behind(axis, opening);
     const auto lines = chords(axis, piece.face);
+    double     left  = opening.area;
     for (const auto &wall : walls)
       if (const auto *line = chord_of(wall, lines, outward))
-        {
-          add(axis, piece, opening.area, at_chord(view, *line));
-          return;
-        }
+        if (const double part = std::min(left, wall.size); part > 0)
+          {
+            add(axis, piece, part, at_chord(view, *line));
+            left -= part;
+          }
     const auto closed   = moved<dim>(piece.face, side.axis, side.sign());
     auto       stuck    = centroid(axis, piece);
     const auto from     = stuck[side.axis];
     stuck[side.axis]    = grid.faces(axis)->point(closed)[side.axis];
     const double middle = std::abs(stuck[side.axis] - from);
-    double       left   = opening.area;
     for (const auto &wall : walls)
       if (const double facing = side.sign() * wall.area[side.axis]; facing > 0)
         {
           const auto   meeting = this->meeting(view, wall, {});
-          const double part    = std::min(left, facing * share_of(view, meeting));
+          const double part    = std::min(left, facing * share_of(view, wall, meeting));
           if (part > 0 && meeting.distance < middle)
             {
               add(axis, piece, part, meeting);
               left -= part;
             }
         }
-    if (left > 0)
+    if (left > negligible_area * opening.area)
       if (const auto spot = nearest_spot(stuck, closed, axis, side))
         add(axis, piece, left, {*spot, middle});
   }
@@ -646,7 +659,8 @@ namespace undine
         if (const double area = -(sum * offset) / distance; distance > 0 && area > 0)
           {
             const auto &face = all[pieces[k]].index;
-            surfaces.passages[axis].push_back({{{{face, pieces[k]}, {face, pieces[k + 1]}}}, area, distance});
+            surfaces.passages[axis].push_back(
+              {{{{face, pieces[k]}, {face, pieces[k + 1]}}}, area, distance});
           }
       }
   }
@@ -678,12 +692,9 @@ namespace undine
          ++f)
       if (cut.fragments[f].component == of_cut)
         if (const auto found = wall(f, axis, cell, 1 - half);
-            counts(found, axis, cell) && piece_at(axis,
-                                                  face,
-                                                  half,
-                                                  component,
-                                                  found.centroid,
-                                                  found.area / found.area.norm()) == piece)
+            counts(found, axis, cell) &&
+            piece_at(axis, face, half, component, found.centroid, found.area / found.area.norm()) ==
+              piece)
           result += found.area;
     return result;
   }

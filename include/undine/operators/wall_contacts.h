@@ -15,8 +15,8 @@
 
 namespace undine
 {
-  /// The contacts of the fluid of faces with surfaces (I6). With the piece of a face moves the fluid
-  /// from its plane to the middles of the cells beside it; the walls of this fluid are the
+  /// The contacts of the fluid of faces with surfaces (I6). With the piece of a face moves the
+  /// fluid from its plane to the middles of the cells beside it; the walls of this fluid are the
   /// fragments of the surface in those halves of cells. Each of them acts where its wall, or the
   /// plane that extends it, meets the plane of the face; if that is on the wrong side, at its own
   /// place on a velocity between those of both faces of the cell. Either has the right gradient if
@@ -43,6 +43,7 @@ namespace undine
     {
       int                    fragment;
       dealii::Tensor<1, dim> area;     ///< out of the fluid, without its part normal to the plane
+      double                 size;     ///< with that [m^(dim-1)]
       dealii::Point<dim>     centroid; ///< [m]
     };
 
@@ -67,7 +68,7 @@ namespace undine
       double                 distance; ///< from the piece's centroid, along the wall's normal [m]
       dealii::Tensor<1, dim> offset;   ///< in the plane of the face [m]
 
-      bool                   is_chord = false; ///< not an extension
+      bool is_chord = false; ///< not an extension
     };
 
     /// By how much walls narrow openings [m^(dim-1)]: by the pieces before and behind it.
@@ -114,9 +115,10 @@ namespace undine
     counts(const Wall &wall, const unsigned int axis, const int cell) const;
     bool
     is_wet(const int fragment) const;
+    bool
+    is_along_plane(const int facet, const unsigned int axis) const;
     std::vector<Wall>
-    walls_behind(const unsigned int                      axis,
-                 const typename FaceLinks<dim>::Opening &opening) const;
+    walls_behind(const unsigned int axis, const typename FaceLinks<dim>::Opening &opening) const;
     int
     piece_at(const unsigned int            axis,
              const GridIndex<dim>         &face,
@@ -141,9 +143,9 @@ namespace undine
     Meeting
     seen(const View &view, const dealii::Tensor<1, dim> &normal, const Spot &spot) const;
     double
-    share_of(const View &view, const Meeting &meeting) const;
+    share_of(const View &view, const Wall &wall, const Meeting &meeting) const;
     double
-    least_of_extensions(const View &view, const Meeting &meeting) const;
+    least_of_extensions(const View &view, const Wall &wall) const;
     Meeting
     meeting(const View &view, const Wall &wall, const std::vector<Chord> &chords) const;
 

@@ -47,7 +47,7 @@ namespace undine
     struct Contact
     {
       FacePlace<dim>                piece;
-      double                        area; ///< projected onto the normal in the face [m^(dim-1)]
+      double                        area;     ///< projected onto the normal in the face [m^(dim-1)]
       double                        distance; ///< from the piece's centroid, in the plane [m]
       std::array<unsigned int, dim> nodes;    ///< of the surface
       std::array<double, dim>       weights;  ///< of their velocities at the contact

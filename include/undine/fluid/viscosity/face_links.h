@@ -16,8 +16,8 @@ namespace undine
 {
   /// Which faces normal to one axis, and which of their pieces, move fluid that touches. With a
   /// piece moves the fluid from its plane to the middles of the cells beside it: a half of the
-  /// component below and a half of that above. Where the fluid of two pieces touches are the halves,
-  /// next to the plane, of the pieces of faces normal to the others that lie in the plane.
+  /// component below and a half of that above. Where the fluid of two pieces touches are the
+  /// halves, next to the plane, of the pieces of faces normal to the others that lie in the plane.
   template <int dim>
   class FaceLinks
   {
@@ -68,8 +68,8 @@ namespace undine
       return centroid(axis, place);
     }
 
-    /// Of the centroids of two pieces along `d`, at least a hundredth of the width of the cell: what
-    /// is nearer moves along anyway, and the equations keep their condition [m].
+    /// Of the centroids of two pieces along `d`, at least a hundredth of the width of the cell:
+    /// what is nearer moves along anyway, and the equations keep their condition [m].
     double
     distance(const FacePlace<dim> &a, const FacePlace<dim> &b, const unsigned int d) const
     {
@@ -160,9 +160,7 @@ namespace undine
 
     /// The area of the half of a piece, normal to `normal`, that is lower or upper along the axis.
     double
-    half_area(const unsigned int    normal,
-              const FacePlace<dim> &place,
-              const unsigned int    end) const;
+    half_area(const unsigned int normal, const FacePlace<dim> &place, const unsigned int end) const;
 
     /// Of the pieces of a face that bound `component`, below or above, the one that shares the
     /// longest part of the edge on its side with an opening, or else is nearest to it.
