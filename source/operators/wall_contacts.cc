@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <undine/cutting/fragment_half.h>
 #include <undine/operators/wall_contacts.h>
-#include <undine/surface/nearest_in_simplex.h>
-#include <undine/surface/simplex.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace undine
 {
@@ -19,57 +17,6 @@ namespace undine
 
     /// Areas below this share of a face are rounding.
     constexpr double negligible_area = 1e-9;
-
-    /// Facets whose normals have at least this cosine belong to one smooth wall.
-    constexpr double smooth = 0.7;
-
-    /// Barycentric coordinates of extensions reach this far beyond the facet: what a small facet
-    /// says of the velocity many of its lengths away is no more than its own noise.
-    constexpr double reach = 2;
-
-
-    /// Along which a vector in a plane is longest.
-    template <int dim>
-    unsigned int
-    main_direction(const unsigned int axis, const dealii::Tensor<1, dim> &vector)
-    {
-      unsigned int result = axis == 0 ? 1 : 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        if (std::abs(vector[d]) > std::abs(vector[result]))
-          result = d;
-      return result;
-    }
-
-
-    template <int dim>
-    dealii::Point<dim>
-    point_of(const FacetNodes<dim> &nodes, const std::array<double, dim> &weights)
-    {
-      dealii::Point<dim> result;
-      for (unsigned int k = 0; k < dim; ++k)
-        result += weights[k] * nodes[k];
-      return result;
-    }
-
-
-    /// The barycentric coordinates of a place in the plane of a facet.
-    template <int dim>
-    std::array<double, dim>
-    weights_in_plane(const FacetNodes<dim> &nodes, const dealii::Point<dim> &place)
-    {
-      const auto              inverse = inverse_of_products<dim>(dim, nodes);
-      const auto              segment = place - nodes[0];
-      std::array<double, dim> weights{};
-      weights[0] = 1;
-      for (unsigned int a = 0; a + 1 < dim; ++a)
-        for (unsigned int b = 0; b + 1 < dim; ++b)
-          {
-            const double share = inverse[a][b] * ((nodes[b + 1] - nodes[0]) * segment);
-            weights[a + 1] += share;
-            weights[0] -= share;
-          }
-      return weights;
-    }
   } // namespace
 
 
@@ -85,6 +32,7 @@ namespace undine
     , open(*parts.open)
     , placed(placed)
     , surfaces(surfaces)
+    , meetings(grid, cut, open, placed)
   {
   }
 
@@ -100,45 +48,6 @@ namespace undine
           add_walls(axis, cell, end);
     add_closed_openings(axis);
     add_passages(axis);
-  }
-
-
-  template <int dim>
-  FacetNodes<dim>
-  WallContacts<dim>::corners(const int facet) const
-  {
-    FacetNodes<dim> result;
-    for (unsigned int k = 0; k < dim; ++k)
-      result[k] = placed.positions[placed.surface.facets()[facet][k]];
-    return result;
-  }
-
-
-  template <int dim>
-  dealii::Tensor<1, dim>
-  WallContacts<dim>::unit_normal(const int facet) const
-  {
-    const auto normal = area_vector(corners(facet));
-    return normal / std::max(normal.norm(), std::numeric_limits<double>::min());
-  }
-
-
-  template <int dim>
-  dealii::Point<dim>
-  WallContacts<dim>::centroid(const unsigned int axis, const FacePlace<dim> &place) const
-  {
-    return place.part < 0 ? grid.faces(axis)->point(place.face)
-                          : open.faces[axis].all()[place.part].place;
-  }
-
-
-  template <int dim>
-  dealii::ArrayView<const dealii::Point<dim>>
-  WallContacts<dim>::corners_of_fragment(const int fragment) const
-  {
-    const int first = cut.corners.first[fragment];
-    return {cut.corners.points.data() + first,
-            static_cast<std::size_t>(cut.corners.first[fragment + 1] - first)};
   }
 
 
@@ -167,10 +76,11 @@ namespace undine
   WallContacts<dim>::add_walls(const unsigned int axis, const int cell, const unsigned int end)
   {
     const auto face  = moved<dim>(cut.cells[cell].index, axis, end);
-    const auto lines = chords(axis, face);
+    const auto lines = meetings.chords(axis, face);
     Screened   screened;
     for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
-      if (const auto found = wall(f, axis, cell, end); is_wet(f) && counts(found, axis, cell))
+      if (const auto found = meetings.wall(f, axis, cell, end);
+          is_wet(f) && counts(found, axis, cell))
         {
           const double area = found.area.norm();
           const int    part = piece_at(axis,
@@ -182,7 +92,7 @@ namespace undine
           if (part < 0)
             continue;
           const View   view{axis, {face, part}, 1 - end};
-          auto         meeting = this->meeting(view, found, lines);
+          auto         meeting = meetings.meeting(view, found, lines);
           const double own     = share_of(view, found, meeting) * area;
           const double beyond  = add_to_neighbour(view, found, area - own, screened);
           if (own > 0)
@@ -239,7 +149,7 @@ namespace undine
       const auto  &beyond  = *opening.neighbour;
       auto        &sum     = screened[{view.piece.part, beyond.face, beyond.part}];
       const double part    = std::min(area - result, opening.area / projection - sum);
-      const auto   meeting = this->meeting({view.axis, beyond, view.half}, wall, {});
+      const auto   meeting = meetings.meeting({view.axis, beyond, view.half}, wall, {});
       if (!(part > 0) || !(meeting.distance > 0))
         return;
       result += part;
@@ -248,25 +158,6 @@ namespace undine
       surfaces.passages[view.axis].push_back(
         {{{view.piece, beyond}}, -projection * part, links.distance(view.piece, beyond, d)});
     });
-    return result;
-  }
-
-
-  /// What of a fragment is next to the face of its cell at `end`.
-  template <int dim>
-  typename WallContacts<dim>::Wall
-  WallContacts<dim>::wall(const int          fragment,
-                          const unsigned int axis,
-                          const int          cell,
-                          const unsigned int end) const
-  {
-    const auto  &index  = cut.cells[cell].index;
-    const double middle = cut.block.planes().position(axis, index[axis]) +
-                          cut.block.planes().width(axis, index[axis]) / 2;
-    const auto half = half_of_fragment(corners_of_fragment(fragment), axis, middle, end == 1);
-    Wall       result{fragment, half.share * cut.fragments[fragment].area_vector, 0, half.centroid};
-    result.size       = result.area.norm();
-    result.area[axis] = 0;
     return result;
   }
 
@@ -325,175 +216,6 @@ namespace undine
   }
 
 
-  /// The corners of a fragment on a plane, each once: two coincide where edges of surface and grid
-  /// meet.
-  template <int dim>
-  std::vector<dealii::Point<dim>>
-  corners_on_plane(const dealii::ArrayView<const dealii::Point<dim>> &corners,
-                   const unsigned int                                 axis,
-                   const double                                       plane)
-  {
-    constexpr double                same = 1e-9; // in units of the facet's extent in the cell
-    std::vector<dealii::Point<dim>> result;
-    double                          extent = 0;
-    for (const auto &corner : corners)
-      extent = std::max(extent, corner.distance(corners[0]));
-    for (const auto &corner : corners)
-      if (corner[axis] == plane && std::none_of(result.begin(), result.end(), [&](const auto &one) {
-            return corner.distance(one) <= same * extent;
-          }))
-        result.push_back(corner);
-    return result;
-  }
-
-
-  /// Is a facet parallel to the planes of an axis but for rounding? What of it lies in one is no
-  /// chord.
-  template <int dim>
-  bool
-  WallContacts<dim>::is_along_plane(const int facet, const unsigned int axis) const
-  {
-    constexpr double rounding = 1e-9;
-    return std::abs(unit_normal(facet)[axis]) >= 1 - rounding;
-  }
-
-
-  template <int dim>
-  std::vector<typename WallContacts<dim>::Chord>
-  WallContacts<dim>::chords(const unsigned int axis, const GridIndex<dim> &face) const
-  {
-    std::vector<Chord> result;
-    for (const int below : {-1, 0})
-      {
-        const auto index = moved<dim>(face, axis, below);
-        const int  cell  = cut.block.cells().contains(index) ? cut.cut_cell(index) : -1;
-        for (int f = cell < 0 ? 0 : cut.cells[cell].first_fragment;
-             cell >= 0 && f < cut.end_fragment(cell);
-             ++f)
-          if (const auto &fragment = cut.fragments[f];
-              fragment.component >= 0 && !is_along_plane(fragment.facet, axis))
-            if (const auto ends =
-                  corners_on_plane<dim>(corners_of_fragment(f), axis, plane(axis, face));
-                ends.size() == dim - 1)
-              if (const auto chord = plane_chord(ends, axis, fragment.area_vector);
-                  chord.normal.norm() > 0)
-                result.push_back({f, chord});
-      }
-    return result;
-  }
-
-
-  /// The chord of a wall, or the nearest one of the smooth wall that it belongs to, which faces the
-  /// same side.
-  template <int dim>
-  const typename WallContacts<dim>::Chord *
-  WallContacts<dim>::chord_of(const Wall                   &wall,
-                              const std::vector<Chord>     &chords,
-                              const dealii::Tensor<1, dim> &facing) const
-  {
-    const auto   of_wall = unit_normal(cut.fragments[wall.fragment].facet);
-    const Chord *result  = nullptr;
-    double       least   = std::numeric_limits<double>::infinity();
-    for (const auto &chord : chords)
-      {
-        if (chord.fragment == wall.fragment)
-          return &chord;
-        const double distance = chord.chord.middle.distance(wall.centroid);
-        if (distance < least && chord.chord.normal * facing > 0 &&
-            unit_normal(cut.fragments[chord.fragment].facet) * of_wall >= smooth)
-          {
-            least  = distance;
-            result = &chord;
-          }
-      }
-    return result;
-  }
-
-
-  /// The wall acts where it meets the plane.
-  template <int dim>
-  typename WallContacts<dim>::Meeting
-  WallContacts<dim>::at_chord(const View &view, const Chord &chord) const
-  {
-    const unsigned int facet  = cut.fragments[chord.fragment].facet;
-    const auto         normal = chord.chord.normal / chord.chord.normal.norm();
-    Meeting            result{{facet, nearest_point(corners(facet), chord.chord.middle)}, 0};
-    result.offset   = chord.chord.middle - centroid(view.axis, view.piece);
-    result.distance = result.offset * normal;
-    result.is_chord = true;
-    return result;
-  }
-
-
-  /// A place on the surface as seen from a piece.
-  template <int dim>
-  typename WallContacts<dim>::Meeting
-  WallContacts<dim>::seen(const View                   &view,
-                          const dealii::Tensor<1, dim> &normal,
-                          const Spot                   &spot) const
-  {
-    Meeting result{
-      spot, 0, point_of<dim>(corners(spot.facet), spot.weights) - centroid(view.axis, view.piece)};
-    result.offset[view.axis] = 0;
-    result.distance          = result.offset * normal;
-    return result;
-  }
-
-
-  /// Where a wall, or the plane that extends its last facet, meets the plane of a face: along the
-  /// surface, as far as the next cell. What is next to there if the surface turns away before.
-  template <int dim>
-  typename WallContacts<dim>::Spot
-  WallContacts<dim>::extension(const View &view, const Wall &wall) const
-  {
-    constexpr int      most_steps = 4;
-    const unsigned int d          = main_direction(view.axis, wall.area);
-    const Side         side{d, wall.area[d] > 0 ? 1u : 0u};
-    const auto         normal = wall.area / wall.area.norm();
-    const double       width  = grid.cell_width(d, view.piece.face[d]);
-    const double       level  = plane(view.axis, view.piece.face);
-    const auto         beyond = moved<dim>(view.piece.face, d, side.sign());
-    auto               place  = wall.centroid;
-    Spot               result{cut.fragments[wall.fragment].facet, {}};
-    result.weights = nearest_point(corners(result.facet), place);
-    for (int step = 0; step < most_steps; ++step)
-      {
-        const auto of_facet = unit_normal(result.facet);
-        auto       along    = -of_facet[view.axis] * of_facet;
-        along[view.axis] += 1;
-        if (along[view.axis] <= 0)
-          break;
-        along *= (level - place[view.axis]) / along[view.axis];
-        const auto weights = weights_in_plane<dim>(corners(result.facet), place + along);
-        if (*std::min_element(weights.begin(), weights.end()) >= -reach)
-          return {result.facet, weights};
-        const double distance = std::abs(along * normal);
-        const auto   there    = place + (distance > width ? width / distance : 1.) * along;
-        const auto   near     = nearest_spot(there, beyond, view.axis, side);
-        if (!near || unit_normal(near->facet) * of_facet < smooth)
-          {
-            result.weights = nearest_point(corners(result.facet), there);
-            break;
-          }
-        result = *near;
-        place  = point_of<dim>(corners(result.facet), result.weights);
-      }
-    return result;
-  }
-
-
-  template <int dim>
-  typename WallContacts<dim>::Meeting
-  WallContacts<dim>::meeting(const View               &view,
-                             const Wall               &wall,
-                             const std::vector<Chord> &chords) const
-  {
-    const auto *chord = chord_of(wall, chords, wall.area);
-    return chord ? at_chord(view, *chord)
-                 : seen(view, wall.area / wall.area.norm(), extension(view, wall));
-  }
-
-
   template <int dim>
   void
   WallContacts<dim>::add_closed_openings(const unsigned int axis)
@@ -533,34 +255,57 @@ namespace undine
     outward[side.axis] = side.sign();
     const View view{axis, piece, opening.half};
     const auto walls = walls_behind(axis, opening);
-    const auto lines = chords(axis, piece.face);
+    const auto lines = meetings.chords(axis, piece.face);
     double     left  = opening.area;
-    for (const auto &wall : walls)
-      if (const auto *line = chord_of(wall, lines, outward))
-        if (const double part = std::min(left, wall.size); part > 0)
-          {
-            add(axis, piece, part, at_chord(view, *line));
-            left -= part;
-          }
-    const auto closed   = moved<dim>(piece.face, side.axis, side.sign());
-    auto       stuck    = centroid(axis, piece);
-    const auto from     = stuck[side.axis];
-    stuck[side.axis]    = grid.faces(axis)->point(closed)[side.axis];
-    const double middle = std::abs(stuck[side.axis] - from);
-    for (const auto &wall : walls)
-      if (const double facing = side.sign() * wall.area[side.axis]; facing > 0)
-        {
-          const auto   meeting = this->meeting(view, wall, {});
-          const double part    = std::min(left, facing * share_of(view, wall, meeting));
-          if (part > 0 && meeting.distance < middle)
-            {
-              add(axis, piece, part, meeting);
-              left -= part;
-            }
-        }
+    add_shares(view, left, walls, [&](const Wall &wall) {
+      const auto *line = meetings.chord_of(wall, lines, outward);
+      return line ? std::make_pair(wall.size, meetings.at_chord(view, *line))
+                  : std::make_pair(0., Meeting());
+    });
+    const auto closed = moved<dim>(piece.face, side.axis, side.sign());
+    // Of two facets that are as far off, that on the side of the piece.
+    constexpr double tie      = 1e-3;
+    const auto       centroid = meetings.centroid(axis, piece);
+    auto             stuck    = centroid;
+    stuck[side.axis]          = grid.faces(axis)->point(closed)[side.axis];
+    const double middle       = std::abs(stuck[side.axis] - centroid[side.axis]);
+    add_shares(view, left, walls, [&](const Wall &wall) {
+      const double facing = side.sign() * wall.area[side.axis];
+      if (!(facing > 0))
+        return std::make_pair(0., Meeting());
+      const auto meeting = meetings.meeting(view, wall, {});
+      return std::make_pair(meeting.distance < middle ? facing * share_of(view, wall, meeting) : 0.,
+                            meeting);
+    });
     if (left > negligible_area * opening.area)
-      if (const auto spot = nearest_spot(stuck, closed, axis, side))
+      if (const auto spot =
+            meetings.nearest_spot(stuck + tie * (centroid - stuck), closed, axis, side))
         add(axis, piece, left, {*spot, middle});
+  }
+
+
+  /// Add the contacts of walls with the areas and places that `of` says, all together no more than
+  /// is `left`, which becomes less by that: in proportion, whatever the order of walls is.
+  template <int dim>
+  template <class Of>
+  void
+  WallContacts<dim>::add_shares(const View              &view,
+                                double                  &left,
+                                const std::vector<Wall> &walls,
+                                const Of                &of)
+  {
+    std::vector<std::pair<double, Meeting>> all;
+    double                                  sum = 0;
+    for (const auto &wall : walls)
+      {
+        all.push_back(of(wall));
+        sum += all.back().first;
+      }
+    const double share = sum > left ? left / sum : 1.;
+    for (const auto &[area, meeting] : all)
+      if (area > 0)
+        add(view.axis, view.piece, share * area, meeting);
+    left -= share * sum;
   }
 
 
@@ -577,40 +322,7 @@ namespace undine
     const int cell = cut.components[component].cell;
     for (int f = cut.cells[cell].first_fragment; f < cut.end_fragment(cell); ++f)
       if (cut.fragments[f].component == component)
-        result.push_back(wall(f, axis, cell, 1 - opening.half));
-    return result;
-  }
-
-
-  /// Of the facets in the cells around the side of a face, if there are any.
-  template <int dim>
-  std::optional<typename WallContacts<dim>::Spot>
-  WallContacts<dim>::nearest_spot(const dealii::Point<dim> &place,
-                                  const GridIndex<dim>     &face,
-                                  const unsigned int        axis,
-                                  const Side               &side) const
-  {
-    std::optional<Spot> result;
-    double              least = std::numeric_limits<double>::infinity();
-    for (const int below : {-1, 0})
-      for (const int before : {0, -side.sign()})
-        {
-          const auto cell = moved<dim>(moved<dim>(face, axis, below), side.axis, before);
-          const int  slot = cut.block.cells().contains(cell) ? cut.cut_cell(cell) : -1;
-          for (int f = slot < 0 ? 0 : cut.cells[slot].first_fragment;
-               slot >= 0 && f < cut.end_fragment(slot);
-               ++f)
-            {
-              const unsigned int facet    = cut.fragments[f].facet;
-              const auto         weights  = nearest_point(corners(facet), place);
-              const double       distance = place.distance(point_of<dim>(corners(facet), weights));
-              if (distance < least)
-                {
-                  least  = distance;
-                  result = Spot{facet, weights};
-                }
-            }
-        }
+        result.push_back(meetings.wall(f, axis, cell, 1 - opening.half));
     return result;
   }
 
@@ -691,7 +403,7 @@ namespace undine
          cell >= 0 && f < cut.end_fragment(cell);
          ++f)
       if (cut.fragments[f].component == of_cut)
-        if (const auto found = wall(f, axis, cell, 1 - half);
+        if (const auto found = meetings.wall(f, axis, cell, 1 - half);
             counts(found, axis, cell) &&
             piece_at(axis, face, half, component, found.centroid, found.area / found.area.norm()) ==
               piece)

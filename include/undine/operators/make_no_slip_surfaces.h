@@ -9,8 +9,9 @@
 
 namespace undine
 {
-  /// The no-slip surfaces: where the planes of faces meet the surface. `cut`, `parts` and
-  /// `boundary_flux` are those of the surface as placed. Collective.
+  /// The no-slip surfaces: what of the surface bounds the fluid of each piece of a face, and how
+  /// the pieces themselves touch. `cut`, `parts` and `boundary_flux` are those of the surface as
+  /// placed. Collective.
   template <int dim>
   NoSlipSurfaces<dim>
   make_no_slip_surfaces(const MacGrid<dim>       &grid,

@@ -3,6 +3,7 @@
 #define undine_tests_cutting_cut_checks_h
 
 #include <undine/cutting/cut_block.h>
+#include <undine/cutting/fragment_at_plane.h>
 
 #include <cutting/configurations.h>
 
@@ -172,6 +173,7 @@ namespace undine_tests
   struct Defects
   {
     double closure  = 0; ///< sum a n + sum N of a component
+    double halves   = 0; ///< the same of the lower halves of a component, across the axis
     double linear   = 0; ///< flux of a linear field minus its divergence times volume
     double volume   = 0; ///< of all fluid, in units of the box
     double moment   = 0; ///< first moments of all fluid, in units of the box
@@ -236,6 +238,43 @@ namespace undine_tests
         defects.linear = std::max(
           defects.linear, std::abs(flux[c] - trace(gradient) * cut.components[c].volume) / volume);
         defects.smallest = std::min(defects.smallest, cut.components[c].volume / volume);
+      }
+  }
+
+
+  /// Around the half of a component that is lower along an axis, halves of pieces and of fragments
+  /// close in the other directions.
+  template <int dim>
+  void
+  check_halves(Defects &defects, const CutCells<dim> &cut)
+  {
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        std::vector<dealii::Tensor<1, dim>> closure(cut.components.size());
+        for (const auto &piece : cut.pieces)
+          for (const int end : {0, 1})
+            if (const int c = piece.components[end]; c >= 0)
+              closure[c][cut.faces[piece.face].axis] +=
+                (end == 0 ? 1 : -1) * piece.shape.lower_half[axis];
+        for (std::size_t f = 0; f < cut.fragments.size(); ++f)
+          if (const int c = cut.fragments[f].component; c >= 0)
+            {
+              const auto  &cell   = cut.cells[cut.components[c].cell].index;
+              const double middle = cut.block.planes().position(axis, cell[axis]) +
+                                    cut.block.planes().width(axis, cell[axis]) / 2;
+              const dealii::ArrayView<const dealii::Point<dim>> corners(
+                cut.corners.points.data() + cut.corners.first[f],
+                cut.corners.first[f + 1] - cut.corners.first[f]);
+              closure[c] +=
+                half_of_fragment(corners, axis, middle, false).share * cut.fragments[f].area_vector;
+            }
+        for (std::size_t c = 0; c < cut.components.size(); ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            if (d != axis)
+              defects.halves =
+                std::max(defects.halves,
+                         std::abs(closure[c][d]) /
+                           cut.block.face_area(d, cut.cells[cut.components[c].cell].index));
       }
   }
 
@@ -377,6 +416,7 @@ namespace undine_tests
   {
     Defects result;
     check_components(result, cut, surface, bodies.nodes, random);
+    check_halves(result, cut);
     bool inside = true;
     for (const auto &x : bodies.nodes)
       for (unsigned int d = 0; d < dim; ++d)

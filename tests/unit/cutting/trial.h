@@ -23,15 +23,17 @@ namespace undine_tests
     bool
     good() const
     {
-      return closure <= 1e-12 && defects.closure <= 1e-12 && defects.linear <= 1e-12 &&
-             defects.volume <= 1e-13 && defects.moment <= 1e-13 && defects.facets <= 1e-12 &&
-             defects.smallest >= -1e-12 && defects.leaks == 0 && flagged == 0 && wrong_regions == 0;
+      return closure <= 1e-12 && defects.closure <= 1e-12 && defects.halves <= 1e-11 &&
+             defects.linear <= 1e-12 && defects.volume <= 1e-13 && defects.moment <= 1e-13 &&
+             defects.facets <= 1e-12 && defects.smallest >= -1e-12 && defects.leaks == 0 &&
+             flagged == 0 && wrong_regions == 0;
     }
 
     void
     add(const Outcome &other)
     {
       defects.closure  = std::max(defects.closure, other.defects.closure);
+      defects.halves   = std::max(defects.halves, other.defects.halves);
       defects.linear   = std::max(defects.linear, other.defects.linear);
       defects.volume   = std::max(defects.volume, other.defects.volume);
       defects.moment   = std::max(defects.moment, other.defects.moment);
@@ -50,22 +52,24 @@ namespace undine_tests
     text() const
     {
       char line[300];
-      std::snprintf(line,
-                    sizeof(line),
-                    "closure %.1e (%.1e) linear %.1e volume %.1e moment %.1e facets %.1e smallest "
-                    "%.1e leaks %d flagged %d wrong regions %d reordered %d debris %d",
-                    defects.closure,
-                    closure,
-                    defects.linear,
-                    defects.volume,
-                    defects.moment,
-                    defects.facets,
-                    defects.smallest,
-                    defects.leaks,
-                    flagged,
-                    wrong_regions,
-                    reordered,
-                    debris);
+      std::snprintf(
+        line,
+        sizeof(line),
+        "closure %.1e (%.1e) halves %.1e linear %.1e volume %.1e moment %.1e facets %.1e smallest "
+        "%.1e leaks %d flagged %d wrong regions %d reordered %d debris %d",
+        defects.closure,
+        closure,
+        defects.halves,
+        defects.linear,
+        defects.volume,
+        defects.moment,
+        defects.facets,
+        defects.smallest,
+        defects.leaks,
+        flagged,
+        wrong_regions,
+        reordered,
+        debris);
       return line;
     }
   };

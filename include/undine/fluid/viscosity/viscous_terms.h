@@ -36,12 +36,13 @@ namespace undine
   /// along one axis i (I6):
   ///
   ///     power = sum_c mu/V_c (sum +- a_f v_f + sum_k B_ck u_k)^2            cells and components
-  ///           + sum mu W l/d (v_f - v_g)^2                       neighbours in a plane of faces
-  ///           + sum mu W l/d (v_f - u)^2              contacts with surfaces, sides of the domain
+  ///           + sum mu A/d (v_f - v_g)^2                         neighbours in a plane of faces
+  ///           + sum mu A/d (v_f - u)^2                contacts with surfaces, sides of the domain
   ///
   /// The first is dv/dx_i, exact by Gauss' theorem for linear v. In each plane x_i = const there is
-  /// one velocity at the centroid of each piece; W is the distance between the planes' middles, l
-  /// the length of a rim or a contact, d the distance. All is exact for linear v in 2D.
+  /// one velocity at the centroid of each piece; A is the area over which what moves with it, as
+  /// far as the middles of the cells beside it, touches others, d the distance in the plane. All is
+  /// exact for linear v in 2D.
   template <int dim>
   class ViscousTerms
   {
