@@ -264,7 +264,7 @@ namespace undine
     });
     const auto closed = moved<dim>(piece.face, side.axis, side.sign());
     // Of two facets that are as far off, that on the side of the piece.
-    constexpr double tie      = 1e-3;
+    constexpr double tie      = 1e-8;
     const auto       centroid = meetings.centroid(axis, piece);
     auto             stuck    = centroid;
     stuck[side.axis]          = grid.faces(axis)->point(closed)[side.axis];

@@ -270,7 +270,7 @@ namespace undine
         const auto   there    = place + (distance > width ? width / distance : 1.) * along;
         const auto   near     = nearest_spot(there, beyond, view.axis, side);
         if (!near || unit_normal(near->facet) * of_facet < smooth ||
-            facing * (unit_normal(near->facet) * normal) <= rounding)
+            facing * (unit_normal(near->facet) * normal) < -rounding)
           {
             result.weights = nearest_point(corners(result.facet), there);
             break;
