@@ -268,9 +268,12 @@ namespace undine
           return {result.facet, weights};
         const double distance = std::abs(along * normal);
         const auto   there    = place + (distance > width ? width / distance : 1.) * along;
-        const auto   near     = nearest_spot(there, beyond, view.axis, side);
-        if (!near || unit_normal(near->facet) * of_facet < smooth ||
-            facing * (unit_normal(near->facet) * normal) < -rounding)
+        const auto   goes_on  = [&](const unsigned int facet) {
+          const auto of_next = unit_normal(facet);
+          return of_next * of_facet >= smooth && facing * (of_next * normal) >= -rounding;
+        };
+        const auto near = nearest_spot(there, beyond, view.axis, side, goes_on);
+        if (!near)
           {
             result.weights = nearest_point(corners(result.facet), there);
             break;
@@ -294,13 +297,14 @@ namespace undine
   }
 
 
-  /// Of the facets in the cells around the side of a face, if there are any.
+  /// Of the facets in the cells around the side of a face that count, if there are any.
   template <int dim>
   std::optional<typename WallMeetings<dim>::Spot>
-  WallMeetings<dim>::nearest_spot(const dealii::Point<dim> &place,
-                                  const GridIndex<dim>     &face,
-                                  const unsigned int        axis,
-                                  const Side               &side) const
+  WallMeetings<dim>::nearest_spot(const dealii::Point<dim>                &place,
+                                  const GridIndex<dim>                    &face,
+                                  const unsigned int                       axis,
+                                  const Side                              &side,
+                                  const std::function<bool(unsigned int)> &counts) const
   {
     std::optional<Spot> result;
     double              least = std::numeric_limits<double>::infinity();
@@ -317,9 +321,11 @@ namespace undine
               if (!(cut.fragments[f].area_vector.norm() >
                     negligible * cut.block.face_area(axis, face)))
                 continue;
-              const unsigned int facet    = cut.fragments[f].facet;
-              const auto         weights  = nearest_point(corners(facet), place);
-              const double       distance = place.distance(point_of<dim>(corners(facet), weights));
+              const unsigned int facet = cut.fragments[f].facet;
+              if (counts && !counts(facet))
+                continue;
+              const auto   weights  = nearest_point(corners(facet), place);
+              const double distance = place.distance(point_of<dim>(corners(facet), weights));
               if (distance < least)
                 {
                   least  = distance;

@@ -11,6 +11,7 @@
 #include <undine/surface/facet_geometry.h>
 
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -104,12 +105,14 @@ namespace undine
     Meeting
     meeting(const View &view, const Wall &wall, const std::vector<Chord> &chords) const;
 
-    /// Of the facets in the cells around the side of a face, if there are any.
+    /// The nearest place on the facets in the cells around the side of a face of which
+    /// `counts(facet)`, all if it is not given; nothing if there are none.
     std::optional<Spot>
-    nearest_spot(const dealii::Point<dim> &place,
-                 const GridIndex<dim>     &face,
-                 const unsigned int        axis,
-                 const Side               &side) const;
+    nearest_spot(const dealii::Point<dim>                &place,
+                 const GridIndex<dim>                    &face,
+                 const unsigned int                       axis,
+                 const Side                              &side,
+                 const std::function<bool(unsigned int)> &counts = {}) const;
 
     /// Centroid of a piece, or of a whole face [m].
     dealii::Point<dim>
